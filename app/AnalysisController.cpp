@@ -1,0 +1,171 @@
+#include "app/AnalysisController.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    /// Three digits, what a dragged value is worth in a form, within the range of the field.
+    double rounded(double value, const char *field)
+    {
+        const FieldInfo &info = settingField(field);
+        return std::clamp(QString::number(value, 'g', 3).toDouble(), info.minimum, info.maximum);
+    }
+
+    /// The settings that put the threshold there.
+    DecideSettings decideAt(DecideSettings decide, DecideSettings::By by, double nats, const Analysis &analysis)
+    {
+        decide.by = by;
+        switch (by) {
+        case DecideSettings::By::FalseAlarmsPerHour:
+            decide.falseAlarmsPerHour = rounded(analysis.calibration->eventRateAt(nats) * analysis.cellFramesPerHour,
+                                                "decide.falseAlarmsPerHour");
+            break;
+        case DecideSettings::By::PfaPerCell:
+            decide.pfaPerCell = rounded(analysis.calibration->exceedanceAt(nats), "decide.pfaPerCell");
+            break;
+        case DecideSettings::By::Nats:
+            decide.thresholdNats = std::round(nats * 100.0) / 100.0;
+            break;
+        }
+        return decide;
+    }
+
+} // namespace
+
+AnalysisController::AnalysisController(Document &document, QObject *parent) : QObject(parent), m_document(document)
+{
+    connect(&m_document, &Document::settingsChanged, this, &AnalysisController::run);
+    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
+    connect(&m_runner, &JobRunner::progressed, this, &AnalysisController::progressed);
+    connect(&m_runner, &JobRunner::finished, this, &AnalysisController::end);
+    connect(&m_runner, &JobRunner::cancelled, this, &AnalysisController::end);
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        emit failed(error);
+        end();
+    });
+}
+
+void AnalysisController::open(const QString &path, const OpenOptions &options, const Adjust &adjust)
+{
+    m_isOpening = true;
+    m_runner.start([this, path, options, adjust](const RunContext &context) -> JobRunner::Delivery {
+        context.checkpoint(0.0, "opening");
+        Opening opening = openNow(path, options);
+        if (adjust)
+            adjust(opening.settings);
+        return [this, opening = std::move(opening)] { deliver(opening); };
+    });
+}
+
+void AnalysisController::reopen(const OpenOptions &options)
+{
+    open(m_document.source().path, options, [now = m_document.settings()](AnalysisSettings &settings) { settings = now; });
+}
+
+void AnalysisController::adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
+{
+    m_isOpening = false;
+    m_runner.cancel();
+    m_document.setOpened(opened, analysis->settings);
+    std::vector<Event> found = events(*analysis);
+    m_document.setAnalysis(std::move(analysis), std::move(found));
+    emit settled();
+}
+
+void AnalysisController::edit(const QString &field, const FieldValue &value, const QString &text)
+{
+    AnalysisSettings after = m_document.settings();
+    settingField(field.toStdString()).set(after, value);
+    m_document.edit(after, text, field);
+}
+
+void AnalysisController::setSettings(const AnalysisSettings &settings, const QString &text)
+{
+    m_document.edit(settings, text);
+}
+
+void AnalysisController::setThresholdUnit(DecideSettings::By by)
+{
+    if (!m_document.analysis() || m_document.settings().decide.by == by)
+        return;
+    AnalysisSettings after = m_document.settings();
+    after.decide = decideAt(after.decide, by, m_document.shownThreshold(), *m_document.analysis());
+    m_document.edit(after, tr("Set the threshold in other units"));
+}
+
+void AnalysisController::run()
+{
+    if (!m_document.isEmpty() && !m_isOpening)
+        startAnalysis();
+}
+
+void AnalysisController::startAnalysis()
+{
+    m_runner.start([this, recording = m_document.recording(), settings = m_document.settings(),
+                    previous = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
+        auto analysis = analyse(recording, settings, context, previous.get());
+        std::vector<Event> found = events(*analysis);
+        return [this, analysis = std::move(analysis), found = std::move(found)] { m_document.setAnalysis(analysis, found); };
+    });
+}
+
+void AnalysisController::stop()
+{
+    m_runner.cancel();
+}
+
+void AnalysisController::previewThreshold(double nats)
+{
+    m_document.setShownThreshold(nats);
+}
+
+void AnalysisController::commitThreshold(double nats)
+{
+    if (!m_document.analysis())
+        return;
+    AnalysisSettings after = m_document.settings();
+    after.decide = decideAt(after.decide, after.decide.by, nats, *m_document.analysis());
+    const bool isMoved = after != m_document.settings();
+    m_document.setShownThreshold(isMoved ? nats : m_document.analysis()->threshold);
+    m_document.edit(after, tr("Move the threshold"), QStringLiteral("threshold"));
+}
+
+void AnalysisController::stepThreshold(int quarterNats)
+{
+    commitThreshold(m_document.shownThreshold() + 0.25 * quarterNats);
+}
+
+AnalysisController::Opening AnalysisController::openNow(const QString &path, const OpenOptions &options)
+{
+    if (!isSessionPath(path))
+        return {openSource(sourceOf(path, options)), {}, {}, {}, {}};
+    const Session session = readSession(path);
+    return {openSource(session.source), session.settings, session.view, path, recordingMismatch(session)};
+}
+
+void AnalysisController::deliver(const Opening &opening)
+{
+    m_isOpening = false;
+    m_pendingView = opening.view;
+    m_document.setOpened(opening.opened, opening.settings, opening.sessionPath);
+    if (!opening.warning.isEmpty())
+        emit warned(m_document.source().name(), opening.warning);
+    startAnalysis();
+}
+
+void AnalysisController::end()
+{
+    // An opening that failed or was cancelled had displaced the analysis of what is still open.
+    if (std::exchange(m_isOpening, false) && !m_document.isEmpty() && !m_document.isCurrent())
+        return startAnalysis();
+    emit busyChanged(false);
+    if (m_pendingView && m_document.analysis())
+        emit viewRestored(*std::exchange(m_pendingView, {}));
+    emit settled();
+}
+
+} // namespace faintline

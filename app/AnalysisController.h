@@ -1,0 +1,78 @@
+#pragma once
+
+#include "app/Document.h"
+#include "app/JobRunner.h"
+#include "app/Session.h"
+
+#include <QObject>
+
+#include <functional>
+#include <optional>
+
+namespace faintline {
+
+/// Keeps the document's analysis up with its settings: opens, runs the chain, and previews thresholds.
+///
+/// Whatever computes runs in the job runner, and the newest wish wins. A dragged threshold is shown at once on the
+/// results there are (`previewThreshold`); let go (`commitThreshold`), it becomes a setting and the chain runs again.
+class AnalysisController : public QObject
+{
+    Q_OBJECT
+
+public:
+    explicit AnalysisController(Document &document, QObject *parent = nullptr);
+
+    using Adjust = std::function<void(AnalysisSettings &)>;
+
+    /// Opens a recording, a scenario or a session, by its name. `adjust` changes the settings it begins with: the defaults,
+    /// or the session's. May be called on another thread.
+    void open(const QString &path, const OpenOptions &options = {}, const Adjust &adjust = {});
+    /// What is open, read in another way.
+    void reopen(const OpenOptions &options);
+    /// Shows what was opened and analysed elsewhere.
+    void adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis);
+
+    bool isBusy() const { return m_runner.isRunning(); }
+
+    /// Changes one setting as one undoable step.
+    void edit(const QString &field, const FieldValue &value, const QString &text);
+    void setSettings(const AnalysisSettings &settings, const QString &text);
+    /// By what the threshold is set from now on; its place stays.
+    void setThresholdUnit(DecideSettings::By by);
+
+public slots:
+    void run();
+    void stop();
+    void previewThreshold(double nats);
+    void commitThreshold(double nats);
+    void stepThreshold(int quarterNats);
+
+signals:
+    void busyChanged(bool isBusy);
+    void progressed(double fraction, const QString &what);
+    void viewRestored(const faintline::ViewState &view); ///< of a session, once there is something to see
+    void warned(const QString &where, const QString &why);
+    void failed(const faintline::Error &error);
+    /// Nothing is left to do: the analysis belongs to the settings, or there was a failure.
+    void settled();
+
+private:
+    struct Opening {
+        OpenedSource opened;
+        AnalysisSettings settings;
+        std::optional<ViewState> view;
+        QString sessionPath;
+        QString warning;
+    };
+    static Opening openNow(const QString &path, const OpenOptions &options);
+    void deliver(const Opening &opening);
+    void startAnalysis();
+    void end();
+
+    Document &m_document;
+    std::optional<ViewState> m_pendingView;
+    bool m_isOpening = false;
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline

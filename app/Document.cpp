@@ -1,0 +1,142 @@
+#include "app/Document.h"
+
+#include <QElapsedTimer>
+#include <QUndoCommand>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr qint64 mergeMilliseconds = 700;
+    constexpr int settingsEditId = 1;
+
+} // namespace
+
+/// The program's only undo command: two settings values.
+class Document::SettingsEdit : public QUndoCommand
+{
+public:
+    SettingsEdit(Document &document, const AnalysisSettings &after, const QString &text, QString field)
+        : QUndoCommand(text), m_document(document), m_before(document.settings()), m_after(after), m_field(std::move(field))
+    {
+        m_age.start();
+    }
+
+    void undo() override { m_document.apply(m_before); }
+    void redo() override { m_document.apply(m_after); }
+
+    int id() const override { return m_field.isEmpty() ? -1 : settingsEditId; }
+
+    bool mergeWith(const QUndoCommand *other) override
+    {
+        const auto &next = static_cast<const SettingsEdit &>(*other);
+        if (next.m_field != m_field || m_age.elapsed() > mergeMilliseconds)
+            return false;
+        m_after = next.m_after;
+        m_age.restart();
+        setObsolete(m_after == m_before);
+        return true;
+    }
+
+private:
+    Document &m_document;
+    AnalysisSettings m_before;
+    AnalysisSettings m_after;
+    QString m_field;
+    QElapsedTimer m_age; ///< since the last edit that went into this
+};
+
+Document::Document(QObject *parent) : QObject(parent)
+{
+    connect(&m_undoStack, &QUndoStack::cleanChanged, this, &Document::sessionChanged);
+}
+
+void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath)
+{
+    m_opened = std::move(opened);
+    m_settings = settings;
+    m_sessionPath = sessionPath;
+    m_analysis.reset();
+    m_events.clear();
+    m_viewport.setExtents({}, {});
+    m_undoStack.clear();
+    emit this->opened();
+    emit sessionChanged();
+}
+
+void Document::edit(const AnalysisSettings &after, const QString &text, const QString &field)
+{
+    if (after != m_settings)
+        m_undoStack.push(new SettingsEdit(*this, after, text, field));
+}
+
+void Document::setSaved(const QString &sessionPath)
+{
+    m_sessionPath = sessionPath;
+    m_undoStack.setClean();
+    emit sessionChanged();
+}
+
+void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events)
+{
+    m_analysis = std::move(analysis);
+    m_events = std::move(events);
+    m_shownThreshold = m_analysis->threshold;
+    emit analysisChanged();
+    emit shownThresholdChanged();
+    emit shownEventsChanged();
+}
+
+void Document::setShownThreshold(double nats)
+{
+    if (!m_analysis || nats == m_shownThreshold)
+        return;
+    const std::ptrdiff_t before = shownCount();
+    m_shownThreshold = nats;
+    emit shownThresholdChanged();
+    if (shownCount() != before)
+        emit shownEventsChanged();
+}
+
+std::vector<Event> Document::shownEvents() const
+{
+    std::vector<Event> result;
+    std::copy_if(m_events.begin(), m_events.end(), std::back_inserter(result),
+                 [this](const Event &event) { return isShown(event); });
+    return result;
+}
+
+std::ptrdiff_t Document::shownCount() const
+{
+    return std::count_if(m_events.begin(), m_events.end(), [this](const Event &event) { return isShown(event); });
+}
+
+std::vector<Track> Document::shownTracks() const
+{
+    std::vector<Track> result;
+    if (m_analysis)
+        std::copy_if(m_analysis->tracks.begin(), m_analysis->tracks.end(), std::back_inserter(result),
+                     [this](const Track &track) { return track.peakStatistic >= m_shownThreshold; });
+    return result;
+}
+
+const Track *Document::track(int id) const
+{
+    if (!m_analysis)
+        return nullptr;
+    const auto &tracks = m_analysis->tracks;
+    const auto found = std::find_if(tracks.begin(), tracks.end(), [id](const Track &track) { return track.id == id; });
+    return found == tracks.end() ? nullptr : &*found;
+}
+
+void Document::apply(const AnalysisSettings &settings)
+{
+    m_settings = settings;
+    emit settingsChanged();
+}
+
+} // namespace faintline

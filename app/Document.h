@@ -1,0 +1,92 @@
+#pragma once
+
+#include "analysis/analyse.h"
+#include "app/Source.h"
+#include "widgets/Viewport.h"
+
+#include <QObject>
+#include <QUndoStack>
+
+#include <memory>
+#include <vector>
+
+namespace faintline {
+
+/// What is open: the one mutable object of the program, everything else is values and views.
+///
+/// It holds the recording and where it came from, the settings with their undo stack, what is looked at, and the latest
+/// analysis, which may lag behind the settings while a new one is computed. The *shown threshold* is the analysis's, or
+/// the one under the user's finger while it is dragged.
+class Document : public QObject
+{
+    Q_OBJECT
+
+public:
+    explicit Document(QObject *parent = nullptr);
+
+    /// Something else is open from now on; forgets undo history, session and analysis.
+    void setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath = {});
+
+    bool isEmpty() const { return !m_opened.recording; }
+    const Source &source() const { return m_opened.source; }
+    const RecordingPointer &recording() const { return m_opened.recording; }
+    const Truth &truth() const { return m_opened.truth; }
+
+    // ---- settings ------------------------------------------------------------------------------------------------
+
+    const AnalysisSettings &settings() const { return m_settings; }
+    QUndoStack &undoStack() { return m_undoStack; }
+
+    /// One undoable step. Steps that name the same field and follow each other at once, as those of a held key or a
+    /// dragged value, become one.
+    void edit(const AnalysisSettings &after, const QString &text, const QString &field = {});
+
+    // ---- session -------------------------------------------------------------------------------------------------
+
+    /// The session file this is saved in; empty where there is none.
+    const QString &sessionPath() const { return m_sessionPath; }
+    void setSaved(const QString &sessionPath);
+    bool isModified() const { return !m_undoStack.isClean(); }
+
+    // ---- view and results ----------------------------------------------------------------------------------------
+
+    Viewport &viewport() { return m_viewport; }
+
+    /// `events`: those of the analysis.
+    void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events);
+    const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
+    bool isCurrent() const { return m_analysis && m_analysis->settings == m_settings; }
+
+    void setShownThreshold(double nats);
+    double shownThreshold() const { return m_shownThreshold; }
+    /// Events and tracks that exceed the shown threshold.
+    std::vector<Event> shownEvents() const;
+    std::vector<Track> shownTracks() const;
+    const Track *track(int id) const;
+
+signals:
+    void opened();
+    void settingsChanged();
+    void analysisChanged();
+    void shownThresholdChanged();
+    void shownEventsChanged(); ///< the threshold passed one, or they are new
+    void sessionChanged(); ///< its path, or whether there is something to save
+
+private:
+    class SettingsEdit;
+
+    void apply(const AnalysisSettings &settings);
+    bool isShown(const Event &event) const { return event.statistic >= m_shownThreshold; }
+    std::ptrdiff_t shownCount() const;
+
+    OpenedSource m_opened;
+    AnalysisSettings m_settings;
+    QString m_sessionPath;
+    Viewport m_viewport;
+    std::shared_ptr<const Analysis> m_analysis;
+    std::vector<Event> m_events;
+    double m_shownThreshold = 0.0;
+    QUndoStack m_undoStack;
+};
+
+} // namespace faintline

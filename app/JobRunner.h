@@ -1,0 +1,69 @@
+#pragma once
+
+#include "base/Error.h"
+#include "base/RunContext.h"
+
+#include <QObject>
+#include <QString>
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace faintline {
+
+/// Runs jobs on one worker thread; the newest job wins.
+///
+/// Starting a job asks the one before to stop and drops its result. A job computes on the worker and returns its
+/// delivery: a function that hands the result over on the thread this object lives on, called only if no newer job was
+/// started and nobody cancelled. What a job throws becomes a signal. The destructor stops and waits.
+class JobRunner : public QObject
+{
+    Q_OBJECT
+
+public:
+    using Delivery = std::function<void()>;
+    using Job = std::function<Delivery(const RunContext &context)>;
+
+    explicit JobRunner(QObject *parent = nullptr);
+    ~JobRunner() override;
+
+    void start(Job job);
+    void cancel();
+
+    /// From `start` until the newest job's end has been signalled.
+    bool isRunning() const { return m_isRunning; }
+
+signals:
+    void started();
+    void progressed(double fraction, const QString &what);
+
+    // Each started job that no newer one replaces ends in exactly one of these.
+    void finished();
+    void cancelled();
+    void failed(const faintline::Error &error);
+
+private:
+    struct Request {
+        std::uint64_t number = 0;
+        Job job;
+        std::stop_source stop;
+    };
+
+    void work(const std::stop_token &quit);
+    void run(const Request &request);
+    /// Has `action` called on this object's thread, unless a newer job was started by then.
+    void post(std::uint64_t number, std::function<void()> action);
+
+    std::uint64_t m_newest = 0; ///< of this object's thread
+    bool m_isRunning = false;
+
+    std::mutex m_mutex;
+    std::condition_variable_any m_wake;
+    Request m_request;           ///< guarded by m_mutex: the newest; its job is empty when it was taken
+    std::jthread m_thread;       ///< last, so that it ends first
+};
+
+} // namespace faintline

@@ -1,0 +1,138 @@
+#pragma once
+
+#include "app/AnalysisController.h"
+#include "app/Document.h"
+#include "app/WindowMemory.h"
+#include "widgets/Theme.h"
+
+#include <QMainWindow>
+
+#include <memory>
+
+class QLabel;
+class QMenu;
+class QStackedWidget;
+class QToolBar;
+
+namespace faintline {
+
+class ActivityBar;
+class EventTable;
+class ExceedancePlot;
+class InfoPanel;
+class KeysOverlay;
+class MessageBar;
+class OverviewStrip;
+class PipelinePanel;
+class ReadOut;
+class ScenarioCard;
+class SessionSaver;
+class WelcomePage;
+class Workbench;
+
+/// The window: it puts the panels in their places and connects them to the document and its controller.
+class MainWindow : public QMainWindow
+{
+    Q_OBJECT
+
+public:
+    /// `memory`: where recent files and the window's layout are kept; null keeps nothing.
+    explicit MainWindow(std::unique_ptr<QSettings> memory = {}, QWidget *parent = nullptr);
+    ~MainWindow() override;
+
+    /// Opens a recording, a scenario or a session. Asks only what the file itself cannot tell.
+    void open(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {});
+    void showWelcome();
+
+    Document &document() { return m_document; }
+    AnalysisController &controller() { return m_controller; }
+    Workbench &workbench() { return *m_workbench; }
+    WelcomePage &welcome() { return *m_welcome; }
+    MessageBar &messages() { return *m_messages; }
+    ExceedancePlot &thresholdPlot() { return *m_threshold; }
+    EventTable &eventTable() { return *m_events; }
+
+    /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise".
+    static const QStringList &viewNames();
+    QWidget *view(const QString &name);
+
+    SessionSaver &saver() { return *m_saver; }
+
+signals:
+    void saved(const QString &sessionPath);
+
+protected:
+    void closeEvent(QCloseEvent *event) override;
+
+private:
+    void buildCentre();
+    void buildDocks();
+    void buildBottom();
+    void buildStatusBar();
+    void buildMenus();
+    void buildFileMenu();
+    void buildEditMenu();
+    void buildViewMenu();
+    void buildDetectMenu();
+    void buildHelpMenu();
+    void buildToolBar();
+    void connectDocument();
+    void connectController();
+    void connectViews();
+    /// An action that makes sense only while a recording is shown.
+    QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
+    QDockWidget *addDock(const QString &name, const QString &title, QWidget *widget, Qt::DockWidgetArea area);
+
+    void showWorkbench();
+    void showAnalysis();
+    void showEvents();
+    void showHint();
+    void showTitle();
+    void showError(const Error &error);
+    void showFailure(const Error &error);
+    void offerIq();
+    void openScenario(ScenarioCard *card);
+    void chooseFile();
+    void chooseRawFile();
+    void setTheme(Theme::Kind kind);
+    void setPresenting(bool isPresenting);
+    void takeDefaultLayout();
+    void about();
+
+    void fillRecentMenu();
+    void saveLayout();
+    void restoreLayout();
+
+    Document m_document;
+    AnalysisController m_controller;
+    WindowMemory m_memory;
+    QByteArray m_defaultLayout;
+    QByteArray m_layoutBeforePresenting;
+
+    SessionSaver *m_saver = nullptr;
+    MessageBar *m_messages = nullptr;
+    QStackedWidget *m_pages = nullptr;
+    WelcomePage *m_welcome = nullptr;
+    Workbench *m_workbench = nullptr;
+    PipelinePanel *m_pipeline = nullptr;
+    ExceedancePlot *m_threshold = nullptr;
+    EventTable *m_events = nullptr;
+    InfoPanel *m_info = nullptr;
+    OverviewStrip *m_overview = nullptr;
+    ReadOut *m_readOut = nullptr;
+    ActivityBar *m_activity = nullptr;
+    QLabel *m_hint = nullptr;
+    KeysOverlay *m_keys = nullptr;
+    QMenu *m_recentMenu = nullptr;
+    QMenu *m_panelsMenu = nullptr;
+    QAction *m_stopAction = nullptr;
+    QAction *m_iqAction = nullptr;
+    QAction *m_darkAction = nullptr;
+    QAction *m_playAction = nullptr;
+    QAction *m_presentAction = nullptr;
+    std::vector<QAction *> m_viewActions;
+    std::vector<QDockWidget *> m_docks;
+    std::vector<QToolBar *> m_bottomBars;
+};
+
+} // namespace faintline

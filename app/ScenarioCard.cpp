@@ -1,0 +1,93 @@
+#include "app/ScenarioCard.h"
+
+#include "widgets/OverviewStrip.h"
+#include "widgets/Theme.h"
+#include "widgets/WaterfallView.h"
+
+#include <QLabel>
+#include <QPainter>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int pictureHeight = 132;
+
+    QLabel *caption(const QString &text, const QFont &font)
+    {
+        auto *label = new QLabel(text);
+        label->setFont(font);
+        label->setWordWrap(true);
+        label->setAttribute(Qt::WA_TransparentForMouseEvents);
+        return label;
+    }
+
+    OverviewStrip *picture(Viewport &viewport)
+    {
+        auto *strip = new OverviewStrip;
+        strip->setViewport(&viewport);
+        strip->setFixedHeight(pictureHeight);
+        strip->setFocusPolicy(Qt::NoFocus);
+        strip->setAttribute(Qt::WA_TransparentForMouseEvents);
+        return strip;
+    }
+
+} // namespace
+
+ScenarioCard::ScenarioCard(const Scenario &scenario, QWidget *parent)
+    : QAbstractButton(parent), m_scenario(scenario), m_input(picture(m_viewport)), m_statistic(picture(m_viewport)),
+      m_found(caption(tr("Simulating …"), Theme::font(12)))
+{
+    setText(scenario.title);
+    setAccessibleDescription(scenario.sentence);
+    setCursor(Qt::PointingHandCursor);
+    setFocusPolicy(Qt::StrongFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::MinimumExpanding);
+    setAttribute(Qt::WA_Hover);
+
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(14, 12, 14, 12);
+    layout->setSpacing(4);
+    layout->addWidget(caption(scenario.title, Theme::boldFont(15)));
+    layout->addWidget(caption(tr("The input"), Theme::font(12)));
+    layout->addWidget(m_input);
+    layout->addWidget(caption(tr("The detector’s statistic"), Theme::font(12)));
+    layout->addWidget(m_statistic);
+    layout->addWidget(m_found);
+    layout->addWidget(caption(scenario.sentence, Theme::font()));
+    layout->addStretch();
+}
+
+void ScenarioCard::setResult(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
+{
+    m_opened = opened;
+    m_analysis = std::move(analysis);
+    const Axis &frequency = m_analysis->grid().axes.back();
+    const Viewport::Box full = WaterfallView::extents(*m_analysis->input, frequency);
+    m_viewport.setExtents(full.time, full.frequency);
+    m_input->setPicture(m_analysis->input, frequency);
+    m_statistic->setPicture(m_analysis->statistic, frequency);
+    const int count = static_cast<int>(m_analysis->tracks.size());
+    m_found->setText(count == 1 ? tr("Found: 1 line") : tr("Found: %1 lines").arg(count));
+}
+
+QSize ScenarioCard::sizeHint() const
+{
+    return {320, layout()->sizeHint().height()};
+}
+
+void ScenarioCard::paintEvent(QPaintEvent *)
+{
+    const Theme::Colours &colours = Theme::colours(*this);
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const bool isLit = hasFocus() || underMouse();
+    painter.setPen(QPen(isLit ? colours.accent : colours.frame, isLit ? 2.0 : 1.0));
+    painter.setBrush(palette().color(QPalette::Base));
+    painter.drawRoundedRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0), 6.0, 6.0);
+}
+
+} // namespace faintline

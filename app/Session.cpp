@@ -1,0 +1,148 @@
+#include "app/Session.h"
+
+#include "base/AtomicFile.h"
+#include "base/json.h"
+
+#include <QDir>
+#include <QFileInfo>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int formatVersion = 1;
+
+    Json toJson(const Source &source, const std::string &hash, const QDir &folder)
+    {
+        if (source.scene)
+            return {{"name", source.name().toStdString()}, {"scenario", toJson(*source.scene)}};
+        const OpenOptions &options = source.options;
+        const QString path = QFileInfo(source.path).absoluteFilePath();
+        Json json = {{"path", folder.relativeFilePath(path).toStdString()}, {"sha256", hash}};
+        if (options.iq)
+            json["iq"] = true;
+        if (!options.rawType.empty()) {
+            json["rawType"] = options.rawType;
+            json["rawRateHz"] = options.rawRateHz;
+            json["rawChannels"] = options.rawChannels;
+            json["rawHeaderBytes"] = options.rawHeaderBytes;
+        }
+        return json;
+    }
+
+    Source sourceFromJson(const Json &json, const QDir &folder)
+    {
+        checkKeys(json, "recording", {"name", "scenario", "path", "sha256", "iq", "rawType", "rawRateHz", "rawChannels", "rawHeaderBytes"});
+        Source source;
+        if (json.contains("scenario")) {
+            source.path = QString::fromStdString(json.value("name", std::string("scenario")));
+            source.scene = lineSceneFromJson(json["scenario"]);
+            return source;
+        }
+        source.path = QDir::cleanPath(folder.absoluteFilePath(QString::fromStdString(json.at("path").get<std::string>())));
+        source.options.iq = json.value("iq", false);
+        source.options.rawType = json.value("rawType", std::string());
+        source.options.rawRateHz = json.value("rawRateHz", 0.0);
+        source.options.rawChannels = json.value("rawChannels", 1);
+        source.options.rawHeaderBytes = json.value("rawHeaderBytes", Index(0));
+        return source;
+    }
+
+    Json toJson(const Span &span)
+    {
+        return {span.low, span.high};
+    }
+
+    Span spanFromJson(const Json &json)
+    {
+        return {json.at(0).get<double>(), json.at(1).get<double>()};
+    }
+
+    Json toJson(const ViewState &view)
+    {
+        Json json = Json::object();
+        if (view.visible) {
+            json["seconds"] = toJson(view.visible->time);
+            json["hz"] = toJson(view.visible->frequency);
+        }
+        if (view.cursor)
+            json["cursor"] = {view.cursor->seconds, view.cursor->hz};
+        json["orientation"] = view.orientation.toStdString();
+        json["colourMap"] = view.colourMap.toStdString();
+        return json;
+    }
+
+    ViewState viewFromJson(const Json &json)
+    {
+        checkKeys(json, "view", {"seconds", "hz", "cursor", "orientation", "colourMap"});
+        ViewState view;
+        if (json.contains("seconds") && json.contains("hz"))
+            view.visible = {spanFromJson(json["seconds"]), spanFromJson(json["hz"])};
+        if (json.contains("cursor"))
+            view.cursor = {json["cursor"].at(0).get<double>(), json["cursor"].at(1).get<double>()};
+        view.orientation = QString::fromStdString(json.value("orientation", std::string()));
+        view.colourMap = QString::fromStdString(json.value("colourMap", std::string()));
+        return view;
+    }
+
+    QDir folderOf(const QString &path)
+    {
+        return QFileInfo(path).absoluteDir();
+    }
+
+    Session sessionFromJson(const Json &json, const QString &path)
+    {
+        checkKeys(json, "", {"faintline", "recording", "settings", "view"});
+        if (json.value("faintline", 0) != formatVersion)
+            throw Error("faintline", "must be " + std::to_string(formatVersion) + ", the version of the format this program reads");
+        if (!json.contains("recording"))
+            throw Error("recording", "is missing");
+        Session session;
+        session.source = sourceFromJson(json["recording"], folderOf(path));
+        session.recordingHash = json["recording"].value("sha256", std::string());
+        if (json.contains("settings"))
+            session.settings = settingsFromJson(json["settings"].dump(), "settings");
+        if (json.contains("view"))
+            session.view = viewFromJson(json["view"]);
+        return session;
+    }
+
+} // namespace
+
+bool isSessionPath(const QString &path)
+{
+    return path.endsWith(QLatin1String(".faintline"), Qt::CaseInsensitive);
+}
+
+Session readSession(const QString &path)
+{
+    const std::string where = path.toStdString();
+    const Json json = readJsonFile(where);
+    try {
+        return sessionFromJson(json, path);
+    } catch (const Error &error) {
+        throw Error(where + ": " + error.where(), error.why());
+    } catch (const Json::exception &error) {
+        throw Error(where, std::string("is no session of this program: ") + error.what());
+    }
+}
+
+void writeSession(const QString &path, Session session)
+{
+    if (!session.source.scene)
+        session.recordingHash = recordingHash(session.source.path.toStdString());
+    const Json json = {{"faintline", formatVersion},
+                       {"recording", toJson(session.source, session.recordingHash, folderOf(path))},
+                       {"settings", Json::parse(settingsToJson(session.settings))},
+                       {"view", toJson(session.view)}};
+    writeTextFile(path.toStdString(), json.dump(2) + "\n");
+}
+
+QString recordingMismatch(const Session &session)
+{
+    if (session.recordingHash.empty() || recordingHash(session.source.path.toStdString()) == session.recordingHash)
+        return {};
+    return QStringLiteral("it has changed since the session was saved; results may differ");
+}
+
+} // namespace faintline

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "app/Source.h"
+#include "widgets/Viewport.h"
+
+#include <QString>
+
+#include <optional>
+
+namespace faintline {
+
+/// How the results are looked at: saved with a session, of no influence on any number.
+struct ViewState {
+    std::optional<Viewport::Box> visible; ///< nothing: all of it
+    std::optional<Viewport::Point> cursor;
+    QString orientation; ///< "newestOnTop", "oldestOnTop", "leftToRight"; empty: as it is
+    QString colourMap;
+};
+
+/// A session file: the recipe, never the results. The recording is named relative to the session and known by its hash; a
+/// scenario is written out.
+struct Session {
+    Source source;
+    std::string recordingHash; ///< empty for a scenario
+    AnalysisSettings settings;
+    ViewState view;
+};
+
+/// Whether a path names a session (".faintline").
+bool isSessionPath(const QString &path);
+
+/// Throws Error naming the file and the key.
+Session readSession(const QString &path);
+
+/// Takes the recording's hash and writes, completely or not at all. Throws Error.
+void writeSession(const QString &path, Session session);
+
+/// Why the recording on disk is not the one the session was saved with; empty where it is.
+QString recordingMismatch(const Session &session);
+
+} // namespace faintline

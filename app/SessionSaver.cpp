@@ -1,0 +1,75 @@
+#include "app/SessionSaver.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+
+#include <utility>
+
+namespace faintline {
+
+SessionSaver::SessionSaver(Document &document, std::function<ViewState()> view, QWidget *window)
+    : QObject(window), m_document(document), m_view(std::move(view)), m_window(window)
+{
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        m_isClosing = false;
+        emit failed(error);
+    });
+}
+
+void SessionSaver::save()
+{
+    m_document.sessionPath().isEmpty() ? saveAs() : saveTo(m_document.sessionPath());
+}
+
+void SessionSaver::saveAs()
+{
+    const QFileInfo recording(m_document.source().path);
+    const QString suggested = recording.dir().filePath(recording.completeBaseName() + QStringLiteral(".faintline"));
+    const QString path = QFileDialog::getSaveFileName(m_window, tr("Save session"), suggested, tr("Sessions (*.faintline)"));
+    if (path.isEmpty())
+        m_isClosing = false;
+    else
+        saveTo(isSessionPath(path) ? path : path + QStringLiteral(".faintline"));
+}
+
+void SessionSaver::saveTo(const QString &path)
+{
+    const Session session{m_document.source(), {}, m_document.settings(), m_view()};
+    m_runner.start([this, path, session](const RunContext &) -> JobRunner::Delivery {
+        writeSession(path, session);
+        return [this, path, settings = session.settings] {
+            if (settings == m_document.settings())
+                m_document.setSaved(path);
+            emit saved(path);
+            if (std::exchange(m_isClosing, false))
+                emit closable();
+        };
+    });
+}
+
+bool SessionSaver::mayDiscard()
+{
+    if (!m_isAsking || !m_document.isModified())
+        return true;
+    const QString question = tr("The settings for %1 are not saved in a session. Discard them?").arg(m_document.source().name());
+    return QMessageBox::question(m_window, tr("Unsaved settings"), question, QMessageBox::Discard | QMessageBox::Cancel,
+                                 QMessageBox::Cancel)
+           == QMessageBox::Discard;
+}
+
+bool SessionSaver::mayClose()
+{
+    if (!m_isAsking || !m_document.isModified())
+        return true;
+    const QString question = tr("Save the settings for %1 as a session before closing?").arg(m_document.source().name());
+    const auto answer = QMessageBox::question(m_window, tr("Unsaved settings"), question,
+                                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+    m_isClosing = answer == QMessageBox::Save;
+    if (m_isClosing)
+        save();
+    return answer == QMessageBox::Discard;
+}
+
+} // namespace faintline

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "app/Document.h"
+#include "app/JobRunner.h"
+#include "app/Session.h"
+
+#include <functional>
+
+class QWidget;
+
+namespace faintline {
+
+/// Saves the document as a session, on a worker, for the recording's hash takes a while; and asks about unsaved work.
+class SessionSaver : public QObject
+{
+    Q_OBJECT
+
+public:
+    /// `view`: how the results are looked at now. Dialogs belong to `window`.
+    SessionSaver(Document &document, std::function<ViewState()> view, QWidget *window);
+
+    /// Off: nobody is there to answer, and unsaved work is let go.
+    void setAsking(bool isAsking) { m_isAsking = isAsking; }
+
+    void save();
+    void saveAs();
+
+    /// Whether something else may be opened: false where the person keeps the unsaved work.
+    bool mayDiscard();
+    /// Whether the window may close; if not yet because it is being saved, `closable` follows.
+    bool mayClose();
+
+signals:
+    void saved(const QString &path);
+    void closable();
+    void failed(const faintline::Error &error);
+
+private:
+    void saveTo(const QString &path);
+
+    Document &m_document;
+    std::function<ViewState()> m_view;
+    QWidget *m_window;
+    bool m_isAsking = true;
+    bool m_isClosing = false;
+    JobRunner m_runner; ///< last, so that its job ends first
+};
+
+} // namespace faintline

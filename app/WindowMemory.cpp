@@ -1,0 +1,74 @@
+#include "app/WindowMemory.h"
+
+#include <QFileInfo>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int mostRecent = 10;
+    const QString recentKey = QStringLiteral("recent");
+    const QString themeKey = QStringLiteral("view/theme");
+    const QString colourMapKey = QStringLiteral("view/colourMap");
+    const QString orientationKey = QStringLiteral("view/orientation");
+    const QString geometryKey = QStringLiteral("window/geometry");
+    const QString panelsKey = QStringLiteral("window/panels");
+    const QString splittersKey = QStringLiteral("window/splitters");
+
+} // namespace
+
+std::unique_ptr<QSettings> WindowMemory::programStore()
+{
+    return std::make_unique<QSettings>(QSettings::IniFormat, QSettings::UserScope, QStringLiteral("faintline"),
+                                       QStringLiteral("faintline"));
+}
+
+QStringList WindowMemory::recent() const
+{
+    return m_store ? m_store->value(recentKey).toStringList() : QStringList();
+}
+
+void WindowMemory::addRecent(const QString &path)
+{
+    if (!m_store)
+        return;
+    const QString absolute = QFileInfo(path).absoluteFilePath();
+    QStringList paths = recent();
+    paths.removeAll(absolute);
+    paths.prepend(absolute);
+    m_store->setValue(recentKey, QStringList(paths.mid(0, mostRecent)));
+}
+
+WindowMemory::Layout WindowMemory::layout() const
+{
+    if (!m_store)
+        return {};
+    return {m_store->value(geometryKey).toByteArray(), m_store->value(panelsKey).toByteArray(),
+            m_store->value(splittersKey).toByteArray(), m_store->value(colourMapKey).toString(),
+            m_store->value(orientationKey).toString()};
+}
+
+void WindowMemory::setLayout(const Layout &layout)
+{
+    if (!m_store)
+        return;
+    m_store->setValue(geometryKey, layout.geometry);
+    m_store->setValue(panelsKey, layout.panels);
+    m_store->setValue(splittersKey, layout.splitters);
+    m_store->setValue(colourMapKey, layout.colourMap);
+    m_store->setValue(orientationKey, layout.orientation);
+}
+
+Theme::Kind WindowMemory::theme() const
+{
+    const bool isLight = m_store && m_store->value(themeKey).toString() == QLatin1String("light");
+    return isLight ? Theme::Kind::Light : Theme::Kind::Dark;
+}
+
+void WindowMemory::setTheme(Theme::Kind kind)
+{
+    if (m_store)
+        m_store->setValue(themeKey, kind == Theme::Kind::Light ? QStringLiteral("light") : QStringLiteral("dark"));
+}
+
+} // namespace faintline

@@ -1,0 +1,67 @@
+#include "app/cli/commands.h"
+
+#include "base/Error.h"
+
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace {
+
+std::stop_source interrupted;
+
+void interrupt(int)
+{
+    interrupted.request_stop();
+}
+
+int complain(const std::string &message, int code)
+{
+    std::fprintf(stderr, "error: %s\n", message.c_str());
+    return code;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    std::signal(SIGINT, interrupt);
+    std::signal(SIGTERM, interrupt);
+    CLI::App app{"Faintline: track-before-detect for what is too faint to see.", "faintline-cli"};
+    app.set_version_flag("--version", "faintline-cli " FAINTLINE_VERSION);
+    app.require_subcommand(1);
+    app.fallthrough();
+    faintline::cli::Common common;
+    common.stop = interrupted.get_token();
+    app.add_option("--threads", common.threads, "Threads to use; never changes a byte of a result")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    app.add_option("--progress", common.progress, "Progress on standard error: auto (a bar on a terminal), json (lines), none")
+        ->check(CLI::IsMember({"auto", "json", "none"}))
+        ->capture_default_str();
+    for (const auto add : {faintline::cli::addInfo, faintline::cli::addDescribe, faintline::cli::addDetect,
+                           faintline::cli::addStatistic, faintline::cli::addExplain, faintline::cli::addSimulate})
+        add(app, common);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError &error) {
+        if (error.get_exit_code() == 0)
+            return app.exit(error); // --help, --version
+        std::string message = error.what();
+        for (char &c : message)
+            c = c == '\n' ? ' ' : c;
+        return complain("command line: " + message, 2);
+    } catch (const faintline::Error &error) {
+        return complain(error.what(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);
+    } catch (const faintline::Cancelled &) {
+        return complain("interrupted: nothing half-written is left", 1);
+    } catch (const std::bad_alloc &) {
+        return complain("memory: not enough of it; choose a shorter part, a narrower band or a shorter window", 1);
+    } catch (const std::exception &error) {
+        return complain(std::string("failure: ") + error.what(), 1);
+    }
+    return 0;
+}

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "base/RunContext.h"
+#include "recording/openRecording.h"
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace faintline::cli {
+
+/// What every subcommand is given.
+struct Common {
+    std::stop_token stop;
+    int threads = 2;
+    std::string progress = "auto";
+
+    /// Shows progress on standard error as asked for.
+    RunContext context() const;
+};
+
+/// The options that name a recording and the settings of its analysis, alike in every subcommand.
+struct AnalysisOptions {
+    std::string file;
+    std::string session;
+    std::string preset;
+    std::vector<std::string> assignments; ///< --set name=value
+    int channel = -1;
+    double from = 0.0;
+    double to = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+    OpenOptions open;
+
+    void addTo(CLI::App &command);
+    AnalysisSettings settings() const;
+    RecordingPointer recording() const;
+};
+
+void addInfo(CLI::App &app, Common &common);
+void addDescribe(CLI::App &app, Common &common);
+void addDetect(CLI::App &app, Common &common);
+void addStatistic(CLI::App &app, Common &common);
+void addExplain(CLI::App &app, Common &common);
+void addSimulate(CLI::App &app, Common &common);
+
+/// Opens a recording file, or simulates one from a scene's JSON file.
+RecordingPointer openAny(const std::string &path, const OpenOptions &options);
+
+} // namespace faintline::cli

@@ -1,0 +1,96 @@
+#include "app/cli/commands.h"
+
+#include "base/json.h"
+#include "recording/SimulatedRecording.h"
+
+#include <CLI/CLI.hpp>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+namespace faintline::cli {
+
+RunContext Common::context() const
+{
+    RunContext context;
+    context.stop = stop;
+    context.threads = threads;
+    const bool lines = progress == "json";
+    if (progress == "none" || (!lines && !isatty(STDERR_FILENO)))
+        return context;
+    context.progress = [lines, last = -1](double fraction, std::string_view what) mutable {
+        const int percent = static_cast<int>(100.0 * fraction);
+        if (percent == last)
+            return;
+        last = percent;
+        if (lines)
+            std::fprintf(stderr, "{\"progress\": %.2f, \"doing\": \"%.*s\"}\n", fraction, static_cast<int>(what.size()), what.data());
+        else
+            std::fprintf(stderr, "\r\033[K%3d %%  %.*s%s", percent, static_cast<int>(what.size()), what.data(), percent >= 100 ? "\n" : "");
+        std::fflush(stderr);
+    };
+    return context;
+}
+
+void AnalysisOptions::addTo(CLI::App &command)
+{
+    command.add_option("FILE", file, "Recording (WAV, FLAC, SigMF …), or a scene to simulate (.json)")->required();
+    command.add_option("--session", session, "Session or settings file to start from");
+    command.add_option("--preset", preset, "Named settings to start from (see 'describe')");
+    command.add_option("--set", assignments, "A setting, name=value; may be repeated")->take_all()->allow_extra_args(false);
+    command.add_option("--channel", channel, "Channel, counted from 0")->check(CLI::Range(0, 1023));
+    command.add_option("--from", from, "Start of the part looked at, s");
+    command.add_option("--to", to, "End of the part looked at, s");
+    command.add_option("--low", low, "Lower edge of the band, Hz");
+    command.add_option("--high", high, "Upper edge of the band, Hz");
+    command.add_flag("--iq", open.iq, "Take two channels as I and Q");
+    command.add_option("--raw-type", open.rawType, "Sample type of a raw file, as in SigMF: ci16_le, rf32_le …");
+    command.add_option("--raw-rate", open.rawRateHz, "Sample rate of a raw file, Hz");
+    command.add_option("--raw-channels", open.rawChannels, "Channels of a raw file");
+    command.add_option("--raw-header", open.rawHeaderBytes, "Bytes before the first sample of a raw file");
+}
+
+AnalysisSettings AnalysisOptions::settings() const
+{
+    AnalysisSettings settings;
+    if (!session.empty()) {
+        const Json json = readJsonFile(session);
+        settings = settingsFromJson(json.contains("settings") ? json["settings"].dump() : json.dump(), session);
+    }
+    if (!preset.empty())
+        settings = faintline::preset(preset).settings;
+    if (channel >= 0)
+        settings.selection.channel = channel;
+    if (from != 0.0)
+        setSetting(settings, "selection.fromSeconds", formatNumber(from));
+    if (to != 0.0)
+        setSetting(settings, "selection.toSeconds", formatNumber(to));
+    if (low != 0.0 || high != 0.0) {
+        setSetting(settings, "selection.lowHz", formatNumber(low));
+        setSetting(settings, "selection.highHz", formatNumber(high));
+    }
+    for (const std::string &assignment : assignments) {
+        const std::size_t equals = assignment.find('=');
+        if (equals == std::string::npos)
+            throw Error("--set " + assignment, "must be name=value, such as spectrogram.windowSeconds=0.5");
+        setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+    }
+    checkSettings(settings);
+    return settings;
+}
+
+RecordingPointer AnalysisOptions::recording() const
+{
+    return openAny(file, open);
+}
+
+RecordingPointer openAny(const std::string &path, const OpenOptions &options)
+{
+    if (path.ends_with(".json"))
+        return std::make_shared<SimulatedRecording>(lineSceneFromJson(readJsonFile(path)));
+    return openRecording(path, options);
+}
+
+} // namespace faintline::cli

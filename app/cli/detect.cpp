@@ -1,0 +1,273 @@
+#include "app/cli/commands.h"
+
+#include "analysis/analyse.h"
+#include "analysis/explain.h"
+#include "base/json.h"
+#include "exchange/ModelFile.h"
+#include "exchange/NumPy.h"
+#include "base/AtomicFile.h"
+#include "detect/SumDetector.h"
+#include "exchange/writeEvents.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+namespace faintline::cli {
+
+namespace {
+
+    struct DetectOptions {
+        AnalysisOptions analysis;
+        std::string frames;
+        std::string grid;
+        std::string model;
+        std::string events;
+        std::string tracks;
+        std::string statistic;
+        bool summary = false;
+    };
+
+    void printSummary(const Analysis &analysis)
+    {
+        const Axis &time = analysis.time();
+        const std::vector<Event> found = events(analysis);
+        std::printf("%td frames of %td cells, %s s a frame\n", time.count, analysis.grid().size(), formatNumber(time.step).c_str());
+        std::printf("ln K %.4f (%.1f %% of noise states continued), threshold %.2f nat", analysis.calibration->lnK,
+                    100.0 * analysis.calibration->continuedFraction, analysis.threshold);
+        const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
+        std::printf(": %.3g false alarms an hour on noise\n", perHour);
+        std::printf("%zu event(s)\n", found.size());
+        for (const Event &e : found) {
+            std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
+            for (std::size_t axis = 0; axis < e.position.size(); ++axis)
+                std::printf(" %.8g %s", e.position[axis], analysis.grid().axes[axis].unit.c_str());
+            std::printf(", drift %.3g %s/s, %.1f nat%s\n", e.driftPerSecond, analysis.grid().axes.back().unit.c_str(), e.statistic,
+                        e.isOpen ? ", still there at the end" : "");
+        }
+    }
+
+    std::shared_ptr<const Analysis> detectInFrames(const DetectOptions &options, const RunContext &context, const StatisticSink &sink,
+                                                   const NormalisedFramesPointer &frames)
+    {
+        AnalysisSettings settings = options.analysis.settings();
+        MarkovModel model;
+        if (options.model.empty()) {
+            model = makeModel(settings.model, frames->grid());
+        } else {
+            const ModelFile file = readModelFile(options.model);
+            model = file.model;
+            if (model.space.cellCount() != frames->grid().size())
+                throw Error(options.model, "has " + std::to_string(model.space.cellCount()) + " cells, but the frames have "
+                                               + std::to_string(frames->grid().size()));
+            auto &smd = std::get<SmdSettings>(settings.detector);
+            smd.lnK = file.reset.lnK;
+            smd.reset = file.reset.law == ResetLaw::Mean ? SmdSettings::Reset::Mean
+                : file.reset.law == ResetLaw::Half       ? SmdSettings::Reset::Half
+                                                         : SmdSettings::Reset::Fixed;
+        }
+        return analyse(frames, model, settings, context, sink);
+    }
+
+    void detect(const DetectOptions &options, const Common &common)
+    {
+        if (options.events.empty() && options.tracks.empty() && options.statistic.empty() && !options.summary)
+            throw Error("detect", "says nothing without at least one of --events, --tracks, --statistic, --summary");
+        if (!options.events.empty())
+            checkEventsPath(options.events);
+        if (!options.tracks.empty())
+            checkTracksPath(options.tracks);
+        if (!options.frames.empty() && !options.analysis.file.empty())
+            throw Error("detect", "takes a recording or --frames, not both");
+        const RunContext context = common.context();
+        std::optional<NumPyWriter> writer;
+        NormalisedFramesPointer frames;
+        RecordingPointer recording;
+        std::vector<Index> shape;
+        if (!options.frames.empty()) {
+            frames = readFrames(options.frames, options.grid);
+            shape.push_back(frames->time().count);
+            for (const Axis &axis : frames->grid().axes)
+                shape.push_back(axis.count);
+        } else {
+            if (options.analysis.file.empty())
+                throw Error("detect", "needs a recording, or --frames with ready-made frames");
+            recording = options.analysis.recording();
+        }
+        const AnalysisSettings settings = options.analysis.settings();
+        StatisticSink sink;
+        if (!options.statistic.empty()) {
+            if (recording) {
+                const Spectrogram geometry(recording, settings.spectrogram, settings.selection);
+                shape = {geometry.time().count, geometry.frequency().count};
+            }
+            writer.emplace(options.statistic, shape);
+            sink = [&writer](Index, std::span<const float> values) { writer->write(values); };
+        }
+        const auto analysis = frames ? detectInFrames(options, context, sink, frames)
+                                     : analyse(recording, settings, context, nullptr, sink);
+        context.checkpoint(1.0, "done");
+        if (!options.events.empty())
+            writeEvents(*analysis, options.events);
+        if (!options.tracks.empty())
+            writeTracks(*analysis, options.tracks);
+        if (writer)
+            writer->finish();
+        if (options.summary)
+            printSummary(*analysis);
+    }
+
+    void printExplanation(const Explanation &explanation, const Analysis &analysis, bool asJson)
+    {
+        const StateSpace &space = analysis.model.space;
+        Json json;
+        json["time"] = explanation.seconds;
+        json["position"] = explanation.position;
+        json["statistic"] = explanation.statistic;
+        json["displayed"] = explanation.displayed;
+        json["threshold"] = explanation.threshold;
+        json["margin"] = explanation.statistic - explanation.threshold;
+        json["tracked"] = explanation.isTracked;
+        json["steps"] = Json::array();
+        for (const PathStep &step : explanation.steps) {
+            const std::vector<Index> c = analysis.grid().coordinates(space.cellOf(step.state));
+            std::vector<double> at;
+            for (std::size_t axis = 0; axis < c.size(); ++axis)
+                at.push_back(analysis.grid().axes[axis].value(static_cast<double>(c[axis])));
+            json["steps"].push_back({{"t", analysis.time().value(static_cast<double>(step.frame))}, {"position", at},
+                                     {"rates", space.ratesOfPlane(space.planeOf(step.state))}, {"llr", step.logLikelihoodRatio},
+                                     {"ln_transition", step.lnTransition}, {"lnK", step.lnK}, {"sum", step.score}});
+        }
+        if (asJson) {
+            std::printf("%s\n", json.dump(2).c_str());
+            return;
+        }
+        std::printf("statistic %.4f nat, threshold %.4f nat: %s by %.4f nat%s\n", explanation.statistic, explanation.threshold,
+                    explanation.statistic > explanation.threshold ? "above" : "below",
+                    std::abs(explanation.statistic - explanation.threshold), explanation.isTracked ? ", followed by a tracker" : "");
+        std::printf("the best path began %zu frame(s) ago, where its past was worth nothing and it was reset\n", explanation.steps.size() - 1);
+        std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");
+        for (const Json &step : json["steps"])
+            std::printf("%12.6g %14.8g %8d %10.4f %10.4f %10.4f %12.4f\n", step["t"].get<double>(), step["position"].back().get<double>(),
+                        step["rates"].back().get<int>(), step["llr"].get<double>(), step["ln_transition"].get<double>(),
+                        step["lnK"].get<double>(), step["sum"].get<double>());
+    }
+
+    struct StatisticOptions {
+        std::string frames;
+        std::string model;
+        std::string out;
+        std::string projected;
+        std::string log;
+    };
+
+    void statistic(const StatisticOptions &options, const Common &common)
+    {
+        const NormalisedFramesPointer frames = readFrames(options.frames, "");
+        const ModelFile file = readModelFile(options.model);
+        const StateSpace &space = file.model.space;
+        for (std::size_t axis = 0; axis < std::max(space.axes().size(), frames->grid().axes.size()); ++axis)
+            if (space.axes().size() != frames->grid().axes.size() || space.axes()[axis].cells != frames->grid().axes[axis].count)
+                throw Error(options.model, "its axes' cells do not fit the frames of " + options.frames);
+        std::vector<Index> shape{frames->time().count};
+        std::vector<Index> projectedShape = shape;
+        for (const KinematicAxis &axis : space.axes())
+            shape.push_back(axis.rateCount);
+        for (const KinematicAxis &axis : space.axes()) {
+            shape.push_back(axis.cells);
+            projectedShape.push_back(axis.cells);
+        }
+        std::unique_ptr<Detector> detector;
+        const Smd *smd = nullptr;
+        if (file.isSum) {
+            detector = std::make_unique<SumDetector>(file.model, file.reset);
+        } else {
+            auto made = std::make_unique<Smd>(file.model, file.reset);
+            smd = made.get();
+            detector = std::move(made);
+        }
+        NumPyWriter out(options.out, shape);
+        std::optional<NumPyWriter> projected;
+        if (!options.projected.empty())
+            projected.emplace(options.projected, projectedShape);
+        std::string log = "frame,lnK,reset_fraction,max_statistic\n";
+        const RunContext context = common.context();
+        std::vector<float> y(static_cast<std::size_t>(space.cellCount()));
+        std::vector<float> D(y.size());
+        std::vector<float> scores;
+        for (Index frame = 0; frame < frames->time().count; ++frame) {
+            context.checkpoint(static_cast<double>(frame) / static_cast<double>(frames->time().count), "recursion");
+            frames->read(frame, 1, y);
+            detector->update(y, D);
+            scores.assign(detector->scores().begin(), detector->scores().end());
+            if (const float offset = smd ? static_cast<float>(smd->offset()) : 0.0f; offset != 0.0f)
+                for (float &score : scores)
+                    score += offset;
+            out.write(scores);
+            if (projected)
+                projected->write(D);
+            const Detector::Regulation regulation = detector->regulation();
+            log += std::to_string(frame) + "," + formatNumber(regulation.lnK) + "," + formatNumber(1.0 - regulation.continuedFraction) + ","
+                + formatNumber(static_cast<double>(*std::max_element(D.begin(), D.end()))) + "\n";
+        }
+        if (!options.log.empty())
+            writeTextFile(options.log, log);
+        out.finish();
+        if (projected)
+            projected->finish();
+    }
+
+} // namespace
+
+void addDetect(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<DetectOptions>();
+    CLI::App *command = app.add_subcommand("detect", "Find lines in a recording, or signals in ready-made frames");
+    options->analysis.addTo(*command);
+    command->get_option("FILE")->required(false);
+    command->add_option("--frames", options->frames, "Ready-made normalised frames, .npy of shape (frames, cells…), noise mean 1");
+    command->add_option("--grid", options->grid, "JSON that names the frames' axes");
+    command->add_option("--model", options->model, "JSON of a model for the frames");
+    command->add_option("--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
+    command->add_option("--tracks", options->tracks, "Write the tracks: .csv or .json");
+    command->add_option("--statistic", options->statistic, "Write the statistic: .npy, float32, shape (frames, cells…)");
+    command->add_flag("--summary", options->summary, "Say in numbers what was found");
+    command->callback([options, &common] { detect(*options, common); });
+}
+
+void addStatistic(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<StatisticOptions>();
+    CLI::App *command = app.add_subcommand("statistic", "The recursion's ln Λ for every frame and state, without decisions");
+    command->add_option("--frames", options->frames, "Normalised frames, .npy of shape (frames, cells…)")->required();
+    command->add_option("--model", options->model, "JSON of the model")->required();
+    command->add_option("--out", options->out, "Write the statistic of all states, .npy")->required();
+    command->add_option("--projected", options->projected, "Write its maximum over the rates, .npy");
+    command->add_option("--log", options->log, "Write K and reset fraction per frame, .csv");
+    command->callback([options, &common] { statistic(*options, common); });
+}
+
+void addExplain(CLI::App &app, Common &common)
+{
+    struct Options {
+        AnalysisOptions analysis;
+        double seconds = 0.0;
+        double hz = 0.0;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App *command = app.add_subcommand("explain", "Why a cell has the statistic it has: the terms of the best path that ends there");
+    options->analysis.addTo(*command);
+    command->add_option("--time", options->seconds, "Time, s")->required();
+    command->add_option("--frequency", options->hz, "Frequency, Hz")->required();
+    command->add_flag("--json", options->json, "As JSON");
+    command->callback([options, &common] {
+        const RunContext context = common.context();
+        const auto analysis = analyse(options->analysis.recording(), options->analysis.settings(), context.part(0.0, 0.5));
+        printExplanation(explain(*analysis, options->seconds, {options->hz}, context.part(0.5, 1.0)), *analysis, options->json);
+    });
+}
+
+} // namespace faintline::cli

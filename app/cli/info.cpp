@@ -1,0 +1,116 @@
+#include "app/cli/commands.h"
+
+#include "base/json.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace faintline::cli {
+
+namespace {
+
+    Json toJson(const RecordingInfo &info)
+    {
+        Json json;
+        json["path"] = info.path;
+        json["container"] = info.container;
+        json["sampleType"] = info.sampleType;
+        json["sampleRateHz"] = info.sampleRateHz;
+        json["channels"] = info.channelCount;
+        json["samples"] = info.sampleCount;
+        json["durationSeconds"] = info.durationSeconds();
+        json["complex"] = info.isComplex;
+        json["centreHz"] = info.centreHz;
+        json["startUnixSeconds"] = info.startUnixSeconds ? Json(*info.startUnixSeconds) : Json(nullptr);
+        json["notes"] = info.notes;
+        return json;
+    }
+
+    void print(const RecordingInfo &info)
+    {
+        std::printf("file          %s\n", info.path.c_str());
+        std::printf("container     %s, %s\n", info.container.c_str(), info.sampleType.c_str());
+        std::printf("sample rate   %s Hz\n", formatNumber(info.sampleRateHz).c_str());
+        std::printf("channels      %d%s\n", info.channelCount, info.isComplex ? ", I/Q" : "");
+        std::printf("length        %td samples, %s s\n", info.sampleCount, formatNumber(info.durationSeconds()).c_str());
+        if (info.isComplex)
+            std::printf("centre        %s Hz\n", formatNumber(info.centreHz).c_str());
+        if (info.startUnixSeconds)
+            std::printf("start         %s s after 1970-01-01 UTC\n", formatNumber(*info.startUnixSeconds).c_str());
+        for (const std::string &note : info.notes)
+            std::printf("note          %s\n", note.c_str());
+    }
+
+    std::string rangeOf(const FieldInfo &field)
+    {
+        switch (field.kind) {
+        case FieldKind::Flag:
+            return "true or false";
+        case FieldKind::Choice: {
+            std::string all;
+            for (const std::string &choice : field.choices)
+                all += (all.empty() ? "" : " | ") + choice;
+            return all;
+        }
+        case FieldKind::Text:
+            return "text";
+        case FieldKind::Integer:
+        case FieldKind::Number:
+        case FieldKind::Numbers:
+            break;
+        }
+        return formatNumber(field.minimum) + " … " + formatNumber(field.maximum);
+    }
+
+} // namespace
+
+void addInfo(CLI::App &app, Common &)
+{
+    struct Options {
+        std::string file;
+        OpenOptions open;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App *command = app.add_subcommand("info", "Say what a recording is");
+    command->add_option("FILE", options->file, "Recording")->required();
+    command->add_flag("--json", options->json, "As JSON");
+    command->add_flag("--iq", options->open.iq, "Take two channels as I and Q");
+    command->add_option("--raw-type", options->open.rawType, "Sample type of a raw file, as in SigMF");
+    command->add_option("--raw-rate", options->open.rawRateHz, "Sample rate of a raw file, Hz");
+    command->callback([options] {
+        const RecordingPointer recording = openAny(options->file, options->open);
+        if (options->json)
+            std::printf("%s\n", toJson(recording->info()).dump(2).c_str());
+        else
+            print(recording->info());
+    });
+}
+
+void addDescribe(CLI::App &app, Common &)
+{
+    const auto name = std::make_shared<std::string>();
+    CLI::App *command = app.add_subcommand("describe", "Every setting: name, unit, range, default, sentence; and the presets");
+    command->add_option("SETTING", *name, "One setting, or the beginning of several");
+    command->callback([name] {
+        const AnalysisSettings defaults;
+        bool any = false;
+        for (const auto &field : AnalysisSettings::fields()) {
+            if (!field.name.starts_with(*name))
+                continue;
+            any = true;
+            const auto value = field.get(defaults);
+            std::printf("%s%s%s\n    %s; default %s\n    %s\n", field.name.c_str(), field.unit.empty() ? "" : ", ", field.unit.c_str(),
+                        rangeOf(field).c_str(), value ? formatFieldValue(*value).c_str() : "-", field.sentence.c_str());
+        }
+        if (!any)
+            settingField(*name); // says which is the nearest
+        if (name->empty())
+            for (const Preset &preset : presets())
+                std::printf("preset %s\n    %s\n", preset.name.c_str(), preset.sentence.c_str());
+    });
+}
+
+} // namespace faintline::cli

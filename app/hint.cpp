@@ -1,0 +1,21 @@
+#include "app/hint.h"
+
+#include "app/Document.h"
+
+#include <QCoreApplication>
+
+namespace faintline {
+
+QString hint(const Document &document)
+{
+    const auto tr = [](const char *text) { return QCoreApplication::translate("hint", text); };
+    if (document.isEmpty())
+        return tr("Click a picture, or drop a recording anywhere on the window.");
+    if (!document.analysis())
+        return tr("Reading the recording and listening to its noise.");
+    if (document.shownEvents().empty())
+        return tr("Nothing exceeds the threshold: drag its line to the left, or press , (comma), and see what appears.");
+    return tr("Drag the threshold line: contour and events follow. N goes to the next event, ? shows all keys.");
+}
+
+} // namespace faintline

@@ -1,0 +1,157 @@
+// The window, and its twin that draws pictures without a screen.
+
+#include "app/MainWindow.h"
+#include "app/renderCommand.h"
+
+#include <CLI/CLI.hpp>
+
+#include <QApplication>
+#include <QFile>
+#include <QTemporaryFile>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace faintline {
+
+namespace {
+
+    /// One line, whatever a library had to say.
+    int fail(const std::string &where, std::string why, int exitCode)
+    {
+        std::replace(why.begin(), why.end(), '\n', ' ');
+        std::fprintf(stderr, "error: %s: %s\n", where.c_str(), why.c_str());
+        return exitCode;
+    }
+
+    QSize parseSize(const std::string &text)
+    {
+        constexpr int smallest = 100;
+        constexpr int largest = 16384;
+        int width = 0;
+        int height = 0;
+        char rest = 0;
+        if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || std::min(width, height) < smallest
+            || std::max(width, height) > largest)
+            throw Error("--size " + text, "must be WIDTHxHEIGHT in pixels, each 100 … 16384, such as 1600x1000");
+        return {width, height};
+    }
+
+    void addOpening(CLI::App &command, OpenOptions &options)
+    {
+        command.add_flag("--iq", options.iq, "Take two channels as I and Q");
+        command.add_option("--raw-type", options.rawType, "Type of raw samples: ci16_le, cf32, cu8 …");
+        command.add_option("--raw-rate", options.rawRateHz, "Sample rate of raw samples, Hz");
+        command.add_option("--raw-channels", options.rawChannels, "Channels of raw samples");
+        command.add_option("--raw-header", options.rawHeaderBytes, "Bytes before the first raw sample");
+    }
+
+    CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size)
+    {
+        CLI::App *command = program.add_subcommand("render", "Write a picture of the window or of one of its views");
+        command->add_option("source", options.source, "Recording, scenario (.json) or session (.faintline)")->required();
+        command->add_option("--out", options.out, "The picture (.png); of several views, each gets its name added")->required();
+        command->add_option("--view", options.views, "window, input, output, threshold, events, noise; several with commas")
+            ->delimiter(',')->allow_extra_args(false)->capture_default_str();
+        command->add_option("--size", size, "Pixels")->capture_default_str();
+        command->add_option("--time", options.seconds, "Where the cursor goes, s");
+        command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
+        command->add_option("--theme", options.theme, "light or dark")->check(CLI::IsMember({"light", "dark"}))->capture_default_str();
+        command->add_option("--preset", options.preset, "Settings to begin with");
+        command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
+        command->add_option("--channel", options.channel, "Channel, counted from 0");
+        addOpening(*command, options.opening);
+        return command;
+    }
+
+    /// A screen for programs without one; the default of 800 × 800 would cut off windows.
+    std::unique_ptr<QTemporaryFile> useScreenOf(QSize size)
+    {
+        if (qEnvironmentVariableIsSet("QT_QPA_PLATFORM"))
+            return {};
+        auto file = std::make_unique<QTemporaryFile>();
+        if (!file->open())
+            throw Error("temporary folder", file->errorString().toStdString(), Error::Kind::Failure);
+        file->write(QStringLiteral(R"({"synchronousWindowSystemEvents": false, "windowFrameMargins": false, "screens": [)"
+                                   R"({"name": "picture", "x": 0, "y": 0, "width": %1, "height": %2,)"
+                                   R"( "logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})")
+                        .arg(size.width()).arg(size.height()).toLatin1());
+        file->close();
+        qputenv("QT_QPA_PLATFORM", "offscreen:configfile=" + QFile::encodeName(file->fileName()));
+        return file;
+    }
+
+    /// What Qt has to say about the machine is no result and no error of ours.
+    void keepQuiet(QtMsgType type, const QMessageLogContext &, const QString &message)
+    {
+        if (type == QtFatalMsg)
+            std::fprintf(stderr, "error: Qt: %s\n", qPrintable(message));
+    }
+
+    int runRender(int argc, char *argv[], const RenderOptions &options)
+    {
+        qInstallMessageHandler(keepQuiet);
+        Theme::prepareEnvironment();
+        const auto screen = useScreenOf(options.size);
+        QApplication application(argc, argv);
+        render(options);
+        return 0;
+    }
+
+    int runWindow(int argc, char *argv[], const std::vector<std::string> &files, const OpenOptions &options)
+    {
+        Theme::prepareEnvironment();
+        QApplication application(argc, argv);
+        QApplication::setApplicationName(QStringLiteral("faintline"));
+        QApplication::setApplicationDisplayName(QStringLiteral("Faintline"));
+        Theme::apply(WindowMemory(WindowMemory::programStore()).theme());
+
+        std::vector<std::unique_ptr<MainWindow>> windows;
+        for (std::size_t i = 0; i < std::max<std::size_t>(1, files.size()); ++i) {
+            windows.push_back(std::make_unique<MainWindow>(WindowMemory::programStore()));
+            if (i < files.size())
+                windows.back()->open(QString::fromStdString(files[i]), options);
+            windows.back()->show();
+        }
+        return QApplication::exec();
+    }
+
+    int run(int argc, char *argv[])
+    {
+        CLI::App program("Faintline: finds faint lines that drift and wander. Without a subcommand, opens its window.", "faintline");
+        program.set_version_flag("--version", "faintline " FAINTLINE_VERSION);
+        std::vector<std::string> files;
+        OpenOptions opening;
+        program.add_option("file", files, "Recordings, scenarios (.json) or sessions (.faintline) to open");
+        addOpening(program, opening);
+        RenderOptions rendering;
+        std::string size = "1600x1000";
+        const CLI::App *renderCommand = addRender(program, rendering, size);
+        try {
+            program.parse(argc, argv);
+        } catch (const CLI::ParseError &error) {
+            if (error.get_exit_code() == 0)
+                return program.exit(error);
+            return fail("command line", std::string(error.what()) + " (faintline --help tells more)", 2);
+        }
+        if (!renderCommand->parsed())
+            return runWindow(argc, argv, files, opening);
+        rendering.size = parseSize(size);
+        return runRender(argc, argv, rendering);
+    }
+
+} // namespace
+
+} // namespace faintline
+
+int main(int argc, char *argv[])
+{
+    try {
+        return faintline::run(argc, argv);
+    } catch (const faintline::Error &error) {
+        return faintline::fail(error.where(), error.why(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);
+    } catch (const std::exception &error) {
+        return faintline::fail("internal failure", error.what(), 1);
+    }
+}

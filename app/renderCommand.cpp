@@ -1,0 +1,112 @@
+#include "app/renderCommand.h"
+
+#include "app/MainWindow.h"
+#include "app/SessionSaver.h"
+#include "app/Workbench.h"
+#include "base/AtomicFile.h"
+
+#include <QApplication>
+#include <QBuffer>
+#include <QEventLoop>
+#include <QFileInfo>
+#include <QPixmap>
+
+namespace faintline {
+
+namespace {
+
+    void adjust(AnalysisSettings &settings, const RenderOptions &options)
+    {
+        if (!options.preset.empty())
+            settings = preset(options.preset).settings;
+        settings.selection.channel = options.channel.value_or(settings.selection.channel);
+        for (const std::string &assignment : options.settings) {
+            const std::size_t equals = assignment.find('=');
+            if (equals == std::string::npos)
+                throw Error("--set " + assignment, "must be name=value");
+            setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+        }
+        checkSettings(settings);
+    }
+
+    /// Opens and waits until nothing is left to do.
+    void openAndSettle(MainWindow &window, const RenderOptions &options)
+    {
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) { failure = error; });
+        QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
+        window.open(QString::fromStdString(options.source), options.opening,
+                    [options](AnalysisSettings &settings) { adjust(settings, options); });
+        loop.exec();
+        if (failure)
+            throw *failure;
+    }
+
+    void placeCursor(Viewport &viewport, const RenderOptions &options)
+    {
+        Viewport::Point point = viewport.cursor().value_or(Viewport::Point());
+        point.seconds = options.seconds.value_or(point.seconds);
+        point.hz = options.hz.value_or(point.hz);
+        viewport.setCursor(point);
+        viewport.reveal({{point.seconds, point.seconds}, {point.hz, point.hz}});
+    }
+
+    /// `name` put before the extension where there is more than one picture.
+    std::string fileName(const RenderOptions &options, const std::string &view)
+    {
+        if (options.views.size() == 1)
+            return options.out;
+        const QFileInfo out(QString::fromStdString(options.out));
+        return (out.path() + QLatin1Char('/') + out.completeBaseName() + QLatin1Char('-') + QString::fromStdString(view)
+                + QLatin1Char('.') + out.suffix()).toStdString();
+    }
+
+    void write(const QImage &image, const std::string &path)
+    {
+        QByteArray bytes;
+        QBuffer buffer(&bytes);
+        buffer.open(QIODevice::WriteOnly);
+        if (!image.save(&buffer, "PNG"))
+            throw Error(path, "cannot be written as PNG", Error::Kind::Failure);
+        writeTextFile(path, bytes.toStdString());
+    }
+
+    std::string sizeText(QSize size)
+    {
+        return std::to_string(size.width()) + "x" + std::to_string(size.height());
+    }
+
+    QImage pictureOf(QWidget &view, QSize size)
+    {
+        if (!view.isWindow())
+            view.setParent(nullptr);
+        view.resize(size);
+        view.show();
+        if (view.size() != size)
+            throw Error("--size " + sizeText(size), "is too small for this view; it needs " + sizeText(view.size()));
+        QCoreApplication::sendPostedEvents();
+        QCoreApplication::processEvents();
+        return view.grab().toImage().convertToFormat(QImage::Format_RGB32);
+    }
+
+} // namespace
+
+void render(const RenderOptions &options)
+{
+    for (const std::string &view : options.views)
+        if (!MainWindow::viewNames().contains(QString::fromStdString(view)))
+            throw Error("--view " + view, "is not known; there are " + MainWindow::viewNames().join(QStringLiteral(", ")).toStdString());
+
+    Theme::apply(options.theme == "dark" ? Theme::Kind::Dark : Theme::Kind::Light);
+    MainWindow window;
+    window.saver().setAsking(false);
+    window.resize(options.size);
+    window.show();
+    openAndSettle(window, options);
+    placeCursor(window.document().viewport(), options);
+    for (const std::string &view : options.views)
+        write(pictureOf(*window.view(QString::fromStdString(view)), options.size), fileName(options, view));
+}
+
+} // namespace faintline

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "recording/openRecording.h"
+
+#include <QSize>
+#include <QStringList>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// What `faintline render` is asked for.
+struct RenderOptions {
+    std::string source; ///< recording, scenario or session
+    std::string out;    ///< PNG; with several views, their names go before the extension
+    std::vector<std::string> views{"window"};
+    QSize size{1600, 1000};
+    std::optional<double> seconds; ///< where the cursor goes
+    std::optional<double> hz;
+    std::string theme = "light";
+    std::string preset;
+    std::vector<std::string> settings; ///< "name=value"
+    OpenOptions opening;
+    std::optional<int> channel;
+};
+
+/// Opens the source in a window nobody sees, waits until it has settled, and writes the pictures: the same bytes from
+/// run to run. Needs a QApplication. Throws Error.
+void render(const RenderOptions &options);
+
+} // namespace faintline

@@ -1,0 +1,244 @@
+#include "analysis/AnalysisSettings.h"
+
+#include "base/Error.h"
+#include "base/json.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    /// Setting a value of the three thresholds also chooses it.
+    Field<DecideSettings> chosenBy(Field<DecideSettings> field, DecideSettings::By by)
+    {
+        field.set = [inner = field.set, by](DecideSettings &settings, const FieldValue &value) {
+            inner(settings, value);
+            settings.by = by;
+        };
+        return field;
+    }
+
+    template <class T>
+    void append(std::vector<Field<AnalysisSettings>> &table, const std::string &prefix, T AnalysisSettings::*member)
+    {
+        auto fields = within<AnalysisSettings>(prefix, T::fields(), [member](auto &settings) { return &(settings.*member); });
+        table.insert(table.end(), fields.begin(), fields.end());
+    }
+
+    template <class Alternative>
+    void appendDetector(std::vector<Field<AnalysisSettings>> &table, const std::string &prefix)
+    {
+        auto fields = within<AnalysisSettings>(prefix, Alternative::fields(),
+                                               [](auto &settings) { return std::get_if<Alternative>(&settings.detector); });
+        table.insert(table.end(), fields.begin(), fields.end());
+    }
+
+    std::size_t editDistance(std::string_view a, std::string_view b)
+    {
+        std::vector<std::size_t> row(b.size() + 1);
+        for (std::size_t j = 0; j <= b.size(); ++j)
+            row[j] = j;
+        for (std::size_t i = 1; i <= a.size(); ++i) {
+            std::size_t diagonal = row[0];
+            row[0] = i;
+            for (std::size_t j = 1; j <= b.size(); ++j) {
+                const std::size_t above = row[j];
+                row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+                diagonal = above;
+            }
+        }
+        return row.back();
+    }
+
+} // namespace
+
+const std::vector<Field<ModelSettings>> &ModelSettings::fields()
+{
+    using S = ModelSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::lowestSlope, "lowestSlope", "bins/frame", -100.0, 100.0, "Most negative slope a line may have."),
+        field(&S::highestSlope, "highestSlope", "bins/frame", -100.0, 100.0, "Most positive slope a line may have."),
+        field(&S::slopeChange, "slopeChange", "", 0.0, 1.0,
+              "Law h(0), h(1), … of the slope's change from frame to frame; h(0) + 2·(h(1) + …) = 1."),
+        field(&S::rounding, "rounding", roundingNames, "How half a bin of movement is rounded."),
+        field(&S::likelihood, "likelihood", likelihoodNames,
+              "The signal's law: constant amplitude, fluctuating, or the plain power."),
+        field(&S::snr, "snr", "", 1e-6, 1e6, "Signal-to-noise ratio r0 the likelihood is designed for, as a power ratio in one frame."),
+    };
+    return table;
+}
+
+const std::vector<Field<SmdSettings>> &SmdSettings::fields()
+{
+    using S = SmdSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::reset, "reset", S::resetNames,
+              "How K is found: calibrated on noise for a 50 % reset probability, fixed, regulated to 50 %, or Parsons' mean law."),
+        field(&S::lnK, "lnK", "nat", -100.0, 100.0, "ln K where it is fixed."),
+    };
+    return table;
+}
+
+const std::vector<Field<DecideSettings>> &DecideSettings::fields()
+{
+    using S = DecideSettings;
+    static const std::vector<Field<S>> table{
+        chosenBy(field(&S::falseAlarmsPerHour, "falseAlarmsPerHour", "1/h", 1e-9, 1e9,
+                       "False alarms per hour of recording that the threshold allows on noise."),
+                 S::By::FalseAlarmsPerHour),
+        chosenBy(field(&S::pfaPerCell, "pfaPerCell", "", 1e-15, 0.5,
+                       "Probability that a cell of noise exceeds the threshold in a frame."),
+                 S::By::PfaPerCell),
+        chosenBy(field(&S::thresholdNats, "thresholdNats", "nat", -100.0, 1e6, "Threshold on the statistic."), S::By::Nats),
+        field(&S::by, "by", S::byNames, "Which of the three sets the threshold."),
+        field(&S::linkCells, "linkCells", "bins", 0.0, 1000.0,
+              "Threshold crossings this near belong to one event, per axis; the last number repeats."),
+        field(&S::inhibitCells, "inhibitCells", "cells", 0.0, 1000.0,
+              "Half the width, in resolution cells, kept from the detector round a track."),
+    };
+    return table;
+}
+
+const std::vector<Field<AnalysisSettings>> &AnalysisSettings::fields()
+{
+    static const std::vector<Field<AnalysisSettings>> table = [] {
+        using S = AnalysisSettings;
+        std::vector<Field<S>> all;
+        append(all, "selection", &S::selection);
+        append(all, "spectrogram", &S::spectrogram);
+        append(all, "noise", &S::noise);
+        append(all, "model", &S::model);
+        appendDetector<SmdSettings>(all, "smd");
+        append(all, "decide", &S::decide);
+        append(all, "track", &S::track);
+        return all;
+    }();
+    return table;
+}
+
+const Field<AnalysisSettings> &settingField(std::string_view name)
+{
+    const auto &fields = AnalysisSettings::fields();
+    const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto &f) { return f.name == name; });
+    if (found != fields.end())
+        return *found;
+    const auto nearest = std::min_element(fields.begin(), fields.end(), [&](const auto &a, const auto &b) {
+        return editDistance(a.name, name) < editDistance(b.name, name);
+    });
+    throw Error(std::string(name), "is no setting; the nearest is " + nearest->name + " (all of them: faintline-cli describe)");
+}
+
+void setSetting(AnalysisSettings &settings, std::string_view name, std::string_view text)
+{
+    const auto &f = settingField(name);
+    f.set(settings, parseFieldValue(f, text));
+}
+
+void checkSettings(const AnalysisSettings &settings)
+{
+    for (const auto &f : AnalysisSettings::fields())
+        if (const auto value = f.get(settings))
+            checkFieldValue(f, *value);
+    if (settings.model.lowestSlope > settings.model.highestSlope)
+        throw Error("model.lowestSlope = " + std::to_string(settings.model.lowestSlope), "must not exceed model.highestSlope");
+    KinematicAxis axis;
+    axis.cells = 1;
+    axis.firstRate = settings.model.lowestSlope;
+    axis.rateCount = settings.model.highestSlope - settings.model.lowestSlope + 1;
+    axis.rateChange = settings.model.slopeChange;
+    try {
+        axis.check("model");
+    } catch (const Error &error) {
+        throw Error("model.slopeChange = " + formatFieldValue(settings.model.slopeChange), error.why());
+    }
+}
+
+Stage firstStale(const AnalysisSettings &before, const AnalysisSettings &after)
+{
+    if (!(before.selection == after.selection && before.spectrogram == after.spectrogram))
+        return Stage::Spectrogram;
+    if (!(before.noise == after.noise))
+        return Stage::Noise;
+    return before == after ? Stage::Nothing : Stage::Detector;
+}
+
+std::string settingsToJson(const AnalysisSettings &settings, bool onlyChanged)
+{
+    const AnalysisSettings defaults;
+    Json json = Json::object();
+    for (const auto &f : AnalysisSettings::fields()) {
+        const auto value = f.get(settings);
+        // decide.by always: reading back a threshold would choose it otherwise.
+        if (value && (!onlyChanged || f.name == "decide.by" || value != f.get(defaults)))
+            json[f.name] = jsonFromFieldValue(*value);
+    }
+    return json.dump(2);
+}
+
+AnalysisSettings settingsFromJson(const std::string &text, const std::string &where)
+{
+    const Json json = parseJson(text, where);
+    if (!json.is_object())
+        throw Error(where, "must be a JSON object of settings, name: value");
+    AnalysisSettings settings;
+    // In the table's order, so that decide.by has the last word whatever the file's order.
+    for (const auto &[name, value] : json.items())
+        settingField(name);
+    for (const auto &f : AnalysisSettings::fields())
+        if (json.contains(f.name))
+            f.set(settings, fieldValueFromJson(json[f.name], f));
+    checkSettings(settings);
+    return settings;
+}
+
+const std::vector<Preset> &presets()
+{
+    static const std::vector<Preset> list = [] {
+        std::vector<Preset> all;
+        all.push_back({"lines", "Lines that drift and wander: Billon's five slopes, window chosen from the recording.", {}});
+
+        AnalysisSettings billon;
+        billon.spectrogram.window = WindowShape::Rectangular;
+        billon.spectrogram.binsPerCell = 4;
+        all.push_back({"billon", "The settings of Billon's tables: rectangular window, k_t = 2, k_f = 4, five slopes.", billon});
+
+        AnalysisSettings steady;
+        steady.model.lowestSlope = steady.model.highestSlope = 0;
+        steady.model.slopeChange = {1.0};
+        all.push_back({"steady", "Lines that stay within their bin: one slope, the longest integration.", steady});
+
+        AnalysisSettings strong;
+        strong.spectrogram.window = WindowShape::BlackmanHarris;
+        all.push_back({"strong", "Faint lines beside very strong ones: a window with side lobes below -92 dB.", strong});
+
+        AnalysisSettings whistles;
+        whistles.model.lowestSlope = -4;
+        whistles.model.highestSlope = 4;
+        all.push_back({"whistles", "Fast sweeps such as whistles and calls: nine slopes.", whistles});
+        return all;
+    }();
+    return list;
+}
+
+const Preset &preset(std::string_view name)
+{
+    std::string known;
+    for (const Preset &p : presets()) {
+        if (p.name == name)
+            return p;
+        known += (known.empty() ? "" : ", ") + p.name;
+    }
+    throw Error("preset " + std::string(name), "is not known; there are " + known);
+}
+
+MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
+{
+    std::vector<KinematicAxis> axes;
+    for (const Axis &axis : grid.axes)
+        axes.push_back({axis.name, axis.count, axis.cyclic, settings.lowestSlope, settings.highestSlope - settings.lowestSlope + 1,
+                        settings.slopeChange, {}, settings.rounding});
+    return {StateSpace(std::move(axes)), Likelihood(settings.likelihood, settings.snr), 1.0};
+}
+
+} // namespace faintline

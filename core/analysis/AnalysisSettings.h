@@ -1,0 +1,108 @@
+#pragma once
+
+#include "base/Field.h"
+#include "detect/Smd.h"
+#include "model/MarkovModel.h"
+#include "spectrum/NoiseNormaliser.h"
+#include "spectrum/Spectrogram.h"
+#include "track/HmmTracker.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace faintline {
+
+/// What a signal is taken to do: how its slope changes, and how it differs from noise.
+struct ModelSettings {
+    int lowestSlope = -2;  ///< slope set, in bins per frame
+    int highestSlope = 2;
+    std::vector<double> slopeChange{1.0 / 3.0, 1.0 / 3.0}; ///< h(0), h(1), …; h(0) + 2 Σ h(i) = 1
+    Rounding rounding = Rounding::HalfDown;
+    LikelihoodKind likelihood = LikelihoodKind::Rice;
+    double snr = 0.5;      ///< r0 or ρ, power ratio in one frame
+
+    static const std::vector<Field<ModelSettings>> &fields();
+    bool operator==(const ModelSettings &) const = default;
+};
+
+/// The sequential Markov detector's own settings.
+struct SmdSettings {
+    enum class Reset { Calibrated, Fixed, Half, Mean };
+    static constexpr std::array<std::string_view, 4> resetNames{"calibrated", "fixed", "half", "mean"};
+
+    Reset reset = Reset::Calibrated; ///< how K is found
+    double lnK = 0.0;                ///< Fixed
+
+    static const std::vector<Field<SmdSettings>> &fields();
+    bool operator==(const SmdSettings &) const = default;
+};
+
+using DetectorSettings = std::variant<SmdSettings>;
+
+/// When a statistic becomes an event.
+struct DecideSettings {
+    enum class By { FalseAlarmsPerHour, PfaPerCell, Nats };
+    static constexpr std::array<std::string_view, 3> byNames{"falseAlarmsPerHour", "pfaPerCell", "thresholdNats"};
+
+    double falseAlarmsPerHour = 1.0;
+    double pfaPerCell = 1e-6;
+    double thresholdNats = 20.0;
+    By by = By::FalseAlarmsPerHour;  ///< which of the three counts; setting one of them makes it count
+    std::vector<double> linkCells{3.0};
+    double inhibitCells = 2.5;
+
+    static const std::vector<Field<DecideSettings>> &fields();
+    bool operator==(const DecideSettings &) const = default;
+};
+
+/// Everything that determines a result besides the recording: one value, saved, undone, compared and passed as a whole.
+struct AnalysisSettings {
+    SelectionSettings selection;
+    SpectrogramSettings spectrogram;
+    NormaliserSettings noise;
+    ModelSettings model;
+    DetectorSettings detector;
+    DecideSettings decide;
+    TrackSettings track;
+
+    /// The table of all settings, "stage.name", in the order of the chain.
+    static const std::vector<Field<AnalysisSettings>> &fields();
+    bool operator==(const AnalysisSettings &) const = default;
+};
+
+/// The table's row of that name. Throws Error that names the nearest known ones.
+const Field<AnalysisSettings> &settingField(std::string_view name);
+
+/// Sets one setting from text, checked. Throws Error.
+void setSetting(AnalysisSettings &settings, std::string_view name, std::string_view text);
+
+/// Checks what no single field can: laws that must sum to 1, orders of limits. Throws Error.
+void checkSettings(const AnalysisSettings &settings);
+
+/// The stages of the chain, in order; a change of one makes those after it stale.
+enum class Stage { Spectrogram, Noise, Detector, Nothing };
+
+/// The earliest stage whose result differs between two settings.
+Stage firstStale(const AnalysisSettings &before, const AnalysisSettings &after);
+
+/// JSON text of all settings that differ from the defaults, and back (missing keys take their defaults, unknown ones are
+/// refused). Round trip is exact.
+std::string settingsToJson(const AnalysisSettings &settings, bool onlyChanged = true);
+AnalysisSettings settingsFromJson(const std::string &json, const std::string &where);
+
+/// A named starting point for a kind of recording.
+struct Preset {
+    std::string name;
+    std::string sentence;
+    AnalysisSettings settings;
+};
+const std::vector<Preset> &presets();
+const Preset &preset(std::string_view name);
+
+/// The model for frames on a grid: the slope set and law on every axis.
+MarkovModel makeModel(const ModelSettings &settings, const Grid &grid);
+
+} // namespace faintline

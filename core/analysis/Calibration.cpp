@@ -1,0 +1,400 @@
+#include "analysis/Calibration.h"
+
+#include "analysis/analyse.h"
+#include "analysis/chain.h"
+#include "base/Random.h"
+#include "recording/SimulatedRecording.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <boost/math/tools/minima.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <map>
+#include <mutex>
+#include <numeric>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int settlingFrames = 300;
+    constexpr int regulationFrames = 1500;
+    constexpr int windowSamples = 256; ///< of the simulated recording; its noise does not depend on it
+    constexpr int segmentWindows = 4096;
+    constexpr float levelStep = 0.25f;
+    constexpr float lowestLevel = -2.0f;
+    constexpr std::size_t levelCount = 2000;
+    constexpr Index framesAtOnce = 64;
+    constexpr Index blockFrames = 128;
+    constexpr Index blockCells = 64;
+    constexpr double rateToCount = 8e-6; ///< events per cell and frame at which the chain is counted
+
+    /// Noise to calibrate on, in segments that can be made independently of each other.
+    using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;
+
+    struct Tail {
+        std::vector<double> counts = std::vector<double>(levelCount, 0.0); ///< cells per level bin
+        std::vector<float> blockMaxima;
+    };
+
+    /// The frames from the start on, computed once for what goes through them many times.
+    std::shared_ptr<const FrameArray> beginningOf(const NormalisedFrames &noise, Index frames)
+    {
+        Axis time = noise.time();
+        time.count = std::min(time.count, frames);
+        std::vector<float> values(static_cast<std::size_t>(time.count * noise.grid().size()));
+        noise.read(0, time.count, values);
+        return std::make_shared<FrameArray>(time, noise.grid(), std::move(values));
+    }
+
+    double continuedFraction(const NormalisedFrames &noise, const MarkovModel &model, const ResetRule &rule, double *meanLnK)
+    {
+        Smd detector(model, rule);
+        const auto cells = static_cast<std::size_t>(noise.grid().size());
+        const Index frames = noise.time().count;
+        std::vector<float> y(cells);
+        std::vector<float> statistic(cells);
+        double sum = 0.0;
+        double sumLnK = 0.0;
+        double counted = 0.0;
+        for (Index frame = 0; frame < frames; ++frame) {
+            noise.read(frame, 1, y);
+            detector.update(y, statistic);
+            if (frame < settlingFrames)
+                continue;
+            sum += detector.regulation().continuedFraction;
+            sumLnK += detector.regulation().lnK;
+            counted += 1.0;
+        }
+        if (meanLnK)
+            *meanLnK = sumLnK / counted;
+        return sum / counted;
+    }
+
+    /// ln K at which half of the states go on, by bisection: the fraction rises with K.
+    double lnKForHalf(const NormalisedFrames &noise, const MarkovModel &model)
+    {
+        double low = -20.0;
+        double high = 20.0;
+        while (high - low > 5e-4) {
+            const double middle = 0.5 * (low + high);
+            (continuedFraction(noise, model, {ResetLaw::Fixed, middle}, nullptr) > 0.5 ? high : low) = middle;
+        }
+        return 0.5 * (low + high);
+    }
+
+    Tail measureTail(const NormalisedFrames &noise, const MarkovModel &model, const ResetRule &rule)
+    {
+        Smd detector(model, rule);
+        const Index cells = noise.grid().size();
+        const Index columns = std::max<Index>(1, cells / blockCells);
+        std::vector<float> batch(static_cast<std::size_t>(framesAtOnce * cells));
+        std::vector<float> statistic(static_cast<std::size_t>(cells));
+        std::vector<float> maxima(static_cast<std::size_t>(columns));
+        Tail tail;
+        Index inBlock = 0;
+        for (Index frame = 0; frame < noise.time().count; ++frame) {
+            if (frame % framesAtOnce == 0)
+                noise.read(frame, std::min(framesAtOnce, noise.time().count - frame), batch);
+            detector.update(std::span(batch).subspan(static_cast<std::size_t>(frame % framesAtOnce * cells), statistic.size()), statistic);
+            if (frame < settlingFrames)
+                continue;
+            for (float value : statistic) {
+                const float position = (value - lowestLevel) / levelStep;
+                tail.counts[static_cast<std::size_t>(std::clamp(position, 0.0f, static_cast<float>(levelCount - 1)))] += 1.0;
+            }
+            if (inBlock == 0)
+                std::fill(maxima.begin(), maxima.end(), -std::numeric_limits<float>::infinity());
+            for (Index column = 0; column < columns; ++column) {
+                const auto from = statistic.begin() + column * cells / columns;
+                const auto to = statistic.begin() + (column + 1) * cells / columns;
+                float &maximum = maxima[static_cast<std::size_t>(column)];
+                maximum = std::max(maximum, *std::max_element(from, to));
+            }
+            if (++inBlock == blockFrames) {
+                tail.blockMaxima.insert(tail.blockMaxima.end(), maxima.begin(), maxima.end());
+                inBlock = 0;
+            }
+        }
+        return tail;
+    }
+
+    /// How many events the whole chain reports at a threshold in one segment of noise.
+    double countEvents(const NormalisedFramesPointer &noise, const MarkovModel &model, const AnalysisSettings &settings,
+                       const std::shared_ptr<const Calibration> &calibration, double threshold)
+    {
+        Analysis analysis;
+        analysis.settings = settings;
+        analysis.frames = noise;
+        analysis.model = model;
+        analysis.calibration = calibration;
+        analysis.threshold = threshold;
+        const auto chain = makeChain(analysis);
+        const Index cells = noise->grid().size();
+        std::vector<float> batch(static_cast<std::size_t>(framesAtOnce * cells));
+        std::vector<float> statistic(static_cast<std::size_t>(cells));
+        for (Index frame = 0; frame < noise->time().count; ++frame) {
+            if (frame % framesAtOnce == 0)
+                noise->read(frame, std::min(framesAtOnce, noise->time().count - frame), batch);
+            chain->update(frame, std::span(batch).subspan(static_cast<std::size_t>(frame % framesAtOnce * cells), statistic.size()), statistic);
+        }
+        chain->finish();
+        return static_cast<double>(chain->tracks().size());
+    }
+
+    /// Calls work(number) for 0 … count-1, `threads` at a time, and take(result) in the order of the numbers.
+    template <class Work, class Take>
+    void inRounds(int count, const RunContext &context, Work work, Take take)
+    {
+        for (int done = 0; done < count;) {
+            context.checkpoint(static_cast<double>(done) / count, "calibrating the threshold on noise");
+            const int round = std::min(std::max(1, context.threads), count - done);
+            std::vector<std::future<decltype(work(0))>> futures;
+            for (int i = 0; i < round; ++i)
+                futures.push_back(std::async(round > 1 ? std::launch::async : std::launch::deferred,
+                                             [&work, number = done + i] { return work(number); }));
+            for (auto &future : futures)
+                take(future.get());
+            done += round;
+        }
+    }
+
+    /// Fits P(max ≤ T) = exp(-Λ e^{-θ(T-u)}) to block maxima, those below u known only to be below.
+    void fitTail(std::vector<float> maxima, double cellFramesPerBlock, Calibration &result)
+    {
+        std::sort(maxima.begin(), maxima.end());
+        const std::size_t below = maxima.size() * 2 / 5;
+        const double u = static_cast<double>(maxima[below]);
+        const auto excesses = std::span(maxima).subspan(below);
+        const auto n = static_cast<double>(excesses.size());
+        double sum = 0.0;
+        for (float maximum : excesses)
+            sum += static_cast<double>(maximum) - u;
+        const auto blocks = [&](double theta) { // Σ e^{-θ(x-u)} over the excesses, 1 for each block below
+            double total = static_cast<double>(below);
+            for (float maximum : excesses)
+                total += std::exp(-theta * (static_cast<double>(maximum) - u));
+            return total;
+        };
+        const auto minusLogLikelihood = [&](double theta) {
+            return -(n * std::log(n / blocks(theta)) + n * std::log(theta) - theta * sum);
+        };
+        const double guess = n / std::max(sum, 1e-6);
+        const double theta = boost::math::tools::brent_find_minima(minusLogLikelihood, 0.1 * guess, 10.0 * guess, 40).first;
+        const double step = 0.01 * theta;
+        const double curvature = (minusLogLikelihood(theta + step) - 2.0 * minusLogLikelihood(theta) + minusLogLikelihood(theta - step))
+            / (step * step);
+        result.anchorNats = u;
+        result.tailSlope = theta;
+        result.slopeError = curvature > 0.0 ? 1.0 / std::sqrt(curvature) : theta;
+        result.relativeError = 1.0 / std::sqrt(n);
+        result.eventRate = n / blocks(theta) / cellFramesPerBlock;
+    }
+
+    void fillExceedance(const std::vector<double> &counts, Calibration &result)
+    {
+        const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
+        double above = total;
+        for (std::size_t i = 0; i < counts.size() && above > 0.0; ++i) {
+            result.levels.push_back(static_cast<double>(lowestLevel) + static_cast<double>(levelStep) * static_cast<double>(i));
+            result.exceedance.push_back(above / total);
+            above -= counts[i];
+        }
+    }
+
+    std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
+                                                   const AnalysisSettings &settings, const RunContext &context)
+    {
+        const auto &smd = std::get<SmdSettings>(settings.detector);
+        auto result = std::make_shared<Calibration>();
+        context.checkpoint(0.0, "calibrating K on noise");
+        const auto first = beginningOf(*segment(0), settlingFrames + regulationFrames);
+        result->lnK = smd.lnK;
+        if (smd.reset == SmdSettings::Reset::Calibrated || smd.reset == SmdSettings::Reset::Half)
+            result->lnK = lnKForHalf(*first, model);
+        const ResetRule rule = resetRule(smd, *result);
+        double meanLnK = 0.0;
+        result->continuedFraction = continuedFraction(*first, model, rule, &meanLnK);
+        if (smd.reset == SmdSettings::Reset::Mean)
+            result->lnK = meanLnK;
+
+        // The first half of the segments tells how the rate falls with the threshold …
+        const int half = segmentCount / 2;
+        Tail tail;
+        double cellFrames = 0.0;
+        inRounds(
+            half, context.part(0.2, 0.6), [&](int number) { return measureTail(*segment(number), model, rule); },
+            [&](const Tail &part) {
+                for (std::size_t i = 0; i < tail.counts.size(); ++i)
+                    tail.counts[i] += part.counts[i];
+                tail.blockMaxima.insert(tail.blockMaxima.end(), part.blockMaxima.begin(), part.blockMaxima.end());
+            });
+        const double cells = static_cast<double>(first->grid().size());
+        const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
+        fitTail(std::move(tail.blockMaxima), static_cast<double>(blockFrames) * cells / columns, *result);
+        fillExceedance(tail.counts, *result);
+
+        // … the second, how many events the whole chain makes of it: an excursion that lies in two blocks is still one.
+        const double threshold = result->thresholdForEventRate(rateToCount);
+        double counted = 0.0;
+        inRounds(
+            segmentCount - half, context.part(0.6, 1.0),
+            [&](int number) {
+                const NormalisedFramesPointer noise = segment(half + number);
+                const double size = cells * static_cast<double>(noise->time().count);
+                return std::pair(size, countEvents(noise, model, settings, result, threshold));
+            },
+            [&](const std::pair<double, double> &part) {
+                cellFrames += part.first;
+                counted += part.second;
+            });
+        result->anchorNats = threshold;
+        result->eventRate = std::max(counted, 1.0) / cellFrames;
+        result->relativeError = 1.0 / std::sqrt(std::max(counted, 1.0));
+        return result;
+    }
+
+    /// The settings that the answer to noise depends on.
+    AnalysisSettings dimensionless(AnalysisSettings settings)
+    {
+        settings.selection = {};
+        const DecideSettings decide = settings.decide;
+        settings.decide = {};
+        settings.decide.linkCells = decide.linkCells;
+        settings.decide.inhibitCells = decide.inhibitCells;
+        settings.spectrogram.windowSeconds = windowSamples;
+        return settings;
+    }
+
+    std::shared_ptr<const Calibration> kept(const std::string &key, const std::function<std::shared_ptr<const Calibration>()> &make)
+    {
+        static std::mutex mutex;
+        static std::map<std::string, std::shared_ptr<const Calibration>> known;
+        {
+            const std::scoped_lock lock(mutex);
+            if (const auto found = known.find(key); found != known.end())
+                return found->second;
+        }
+        auto made = make();
+        const std::scoped_lock lock(mutex);
+        return known.emplace(key, std::move(made)).first->second;
+    }
+
+} // namespace
+
+double Calibration::eventRateAt(double nats) const
+{
+    return eventRate * std::exp(-tailSlope * (nats - anchorNats));
+}
+
+double Calibration::thresholdForEventRate(double eventsPerCellFrame) const
+{
+    return anchorNats + std::log(eventRate / eventsPerCellFrame) / tailSlope;
+}
+
+double Calibration::thresholdUncertainty(double eventsPerCellFrame) const
+{
+    const double distance = thresholdForEventRate(eventsPerCellFrame) - anchorNats;
+    return 1.96 * std::hypot(relativeError / tailSlope, distance * slopeError / tailSlope);
+}
+
+double Calibration::exceedanceAt(double nats) const
+{
+    // Simulated where more than a thousand cells speak, continued by the tail's slope beyond.
+    std::size_t last = exceedance.size() - 1;
+    const double least = 1e-4;
+    while (last > 0 && exceedance[last] < least)
+        --last;
+    if (nats <= levels.front())
+        return exceedance.front();
+    if (nats >= levels[last])
+        return exceedance[last] * std::exp(-tailSlope * (nats - levels[last]));
+    const double position = (nats - levels.front()) / static_cast<double>(levelStep);
+    const auto lower = static_cast<std::size_t>(position);
+    const double fraction = position - static_cast<double>(lower);
+    return std::exp((1.0 - fraction) * std::log(exceedance[lower]) + fraction * std::log(exceedance[lower + 1]));
+}
+
+double Calibration::thresholdForPfa(double probability) const
+{
+    double low = levels.front();
+    double high = levels.back() + 1000.0 / tailSlope;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        (exceedanceAt(middle) > probability ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context, double cellFrames)
+{
+    const AnalysisSettings bare = dimensionless(settings);
+    return kept(settingsToJson(bare) + formatNumber(cellFrames), [&] {
+        LineScene scene;
+        scene.sampleRateHz = 1.0;
+        scene.durationSeconds = static_cast<double>(segmentWindows) * windowSamples;
+        scene.isComplex = true;
+        scene.noise.deviation = 1.0;
+        const auto segment = [&](int number) -> NormalisedFramesPointer {
+            LineScene own = scene;
+            own.seed = 1000 + number;
+            const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(own), bare.spectrogram);
+            return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, bare.noise), bare.noise);
+        };
+        const double perSegment = static_cast<double>(segmentWindows) * bare.spectrogram.stepsPerWindow
+            * static_cast<double>(Fft::fastLength(windowSamples * bare.spectrogram.binsPerCell));
+        const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / perSegment)));
+        const MarkovModel model = makeModel(bare.model, segment(0)->grid());
+        return calibrateOn(segment, segments, model, bare, context);
+    });
+}
+
+std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &model, const AnalysisSettings &settings,
+                                                               const RunContext &context, double cellFrames)
+{
+    Grid grid;
+    for (const KinematicAxis &axis : model.space.axes())
+        grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
+    const auto frames = static_cast<Index>(std::clamp(4e6 / static_cast<double>(grid.size()), 600.0, 4000.0));
+    const auto segment = [&](int number) -> NormalisedFramesPointer {
+        Random random(1000, static_cast<std::uint64_t>(number));
+        std::vector<float> values(static_cast<std::size_t>(frames * grid.size()));
+        for (float &value : values)
+            value = static_cast<float>(random.exponential());
+        return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
+    };
+    const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / static_cast<double>(frames * grid.size()))));
+    return calibrateOn(segment, segments, model, settings, context);
+}
+
+double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)
+{
+    switch (decide.by) {
+    case DecideSettings::By::FalseAlarmsPerHour:
+        return calibration.thresholdForEventRate(decide.falseAlarmsPerHour / cellFramesPerHour);
+    case DecideSettings::By::PfaPerCell:
+        return calibration.thresholdForPfa(decide.pfaPerCell);
+    case DecideSettings::By::Nats:
+        break;
+    }
+    return decide.thresholdNats;
+}
+
+ResetRule resetRule(const SmdSettings &settings, const Calibration &calibration)
+{
+    switch (settings.reset) {
+    case SmdSettings::Reset::Calibrated:
+    case SmdSettings::Reset::Fixed:
+        return {ResetLaw::Fixed, calibration.lnK};
+    case SmdSettings::Reset::Half:
+        return {ResetLaw::Half, calibration.lnK};
+    case SmdSettings::Reset::Mean:
+        return {ResetLaw::Mean};
+    }
+    return {};
+}
+
+} // namespace faintline

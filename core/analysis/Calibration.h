@@ -1,0 +1,55 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "base/RunContext.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// How a detector answers to noise alone: found by simulation, the same noise through the same chain.
+///
+/// The statistic's tail is exponential (for one-to-one transitions exactly so, Lindley's recursion: P(L > T) = σ e^{-(1-σ)T}). The
+/// slope θ of the rate of events comes from the maxima of space-time blocks, P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), fitted by
+/// maximum likelihood to the blocks whose maximum exceeds their lower 40 %; its height from counting the events that the
+/// whole chain reports at one threshold u. In between and beyond: rate(T) = rate(u) e^{-θ(T-u)}.
+struct Calibration {
+    double lnK = 0.0;               ///< ln K in force
+    double continuedFraction = 0.0; ///< realised, of all states
+    double anchorNats = 0.0;        ///< u
+    double eventRate = 0.0;         ///< events per cell and frame at threshold u
+    double tailSlope = 1.0;         ///< θ, 1/nat
+    double relativeError = 0.0;     ///< standard error of ln(event rate) at u
+    double slopeError = 0.0;        ///< standard error of θ
+    std::vector<double> levels;     ///< nats, ascending
+    std::vector<double> exceedance; ///< P(D > level) of a cell, simulated
+
+    /// Events per cell and frame at a threshold, on noise.
+    double eventRateAt(double nats) const;
+    /// P(D > T) of a cell, interpolated in the simulated curve, continued with θ.
+    double exceedanceAt(double nats) const;
+    double thresholdForEventRate(double eventsPerCellFrame) const;
+    double thresholdForPfa(double probability) const;
+    /// 95 % half-width, in nats, of the threshold for an event rate.
+    double thresholdUncertainty(double eventsPerCellFrame) const;
+};
+
+/// Simulates white noise through spectrogram, normaliser and detector and measures the answer. Depends on nothing but the
+/// dimensionless part of the settings (windows, overlaps, model, detector), which is also the key under which results
+/// are kept for the life of the program. `cellFrames`: cells × frames to simulate for the tail.
+std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
+                                             double cellFrames = 6e7);
+
+/// The same for ready-made frames: independent exponential cells on a grid of the model's shape (cut to a handy size).
+std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &model, const AnalysisSettings &settings,
+                                                               const RunContext &context = {}, double cellFrames = 6e7);
+
+/// The threshold in nats that the decide settings ask for.
+double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour);
+
+/// The reset rule the detector settings ask for.
+ResetRule resetRule(const SmdSettings &settings, const Calibration &calibration);
+
+} // namespace faintline

@@ -1,0 +1,208 @@
+#include "analysis/analyse.h"
+
+#include "analysis/chain.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t blockBytes = std::size_t(1) << 20;
+
+    /// Reads blocks of frames one ahead of their use, on another thread if there is one to spare.
+    class FrameStream
+    {
+    public:
+        FrameStream(const NormalisedFrames &frames, bool ahead)
+            : m_frames(frames), m_ahead(ahead),
+              m_blockFrames(std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / std::max<Index>(1, frames.grid().size())))
+        {
+            if (m_ahead)
+                prefetch();
+        }
+
+        Index position() const { return m_position; }
+
+        /// The next block, empty at the end.
+        std::vector<float> next()
+        {
+            if (m_position >= m_frames.time().count)
+                return {};
+            std::vector<float> block = m_ahead ? m_future.get() : read(m_position);
+            m_position += std::ssize(block) / m_frames.grid().size();
+            if (m_ahead && m_position < m_frames.time().count)
+                prefetch();
+            return block;
+        }
+
+    private:
+        std::vector<float> read(Index first) const
+        {
+            const Index count = std::min(m_blockFrames, m_frames.time().count - first);
+            std::vector<float> block(static_cast<std::size_t>(count * m_frames.grid().size()));
+            m_frames.read(first, count, block);
+            return block;
+        }
+
+        void prefetch()
+        {
+            m_future = std::async(std::launch::async, [this, first = m_position] { return read(first); });
+        }
+
+        const NormalisedFrames &m_frames;
+        bool m_ahead;
+        Index m_blockFrames;
+        Index m_position = 0;
+        std::future<std::vector<float>> m_future;
+    };
+
+    void countValues(std::span<const float> statistic, std::vector<double> &counts)
+    {
+        const auto last = static_cast<float>(counts.size() - 1);
+        for (float value : statistic)
+            counts[static_cast<std::size_t>(std::clamp(4.0f * (value + 4.0f), 0.0f, last))] += 1.0;
+    }
+
+    /// Streams the frames through the chain and fills in the rest of the analysis.
+    void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink)
+    {
+        const NormalisedFrames &frames = *analysis.frames;
+        const Index cells = frames.grid().size();
+        const Index frameCount = frames.time().count;
+        const auto chain = makeChain(analysis);
+
+        std::shared_ptr<PeakPyramid> input;
+        if (!analysis.input)
+            input = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::PowerDb));
+        const auto statistic = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats));
+        analysis.statisticCounts.assign(256, 0.0);
+        std::vector<float> scores;
+        FrameStream stream(frames, context.threads > 1);
+        for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
+            const Index count = std::ssize(block) / cells;
+            const Index first = stream.position() - count;
+            context.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), "detecting");
+            scores.resize(block.size());
+            for (Index i = 0; i < count; ++i) {
+                const auto offset = static_cast<std::size_t>(i * cells);
+                chain->update(first + i, std::span(block).subspan(offset, static_cast<std::size_t>(cells)),
+                             std::span(scores).subspan(offset, static_cast<std::size_t>(cells)));
+                analysis.lnK.push_back(static_cast<float>(chain->detector().regulation().lnK));
+                analysis.continuedFraction.push_back(static_cast<float>(chain->detector().regulation().continuedFraction));
+            }
+            countValues(scores, analysis.statisticCounts);
+            if (input)
+                input->append(block);
+            statistic->append(scores);
+            if (sink)
+                sink(first, scores);
+        }
+        chain->finish();
+        if (input) {
+            input->finish();
+            analysis.input = input;
+        }
+        statistic->finish();
+        analysis.statistic = statistic;
+        analysis.tracks = chain->tracks();
+    }
+
+    /// Least-squares slope of the track's position against time, per second.
+    double driftOf(const Track &track, const Axis &time, const Axis &axis)
+    {
+        const auto n = static_cast<double>(track.points.size());
+        if (n < 2.0)
+            return 0.0;
+        double sumT = 0.0;
+        double sumF = 0.0;
+        double sumTT = 0.0;
+        double sumTF = 0.0;
+        for (const TrackPoint &point : track.points) {
+            const double t = static_cast<double>(point.frame - track.points.front().frame) * time.step;
+            const double f = axis.value(static_cast<double>(point.cell % axis.count)) - axis.first;
+            sumT += t;
+            sumF += f;
+            sumTT += t * t;
+            sumTF += t * f;
+        }
+        return (n * sumTF - sumT * sumF) / (n * sumTT - sumT * sumT);
+    }
+
+} // namespace
+
+std::vector<Event> events(const Analysis &analysis)
+{
+    const Axis &time = analysis.time();
+    const Grid &grid = analysis.grid();
+    std::vector<Event> result;
+    for (const Track &track : analysis.tracks) {
+        Event event;
+        event.id = track.id;
+        event.onsetSeconds = time.value(static_cast<double>(track.onsetFrame));
+        event.detectSeconds = time.value(static_cast<double>(track.detectFrame));
+        event.endSeconds = time.value(static_cast<double>(track.endFrame));
+        const auto at = std::find_if(track.points.begin(), track.points.end(),
+                                     [&](const TrackPoint &point) { return point.frame >= track.detectFrame; });
+        const TrackPoint &point = at == track.points.end() ? track.points.back() : *at;
+        const std::vector<Index> coordinates = grid.coordinates(point.cell);
+        for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
+            event.position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
+        event.driftPerSecond = driftOf(track, time, grid.axes.back());
+        event.statistic = track.peakStatistic;
+        event.isConfirmed = track.isConfirmed;
+        event.isOpen = track.isOpen;
+        result.push_back(std::move(event));
+    }
+    std::stable_sort(result.begin(), result.end(), [](const Event &a, const Event &b) {
+        return a.onsetSeconds != b.onsetSeconds ? a.onsetSeconds < b.onsetSeconds : a.position < b.position;
+    });
+    return result;
+}
+
+std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
+                                        const Analysis *previous, const StatisticSink &sink)
+{
+    checkSettings(settings);
+    auto analysis = std::make_shared<Analysis>();
+    analysis->settings = settings;
+    analysis->recording = recording;
+
+    const bool sameRecording = previous && previous->recording == recording;
+    const Stage stale = sameRecording ? firstStale(previous->settings, settings) : Stage::Spectrogram;
+    if (stale >= Stage::Detector) {
+        analysis->frames = previous->frames;
+        analysis->background = previous->background;
+        analysis->input = previous->input;
+    } else {
+        const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
+        analysis->background = estimateBackground(*spectrogram, settings.noise, context.part(0.0, 0.2));
+        analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
+    }
+    analysis->model = makeModel(settings.model, analysis->grid());
+    analysis->calibration = calibrate(settings, context.part(0.2, 0.5));
+    analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
+    analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
+    run(*analysis, context.part(0.5, 1.0), sink);
+    return analysis;
+}
+
+std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,
+                                        const RunContext &context, const StatisticSink &sink)
+{
+    checkSettings(settings);
+    auto analysis = std::make_shared<Analysis>();
+    analysis->settings = settings;
+    analysis->frames = std::move(frames);
+    analysis->model = model;
+    analysis->calibration = calibrateOnIndependentCells(model, settings, context.part(0.0, 0.5));
+    analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
+    analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
+    run(*analysis, context.part(0.5, 1.0), sink);
+    return analysis;
+}
+
+} // namespace faintline

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "analysis/Calibration.h"
+#include "base/RunContext.h"
+#include "recording/Recording.h"
+#include "spectrum/NormalisedFrames.h"
+#include "spectrum/PeakPyramid.h"
+#include "track/Track.h"
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// What a run of the chain leaves behind. Immutable; parts that a change of settings leaves valid are shared.
+struct Analysis {
+    AnalysisSettings settings;
+    RecordingPointer recording;           ///< null for ready-made frames
+    NormalisedFramesPointer frames;       ///< random access, recomputed on demand
+    std::shared_ptr<const NoiseBackground> background; ///< null for ready-made frames
+    MarkovModel model;
+    std::shared_ptr<const Calibration> calibration;
+    double threshold = 0.0;               ///< nat
+    double cellFramesPerHour = 0.0;       ///< cells × frames of an hour of this recording
+    std::shared_ptr<const PeakPyramid> input;     ///< y in dB
+    std::shared_ptr<const PeakPyramid> statistic; ///< D in nats
+    std::vector<Track> tracks;            ///< ordered by detection, then cell
+    std::vector<float> lnK;               ///< per frame
+    std::vector<float> continuedFraction; ///< per frame
+    std::vector<double> statisticCounts;  ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: the data's own histogram
+
+    const Axis &time() const { return frames->time(); }
+    const Grid &grid() const { return frames->grid(); }
+};
+
+/// One detected signal, in physical units; a view of a track.
+struct Event {
+    int id = 0;
+    double onsetSeconds = 0.0;
+    double detectSeconds = 0.0;
+    double endSeconds = 0.0;
+    std::vector<double> position;   ///< at detection, one per axis (Hz; or m, degrees)
+    double driftPerSecond = 0.0;    ///< straight-line slope of the track along the last axis
+    double statistic = 0.0;         ///< largest, nat
+    bool isConfirmed = false;
+    bool isOpen = false;
+};
+
+/// The events of an analysis at its threshold, ordered by onset, then frequency.
+std::vector<Event> events(const Analysis &analysis);
+
+/// Called with every block of frames' statistic, in order: first frame, frames × cells values.
+using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
+
+/// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.
+///
+/// Every caller, window, command line and library, comes through here. `previous`, if given, lends what is still valid.
+/// Streams: memory is bounded whatever the recording's length. Throws Error, Cancelled.
+std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
+                                        const RunContext &context = {}, const Analysis *previous = nullptr,
+                                        const StatisticSink &sink = {});
+
+/// The same from ready-made frames on any grid, with a model of one's own.
+std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,
+                                        const RunContext &context = {}, const StatisticSink &sink = {});
+
+} // namespace faintline

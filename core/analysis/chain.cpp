@@ -1,0 +1,68 @@
+#include "analysis/chain.h"
+
+#include "base/logmath.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double shoulderNats = 8.0;
+
+    std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
+    {
+        std::vector<Index> result;
+        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
+            result.push_back(values.empty() ? 0 : static_cast<Index>(std::llround(values[std::min(axis, values.size() - 1)])));
+        return result;
+    }
+
+    /// Bins over which a line of power y leaks more than half the noise into its neighbours, by the window's side lobes.
+    std::function<Index(double)> spillOf(const Spectrogram &spectrogram)
+    {
+        constexpr int largestDb = 140;
+        std::vector<Index> bins;
+        Index reach = 0;
+        for (int db = 0; db <= largestDb; ++db) {
+            while (ratioFromDb(db) * leakageBound(spectrogram.settings().window, static_cast<double>(reach) / spectrogram.binsPerCell()) > 0.5
+                   && reach < spectrogram.frequency().count)
+                ++reach;
+            bins.push_back(reach);
+        }
+        return [bins](double y) {
+            return bins[static_cast<std::size_t>(std::clamp(std::ceil(dbFromRatio(std::max(y, 1.0))), 0.0, static_cast<double>(largestDb)))];
+        };
+    }
+
+    ChainSettings chainSettings(const Analysis &analysis)
+    {
+        const AnalysisSettings &settings = analysis.settings;
+        ChainSettings chain;
+        chain.threshold = analysis.threshold;
+        chain.shoulder = analysis.threshold - std::min(shoulderNats, 0.5 * std::abs(analysis.threshold));
+        chain.linkCells = perAxis(settings.decide.linkCells, analysis.grid());
+        chain.track = settings.track;
+        double binsPerCell = 1.0;
+        if (const auto *spectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get())) {
+            binsPerCell = spectral->spectrogram().binsPerCell();
+            chain.spill = spillOf(spectral->spectrogram());
+            chain.skirtStep = static_cast<Index>(std::ceil(binsPerCell));
+        }
+        chain.inhibitCells.assign(analysis.grid().axes.size(),
+                                  static_cast<Index>(std::ceil(settings.decide.inhibitCells * binsPerCell)));
+        return chain;
+    }
+
+} // namespace
+
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
+{
+    const auto &smd = std::get<SmdSettings>(analysis.settings.detector);
+    auto detector = std::make_unique<Smd>(analysis.model, resetRule(smd, *analysis.calibration));
+    return std::make_unique<DetectionChain>(analysis.model, analysis.grid(), std::move(detector), chainSettings(analysis));
+}
+
+} // namespace faintline

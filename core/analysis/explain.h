@@ -1,0 +1,25 @@
+#pragma once
+
+#include "analysis/analyse.h"
+#include "detect/PathTrace.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// Why a cell has the statistic it has: the best path that ends there, term by term.
+struct Explanation {
+    double seconds = 0.0;
+    std::vector<double> position;  ///< of the cell, one per axis
+    std::vector<PathStep> steps;   ///< from the last reset on
+    double statistic = 0.0;        ///< the sum of all terms, nat above background
+    double displayed = 0.0;        ///< what the analysis shows there: the same, in single precision
+    double threshold = 0.0;
+    bool isTracked = false;        ///< a tracker follows this cell; its path runs on without reset
+};
+
+/// Runs an analysis's chain again up to the frame nearest to `seconds` and traces the path to the cell nearest to `position`.
+/// Throws Error where the time lies outside of the recording; Cancelled.
+Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position, const RunContext &context = {});
+
+} // namespace faintline

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace faintline {
+
+using Index = std::ptrdiff_t;
+
+/// One sampled dimension: index i ↔ physical value first + i·step (unit as named).
+///
+/// A cyclic axis wraps: the cell after the last one is the first one (a sonar's bearings).
+/// Every conversion between indices and physical values in the program goes through here.
+struct Axis {
+    std::string name;
+    std::string unit;
+    double first = 0.0;
+    double step = 1.0;
+    Index count = 0;
+    bool cyclic = false;
+
+    double value(double index) const { return first + index * step; }
+
+    /// Fractional index of a value; not clamped, not wrapped.
+    double position(double value) const { return (value - first) / step; }
+
+    /// Index of the nearest cell: wrapped on a cyclic axis, clamped to 0 … count-1 otherwise.
+    Index nearest(double value) const;
+
+    /// An index brought into 0 … count-1 by wrapping, or -1 if it lies off a bounded axis.
+    Index wrapped(Index index) const
+    {
+        if (index >= 0 && index < count)
+            return index;
+        if (!cyclic || count == 0)
+            return -1;
+        const Index rest = index % count;
+        return rest < 0 ? rest + count : rest;
+    }
+
+    double last() const { return value(static_cast<double>(count - 1)); }
+
+    bool operator==(const Axis &) const = default;
+};
+
+} // namespace faintline

@@ -1,0 +1,171 @@
+#include "base/Field.h"
+
+#include "base/Error.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    std::string join(const std::vector<std::string> &words)
+    {
+        std::string all;
+        for (const std::string &word : words)
+            all += (all.empty() ? "" : ", ") + word;
+        return all;
+    }
+
+    [[noreturn]] void refuse(const FieldInfo &info, std::string_view text, const std::string &why)
+    {
+        throw Error(info.name + " = " + std::string(text), why);
+    }
+
+    std::string rangeText(const FieldInfo &info)
+    {
+        std::string text = "must lie in " + formatNumber(info.minimum) + " … " + formatNumber(info.maximum);
+        return info.unit.empty() ? text : text + " " + info.unit;
+    }
+
+    std::optional<bool> parseFlag(std::string_view text)
+    {
+        if (text == "true" || text == "1" || text == "on" || text == "yes")
+            return true;
+        if (text == "false" || text == "0" || text == "off" || text == "no")
+            return false;
+        return std::nullopt;
+    }
+
+    std::optional<std::vector<double>> parseNumbers(std::string_view text)
+    {
+        if (text.starts_with('[') && text.ends_with(']'))
+            text = text.substr(1, text.size() - 2);
+        std::vector<double> numbers;
+        while (!text.empty()) {
+            const std::size_t comma = text.find_first_of(",;");
+            std::string_view word = text.substr(0, comma);
+            while (word.starts_with(' '))
+                word.remove_prefix(1);
+            while (word.ends_with(' '))
+                word.remove_suffix(1);
+            const std::optional<double> number = parseNumber(word);
+            if (!number)
+                return std::nullopt;
+            numbers.push_back(*number);
+            text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 1);
+        }
+        return numbers;
+    }
+
+} // namespace
+
+std::optional<double> parseNumber(std::string_view text)
+{
+    double value = 0.0;
+    if (text.starts_with('+') && !text.starts_with("+-"))
+        text.remove_prefix(1);
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size() || text.empty())
+        return std::nullopt;
+    return value;
+}
+
+std::string formatNumber(double value)
+{
+    if (value == 0.0)
+        return "0"; // -0 as well
+    std::array<char, 64> buffer;
+    const auto [end, code] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return code == std::errc() ? std::string(buffer.data(), end) : std::string("nan");
+}
+
+std::string formatFieldValue(const FieldValue &value)
+{
+    struct Formatter {
+        std::string operator()(bool v) const { return v ? "true" : "false"; }
+        std::string operator()(int v) const { return std::to_string(v); }
+        std::string operator()(double v) const { return formatNumber(v); }
+        std::string operator()(const std::string &v) const { return v; }
+        std::string operator()(const std::vector<double> &v) const
+        {
+            std::string all;
+            for (double number : v)
+                all += (all.empty() ? "" : ", ") + formatNumber(number);
+            return all;
+        }
+    };
+    return std::visit(Formatter{}, value);
+}
+
+void checkFieldValue(const FieldInfo &info, const FieldValue &value)
+{
+    const std::string text = formatFieldValue(value);
+    const auto inRange = [&](double number) { return number >= info.minimum && number <= info.maximum; };
+    switch (info.kind) {
+    case FieldKind::Flag:
+        if (!std::holds_alternative<bool>(value))
+            refuse(info, text, "must be true or false");
+        break;
+    case FieldKind::Integer:
+        if (!std::holds_alternative<int>(value) || !inRange(std::get<int>(value)))
+            refuse(info, text, rangeText(info) + ", a whole number");
+        break;
+    case FieldKind::Number:
+        if (!std::holds_alternative<double>(value) || !inRange(std::get<double>(value)))
+            refuse(info, text, rangeText(info));
+        break;
+    case FieldKind::Numbers:
+        if (!std::holds_alternative<std::vector<double>>(value))
+            refuse(info, text, "must be a list of numbers");
+        for (double number : std::get<std::vector<double>>(value))
+            if (!inRange(number))
+                refuse(info, text, "each number " + rangeText(info));
+        break;
+    case FieldKind::Choice: {
+        bool known = false;
+        if (std::holds_alternative<std::string>(value))
+            for (const std::string &choice : info.choices)
+                known = known || choice == std::get<std::string>(value);
+        if (!known)
+            refuse(info, text, "must be one of " + join(info.choices));
+        break;
+    }
+    case FieldKind::Text:
+        if (!std::holds_alternative<std::string>(value))
+            refuse(info, text, "must be a text");
+        break;
+    }
+}
+
+FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)
+{
+    FieldValue value = std::string(text);
+    switch (info.kind) {
+    case FieldKind::Flag:
+        if (const auto flag = parseFlag(text))
+            value = *flag;
+        break;
+    case FieldKind::Integer:
+        if (const auto number = parseNumber(text);
+            number && std::floor(*number) == *number && std::abs(*number) < 2147483648.0)
+            value = static_cast<int>(*number);
+        break;
+    case FieldKind::Number:
+        if (const auto number = parseNumber(text))
+            value = *number;
+        break;
+    case FieldKind::Numbers:
+        if (auto numbers = parseNumbers(text))
+            value = std::move(*numbers);
+        break;
+    case FieldKind::Choice:
+    case FieldKind::Text:
+        break;
+    }
+    checkFieldValue(info, value);
+    return value;
+}
+
+} // namespace faintline

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace faintline {
+
+/// What a setting can hold. Enumerations travel as their name.
+using FieldValue = std::variant<bool, int, double, std::string, std::vector<double>>;
+
+enum class FieldKind { Flag, Integer, Number, Choice, Text, Numbers };
+
+/// What is known of one setting without an object that holds it: drives forms, documentation, checks, JSON.
+struct FieldInfo {
+    std::string name; ///< "spectrogram.windowSeconds"
+    std::string unit; ///< "s", "" where there is none
+    double minimum = 0.0;
+    double maximum = 0.0;
+    std::string sentence;
+    std::vector<std::string> choices; ///< names of an enumeration's values
+    FieldKind kind = FieldKind::Number;
+};
+
+/// One setting of the struct S. `get` answers nothing where S does not hold it now (another detector is chosen).
+template <class S>
+struct Field : FieldInfo {
+    std::function<std::optional<FieldValue>(const S &)> get;
+    std::function<void(S &, const FieldValue &)> set;
+};
+
+/// Text → value of the field's kind, checked against its range.
+/// Throws Error naming the field, the text, and what would be accepted.
+FieldValue parseFieldValue(const FieldInfo &info, std::string_view text);
+
+/// Checks a value against the field's range or choices; throws Error.
+void checkFieldValue(const FieldInfo &info, const FieldValue &value);
+
+/// Shortest text that reads back as the same value, in the C locale.
+std::string formatFieldValue(const FieldValue &value);
+
+/// Shortest decimal form of a number that reads back the same.
+std::string formatNumber(double value);
+
+/// A number from the whole of a text, in the C locale; nothing if it is none.
+std::optional<double> parseNumber(std::string_view text);
+
+// ---- making tables -------------------------------------------------------------------------------------------------
+
+template <class S, class T>
+Field<S> field(T S::*member, std::string name, std::string unit, double minimum, double maximum, std::string sentence)
+{
+    Field<S> result;
+    result.name = std::move(name);
+    result.unit = std::move(unit);
+    result.minimum = minimum;
+    result.maximum = maximum;
+    result.sentence = std::move(sentence);
+    if constexpr (std::is_same_v<T, int>)
+        result.kind = FieldKind::Integer;
+    else if constexpr (std::is_same_v<T, double>)
+        result.kind = FieldKind::Number;
+    else if constexpr (std::is_same_v<T, std::vector<double>>)
+        result.kind = FieldKind::Numbers;
+    else
+        static_assert(!sizeof(T), "this kind of member needs a maker of its own");
+    result.get = [member](const S &s) -> std::optional<FieldValue> { return s.*member; };
+    result.set = [member](S &s, const FieldValue &value) { s.*member = std::get<T>(value); };
+    return result;
+}
+
+template <class S>
+Field<S> field(bool S::*member, std::string name, std::string sentence)
+{
+    Field<S> result;
+    result.name = std::move(name);
+    result.sentence = std::move(sentence);
+    result.kind = FieldKind::Flag;
+    result.get = [member](const S &s) -> std::optional<FieldValue> { return s.*member; };
+    result.set = [member](S &s, const FieldValue &value) { s.*member = std::get<bool>(value); };
+    return result;
+}
+
+/// An enumeration whose values 0, 1, … bear the given names.
+template <class S, class E>
+    requires std::is_enum_v<E>
+Field<S> field(E S::*member, std::string name, std::span<const std::string_view> names, std::string sentence)
+{
+    Field<S> result;
+    result.name = std::move(name);
+    result.sentence = std::move(sentence);
+    result.kind = FieldKind::Choice;
+    result.choices.assign(names.begin(), names.end());
+    result.get = [member, names](const S &s) -> std::optional<FieldValue> {
+        return std::string(names[static_cast<std::size_t>(s.*member)]);
+    };
+    result.set = [member, names](S &s, const FieldValue &value) {
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (names[i] == std::get<std::string>(value))
+                s.*member = static_cast<E>(i);
+    };
+    return result;
+}
+
+/// A struct's table seen from the struct that contains it: names get a prefix, access goes through `reach`,
+/// a function from Outer (const or not) to a pointer to Inner, null where it is not held.
+template <class Outer, class Inner, class Reach>
+std::vector<Field<Outer>> within(const std::string &prefix, const std::vector<Field<Inner>> &fields, Reach reach)
+{
+    std::vector<Field<Outer>> result;
+    for (const Field<Inner> &inner : fields) {
+        Field<Outer> outer;
+        static_cast<FieldInfo &>(outer) = inner;
+        outer.name = prefix + "." + inner.name;
+        outer.get = [reach, get = inner.get](const Outer &o) -> std::optional<FieldValue> {
+            const Inner *held = reach(o);
+            return held ? get(*held) : std::nullopt;
+        };
+        outer.set = [reach, set = inner.set](Outer &o, const FieldValue &value) {
+            if (Inner *held = reach(o))
+                set(*held, value);
+        };
+        result.push_back(std::move(outer));
+    }
+    return result;
+}
+
+} // namespace faintline

@@ -1,0 +1,132 @@
+#include "base/Random.h"
+
+#include "base/fastmath.h"
+#include "base/multiversion.h"
+
+#include <Random123/philox.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace faintline {
+
+namespace {
+
+    inline r123::Philox4x32::ctr_type philoxBlock(std::uint64_t seed, std::uint64_t stream, std::uint64_t block)
+    {
+        const r123::Philox4x32::ctr_type counter{
+            {static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(block >> 32),
+             static_cast<std::uint32_t>(stream), static_cast<std::uint32_t>(stream >> 32)}};
+        const r123::Philox4x32::key_type key{
+            {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}};
+        return r123::Philox4x32()(counter, key);
+    }
+
+    /// Two normals from two words: radius from 31 bits, angle from a quadrant and 30 bits.
+    inline void boxMuller(std::uint32_t radiusWord, std::uint32_t angleWord, float deviation, float &first,
+                          float &second)
+    {
+        const float uniform = static_cast<float>(static_cast<std::int32_t>(radiusWord >> 1)) * 0x1p-31f + 0x1p-32f;
+        const float radius = deviation * std::sqrt(-2.0f * fastLn(uniform));
+        // The low 30 bits turn within -45° … 45°; the high two mirror and reverse, which covers the circle evenly.
+        const float angle = static_cast<float>(static_cast<std::int32_t>(angleWord << 2)) * (6.28318530718f * 0x1p-34f);
+        auto [sine, cosine] = fastSineCosineOctant(angle);
+        swapIf((angleWord >> 30) & 1u, sine, cosine);
+        const float signedRadius =
+            std::bit_cast<float>(std::bit_cast<std::uint32_t>(radius) ^ (angleWord & 0x80000000u));
+        first = signedRadius * cosine;
+        second = signedRadius * sine;
+    }
+
+    constexpr std::size_t lanes = 64; ///< Philox blocks made at a time: a kilobyte of words, enough for any vector unit
+
+    FAINTLINE_MULTIVERSION
+    void philoxWords(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::uint32_t *words)
+    {
+        for (std::size_t i = 0; i < lanes; ++i) {
+            const auto block = philoxBlock(seed, stream, firstBlock + i);
+            words[i] = block[0];
+            words[lanes + i] = block[1];
+            words[2 * lanes + i] = block[2];
+            words[3 * lanes + i] = block[3];
+        }
+    }
+
+    FAINTLINE_MULTIVERSION
+    void normalsFromWords(const std::uint32_t *words, std::size_t blocks, float deviation, float *out)
+    {
+        for (std::size_t i = 0; i < blocks; ++i) {
+            boxMuller(words[i], words[lanes + i], deviation, out[4 * i], out[4 * i + 1]);
+            boxMuller(words[2 * lanes + i], words[3 * lanes + i], deviation, out[4 * i + 2], out[4 * i + 3]);
+        }
+    }
+
+    void normalBlocks(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::size_t blocks,
+                      float deviation, float *out)
+    {
+        std::array<std::uint32_t, 4 * lanes> words;
+        for (std::size_t done = 0; done < blocks; done += lanes) {
+            philoxWords(seed, stream, firstBlock + done, words.data());
+            normalsFromWords(words.data(), std::min(lanes, blocks - done), deviation, out + 4 * done);
+        }
+    }
+
+} // namespace
+
+void Random::refill()
+{
+    const auto words = philoxBlock(m_seed, m_stream, m_block);
+    for (std::size_t i = 0; i < 4; ++i)
+        m_words[i] = words[i];
+    ++m_block;
+    m_used = 0;
+}
+
+std::uint32_t Random::bits()
+{
+    if (m_used == 4)
+        refill();
+    return m_words[static_cast<std::size_t>(m_used++)];
+}
+
+double Random::uniform()
+{
+    return (static_cast<double>(bits()) + 0.5) * 0x1p-32;
+}
+
+double Random::normal()
+{
+    if (m_hasSpare) {
+        m_hasSpare = false;
+        return m_spareNormal;
+    }
+    const double radius = std::sqrt(-2.0 * std::log(uniform()));
+    const double angle = 2.0 * std::numbers::pi * uniform();
+    m_spareNormal = radius * std::sin(angle);
+    m_hasSpare = true;
+    return radius * std::cos(angle);
+}
+
+double Random::exponential()
+{
+    return -std::log(uniform());
+}
+
+void Random::normals(std::span<float> out, float deviation)
+{
+    const std::size_t wholeBlocks = out.size() / 4;
+    normalBlocks(m_seed, m_stream, m_block, wholeBlocks, deviation, out.data());
+    m_block += wholeBlocks;
+    if (const std::span<float> rest = out.subspan(4 * wholeBlocks); !rest.empty()) {
+        std::array<float, 4> last;
+        normalBlocks(m_seed, m_stream, m_block, 1, deviation, last.data());
+        std::copy_n(last.begin(), rest.size(), rest.begin());
+        ++m_block;
+    }
+    m_used = 4;
+    m_hasSpare = false;
+}
+
+} // namespace faintline

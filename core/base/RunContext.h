@@ -1,0 +1,41 @@
+#pragma once
+
+#include "base/Error.h"
+
+#include <functional>
+#include <stop_token>
+#include <string_view>
+
+namespace faintline {
+
+/// What a long computation is given besides its inputs: when to stop, whom to tell, how many threads to use.
+///
+/// Nothing in here may change a byte of a result.
+struct RunContext {
+    std::stop_token stop;
+    /// Called now and then from the computing thread with a fraction in 0 … 1 and what is being done.
+    std::function<void(double fraction, std::string_view what)> progress;
+    int threads = 1;
+
+    /// Reports progress and throws Cancelled if the computation was asked to stop.
+    void checkpoint(double fraction, std::string_view what) const
+    {
+        if (stop.stop_requested())
+            throw Cancelled();
+        if (progress)
+            progress(fraction, what);
+    }
+
+    /// The same context, its progress mapped to the part [from, to] of the whole.
+    RunContext part(double from, double to) const
+    {
+        RunContext inner = *this;
+        if (progress)
+            inner.progress = [outer = progress, from, to](double fraction, std::string_view what) {
+                outer(from + (to - from) * fraction, what);
+            };
+        return inner;
+    }
+};
+
+} // namespace faintline

@@ -1,0 +1,105 @@
+#include "base/json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace faintline {
+
+namespace {
+
+    std::string list(const std::vector<std::string> &words)
+    {
+        std::string all;
+        for (const std::string &word : words)
+            all += (all.empty() ? "" : ", ") + word;
+        return all;
+    }
+
+    std::string place(std::string_view text, std::size_t byte)
+    {
+        const std::string_view before = text.substr(0, byte > 0 ? byte - 1 : 0);
+        const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+        const std::size_t lineStart = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
+        return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - lineStart + 1);
+    }
+
+    /// A value in an error message. Never the inside of an array or object: dumping a hostile one would exhaust the
+    /// stack.
+    std::string shown(const Json &value)
+    {
+        if (value.is_structured())
+            return value.is_array() ? "[…]" : "{…}";
+        return value.is_string() ? value.get<std::string>() : value.dump();
+    }
+
+} // namespace
+
+Json parseJson(std::string_view text, const std::string &where)
+{
+    if (text.starts_with("\xEF\xBB\xBF"))
+        text.remove_prefix(3);
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error &error) {
+        throw Error(where, "is not valid JSON at " + place(text, error.byte));
+    } catch (const Json::exception &) {
+        throw Error(where, "is not valid JSON: a number in it is too large");
+    }
+}
+
+Json readJsonFile(const std::string &path)
+{
+    constexpr std::uintmax_t largest = std::uintmax_t(256) << 20;
+    std::error_code code;
+    if (!std::filesystem::exists(path, code))
+        throw Error(path, "there is no such file");
+    if (!std::filesystem::is_regular_file(path, code))
+        throw Error(path, "is not a file; a JSON file is wanted here");
+    const std::uintmax_t size = std::filesystem::file_size(path, code);
+    if (!code && size > largest)
+        throw Error(path, "is larger than 256 MiB, too large for a JSON file");
+    std::ifstream stream(path, std::ios::binary);
+    std::string text(static_cast<std::size_t>(code ? 0 : size), '\0');
+    if (code || !stream || !stream.read(text.data(), static_cast<std::streamsize>(text.size())))
+        throw Error(path, "cannot be read");
+    return parseJson(text, path);
+}
+
+void checkKeys(const Json &object, const std::string &where, const std::vector<std::string> &known)
+{
+    if (!object.is_object())
+        throw Error(where.empty() ? "JSON" : where, "must be an object, { … }");
+    for (const auto &item : object.items())
+        if (std::find(known.begin(), known.end(), item.key()) == known.end())
+            throw Error(jsonName(where, item.key()), "is not known; known are " + list(known));
+}
+
+FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info)
+{
+    FieldValue result = shown(value);
+    if (info.kind == FieldKind::Text && !value.is_string())
+        throw Error(info.name + " = " + shown(value), "must be a text");
+    if (value.is_boolean()) {
+        result = value.get<bool>();
+    } else if (value.is_number() && info.kind == FieldKind::Integer) {
+        const auto number = value.get<double>();
+        if (std::floor(number) == number && std::abs(number) < 2147483648.0)
+            result = static_cast<int>(number);
+    } else if (value.is_number()) {
+        result = value.get<double>();
+    } else if (value.is_array() && info.kind == FieldKind::Numbers
+               && std::all_of(value.begin(), value.end(), [](const Json &one) { return one.is_number(); })) {
+        result = value.get<std::vector<double>>();
+    }
+    checkFieldValue(info, result);
+    return result;
+}
+
+Json jsonFromFieldValue(const FieldValue &value)
+{
+    return std::visit([](const auto &held) { return Json(held); }, value);
+}
+
+} // namespace faintline

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "base/Field.h"
+#include "detect/Detector.h"
+#include "detect/Recursion.h"
+#include "model/MarkovModel.h"
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace faintline {
+
+/// How K, the factor that makes a path's evidence fade, is found.
+enum class ResetLaw {
+    Fixed, ///< a given ln K (calibrated on noise, or by hand)
+    Mean,  ///< K(t) = K0 - mean of the continued scores (Parsons 2008)
+    Half,  ///< integral control toward 50 % of the states continued
+    None   ///< no reset: all paths start in the first frame (fixed-window Viterbi)
+};
+
+inline constexpr std::array<std::string_view, 4> resetLawNames{"fixed", "mean", "half", "none"};
+
+/// The reset law with its constants.
+struct ResetRule {
+    ResetLaw law = ResetLaw::Fixed;
+    double lnK = 0.0;  ///< Fixed: ln K; Half: where the regulation starts
+    double k0 = 0.0;   ///< Mean: K0
+    double gain = 0.1; ///< Half: change of ln K per frame and unit of deviation from ½
+};
+
+/// The sequential Markov detector.
+///
+///   u(n, 0) = λ(n, 0)
+///   u(n, t) = λ(n, t) + max( ln K + max_m [ ln P(n|m) + u(m, t-1) ], 0 )
+///
+/// u = ln(N Λ), the log-likelihood ratio in nats above the background of a uniform initial law 1/N; a path is *reset* where
+/// the second argument of the outer max wins (only if strictly greater). D(t, cell) = max over the cell's rates.
+/// Decision: D > threshold. Under Mean the statistic is u + K(t), which is Parsons' ln Λ, and K(t) applies to the next
+/// frame's predecessors. Source: Billon 2005 section 3, Parsons 2008 eq. 8 and 10. Oracle: enumeration of all paths;
+/// Lindley's recursion in closed form for one-to-one transitions.
+class Smd final : public Detector
+{
+public:
+    Smd(const MarkovModel &model, const ResetRule &rule);
+
+    void update(std::span<const float> y, std::span<float> statistic) override;
+    void forget(const Grid &grid, const CellBox &box) override;
+    std::span<const float> scores() const override { return m_scores; }
+    Regulation regulation() const override { return m_regulation; }
+
+    /// What is to be added to a score to get the statistic: K(t) under Mean, 0 otherwise.
+    double offset() const { return m_offset; }
+
+    /// All that the next frame depends on; restoring it resumes bit for bit.
+    struct Memory {
+        std::vector<float> scores;
+        double lnK = 0.0;
+        double offset = 0.0;
+        bool isFirst = true;
+    };
+    Memory memory() const { return {m_scores, m_lnK, m_offset, m_isFirst}; }
+    void restore(const Memory &memory);
+
+private:
+    void regulate(double continuedFraction, double meanContinued);
+
+    StateSpace m_space;
+    Likelihood m_likelihood;
+    ResetRule m_rule;
+    Recursion<MaxPlus<float>> m_recursion;
+    std::vector<float> m_scores;
+    std::vector<float> m_lambda;
+    double m_lnK;
+    double m_offset = 0.0;
+    bool m_isFirst = true;
+    Regulation m_regulation;
+};
+
+} // namespace faintline

@@ -1,0 +1,67 @@
+#include "detect/SumDetector.h"
+
+#include "base/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace faintline {
+
+SumDetector::SumDetector(const MarkovModel &model, const ResetRule &rule)
+    : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule), m_recursion(model.space, model.transitionScale),
+      m_weights(static_cast<std::size_t>(model.space.stateCount()), 1.0), m_scores(m_weights.size())
+{
+    if (rule.law != ResetLaw::Fixed && rule.law != ResetLaw::None)
+        throw Error("reset.law", "must be fixed or none where the semiring is sum");
+}
+
+void SumDetector::update(std::span<const float> y, std::span<float> statistic)
+{
+    const auto cells = static_cast<std::size_t>(m_space.cellCount());
+    std::vector<double> lambda(cells);
+    for (std::size_t cell = 0; cell < cells; ++cell)
+        lambda[cell] = m_likelihood.at(static_cast<double>(y[cell]));
+    const double highest = *std::max_element(lambda.begin(), lambda.end());
+
+    if (!m_isFirst) {
+        const std::span<const double> predicted = m_recursion.predict(m_weights);
+        const double factor = m_rule.law == ResetLaw::Fixed ? std::exp(m_rule.lnK) : 1.0;
+        const double fresh = m_rule.law == ResetLaw::Fixed ? std::exp(-m_scale) : 0.0;
+        for (std::size_t n = 0; n < m_weights.size(); ++n)
+            m_weights[n] = factor * predicted[n] + fresh;
+    }
+    m_isFirst = false;
+    double largest = 0.0;
+    for (std::size_t n = 0; n < m_weights.size(); ++n) {
+        m_weights[n] *= std::exp(lambda[n % cells] - highest);
+        largest = std::max(largest, m_weights[n]);
+    }
+    m_scale += highest;
+    if (largest > 0.0) {
+        m_scale += std::log(largest);
+        for (double &weight : m_weights)
+            weight /= largest;
+    }
+    m_lnMean = m_scale + std::log(std::accumulate(m_weights.begin(), m_weights.end(), 0.0) / static_cast<double>(m_weights.size()));
+
+    std::fill(statistic.begin(), statistic.end(), -std::numeric_limits<float>::infinity());
+    for (std::size_t n = 0; n < m_weights.size(); ++n) {
+        m_scores[n] = static_cast<float>(m_scale + std::log(m_weights[n]));
+        statistic[n % cells] = std::max(statistic[n % cells], m_scores[n]);
+    }
+}
+
+void SumDetector::forget(const Grid &grid, const CellBox &box)
+{
+    const double background = std::exp(-m_scale);
+    box.forEachCell(grid, [&](Index cell) {
+        for (Index plane = 0; plane < m_space.planeCount(); ++plane) {
+            double &weight = m_weights[static_cast<std::size_t>(plane * m_space.cellCount() + cell)];
+            weight = std::min(weight, background);
+        }
+    });
+}
+
+} // namespace faintline

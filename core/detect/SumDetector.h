@@ -1,0 +1,45 @@
+#pragma once
+
+#include "detect/Detector.h"
+#include "detect/Recursion.h"
+#include "detect/Smd.h"
+#include "model/MarkovModel.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// The sum-product sibling of the sequential Markov detector: all paths count, not only the best.
+///
+///   A(n, t) = e^{λ(n, t)} · ( K Σ_m P(n|m) A(m, t-1) + r ),   u = ln A
+///
+/// with r = 1 under a fixed reset law (Shiryaev-Roberts) and r = 0 under none, where ln Σ A/N is the log-likelihood ratio of
+/// "a signal since the first frame" (Grossi and Lops 2006, Algorithm 3.1). Kept as scaled weights, so that a
+/// thousand frames neither overflow nor lose digits. Oracle: enumeration of all paths in the linear domain.
+class SumDetector final : public Detector
+{
+public:
+    /// Throws Error for a law other than fixed or none.
+    SumDetector(const MarkovModel &model, const ResetRule &rule);
+
+    void update(std::span<const float> y, std::span<float> statistic) override;
+    void forget(const Grid &grid, const CellBox &box) override;
+    std::span<const float> scores() const override { return m_scores; }
+    Regulation regulation() const override { return {m_rule.lnK, 1.0}; }
+
+    /// ln of the mean of A over all states: the log-likelihood ratio of the uniform initial law.
+    double lnMean() const { return m_lnMean; }
+
+private:
+    StateSpace m_space;
+    Likelihood m_likelihood;
+    ResetRule m_rule;
+    Recursion<SumProduct> m_recursion;
+    std::vector<double> m_weights; ///< A·e^(-scale)
+    double m_scale = 0.0;
+    double m_lnMean = 0.0;
+    bool m_isFirst = true;
+    std::vector<float> m_scores;
+};
+
+} // namespace faintline

@@ -1,0 +1,209 @@
+#include "exchange/ModelFile.h"
+
+#include "base/json.h"
+#include "exchange/NumPy.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    double number(const Json &object, const std::string &where, const std::string &key, double otherwise)
+    {
+        const auto found = object.find(key);
+        if (found == object.end())
+            return otherwise;
+        if (!found->is_number())
+            throw Error(jsonName(where, key), "must be a number");
+        return found->get<double>();
+    }
+
+    bool flag(const Json &object, const std::string &where, const std::string &key)
+    {
+        const auto found = object.find(key);
+        if (found == object.end())
+            return false;
+        if (!found->is_boolean())
+            throw Error(jsonName(where, key), "must be true or false");
+        return found->get<bool>();
+    }
+
+    std::vector<double> numbers(const Json &object, const std::string &where, const std::string &key)
+    {
+        const auto found = object.find(key);
+        if (found == object.end())
+            return {};
+        std::vector<double> result;
+        if (found->is_array())
+            for (const Json &value : *found)
+                if (value.is_number())
+                    result.push_back(value.get<double>());
+        if (!found->is_array() || result.size() != found->size() || result.empty())
+            throw Error(jsonName(where, key), "must be a list of numbers");
+        return result;
+    }
+
+    template <class Names>
+    std::size_t choice(const Json &object, const std::string &where, const std::string &key, const Names &names, std::size_t otherwise)
+    {
+        const auto found = object.find(key);
+        if (found == object.end())
+            return otherwise;
+        std::string known;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (found->is_string() && found->template get<std::string>() == names[i])
+                return i;
+            known += (i ? ", " : "") + std::string(names[i]);
+        }
+        throw Error(jsonName(where, key), "must be one of " + known);
+    }
+
+    std::string text(const Json &object, const std::string &where, const std::string &key, const std::string &otherwise)
+    {
+        const auto found = object.find(key);
+        if (found == object.end())
+            return otherwise;
+        if (!found->is_string())
+            throw Error(jsonName(where, key), "must be a text");
+        return found->get<std::string>();
+    }
+
+    void readRates(KinematicAxis &axis, const std::vector<double> &rates, const std::string &where)
+    {
+        for (std::size_t i = 0; i < rates.size(); ++i)
+            if (rates[i] != std::floor(rates[i]) || std::abs(rates[i]) > 1000.0 || (i > 0 && rates[i] != rates[i - 1] + 1.0))
+                throw Error(where + ".rates", "must be consecutive integers, ascending");
+        if (rates.empty())
+            return;
+        axis.firstRate = static_cast<int>(rates.front());
+        axis.rateCount = static_cast<int>(rates.size());
+    }
+
+    KinematicAxis readAxis(const Json &json, const std::string &where)
+    {
+        checkKeys(json, where, {"name", "cells", "cyclic", "rates", "rateChange", "step", "round"});
+        KinematicAxis axis;
+        axis.name = text(json, where, "name", "");
+        const double cells = number(json, where, "cells", 0.0);
+        if (!(cells >= 1.0 && cells <= 1e9 && cells == std::floor(cells)))
+            throw Error(where + ".cells", "must be a whole number from 1 on");
+        axis.cells = static_cast<Index>(cells);
+        axis.cyclic = flag(json, where, "cyclic");
+        readRates(axis, numbers(json, where, "rates"), where);
+        if (json.contains("rateChange"))
+            axis.rateChange = numbers(json, where, "rateChange");
+        axis.step = numbers(json, where, "step");
+        axis.rounding = static_cast<Rounding>(choice(json, where, "round", roundingNames, 0));
+        axis.check(where);
+        return axis;
+    }
+
+} // namespace
+
+ModelFile readModelFile(const std::string &path)
+{
+    const Json json = readJsonFile(path);
+    checkKeys(json, path, {"axes", "likelihood", "reset", "initial", "semiring", "scaleTransitions"});
+    if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].empty())
+        throw Error(path, "needs \"axes\", a list of at least one axis");
+    if (!json.contains("likelihood") || !json["likelihood"].is_object())
+        throw Error(path, "needs \"likelihood\", such as {\"kind\": \"rice\", \"r0\": 0.5}");
+
+    std::vector<KinematicAxis> axes;
+    for (std::size_t i = 0; i < json["axes"].size(); ++i)
+        axes.push_back(readAxis(json["axes"][i], path + ": axes[" + std::to_string(i) + "]"));
+
+    const Json &likelihood = json["likelihood"];
+    const std::string where = path + ": likelihood";
+    checkKeys(likelihood, where, {"kind", "r0", "snr"});
+    const auto kind = static_cast<LikelihoodKind>(choice(likelihood, where, "kind", likelihoodNames, 2));
+    const double snr = number(likelihood, where, "r0", number(likelihood, where, "snr", 1.0));
+    if (kind == LikelihoodKind::Rice && !likelihood.contains("r0") && !likelihood.contains("snr"))
+        throw Error(where, "rice needs \"r0\", the signal-to-noise ratio as a power ratio");
+    if (kind == LikelihoodKind::Exponential && !likelihood.contains("snr") && !likelihood.contains("r0"))
+        throw Error(where, "exponential needs \"snr\", a power ratio");
+    if (!(snr > 0.0 && snr < 1e12))
+        throw Error(where + (likelihood.contains("r0") ? ".r0" : ".snr") + " = " + formatNumber(snr), "must be a power ratio above 0");
+
+    ModelFile file;
+    const bool scales = flag(json, path, "scaleTransitions");
+    if (scales && !likelihood.contains("r0") && !likelihood.contains("snr"))
+        throw Error(path + ": scaleTransitions", "needs \"snr\" in the likelihood");
+    try {
+        file.model = {StateSpace(std::move(axes)), Likelihood(kind, snr), scales ? (1.0 + snr) / snr : 1.0};
+    } catch (const Error &error) {
+        throw Error(path + ": " + error.where(), error.why());
+    }
+    if (json.contains("initial") && json["initial"] != "uniform")
+        throw Error(path + ": initial", "must be \"uniform\" here");
+    file.isSum = choice(json, path, "semiring", std::array<std::string_view, 2>{"max", "sum"}, 0) == 1;
+    if (json.contains("reset")) {
+        const Json &reset = json["reset"];
+        const std::string place = path + ": reset";
+        checkKeys(reset, place, {"law", "lnK", "K0", "gain", "semiring"});
+        file.reset.law = static_cast<ResetLaw>(choice(reset, place, "law", resetLawNames, 0));
+        file.reset.lnK = number(reset, place, "lnK", 0.0);
+        file.reset.k0 = number(reset, place, "K0", 0.0);
+        file.reset.gain = number(reset, place, "gain", file.reset.gain);
+        file.isSum = file.isSum || choice(reset, place, "semiring", std::array<std::string_view, 2>{"max", "sum"}, 0) == 1;
+    }
+    if (file.isSum && file.reset.law != ResetLaw::Fixed && file.reset.law != ResetLaw::None)
+        throw Error(path + ": reset.law", "must be fixed or none where the semiring is sum");
+    return file;
+}
+
+GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
+{
+    const Json json = readJsonFile(path);
+    checkKeys(json, path, {"axes", "time"});
+    if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].size() + 1 != shape.size())
+        throw Error(path, "needs \"axes\", one for each of the frames' " + std::to_string(shape.size() - 1) + " cell axes");
+    GridFile file;
+    for (std::size_t i = 0; i < json["axes"].size(); ++i) {
+        const Json &axis = json["axes"][i];
+        const std::string where = path + ": axes[" + std::to_string(i) + "]";
+        checkKeys(axis, where, {"name", "unit", "first", "step", "count", "cells", "cyclic"});
+        const double count = number(axis, where, "count", number(axis, where, "cells", static_cast<double>(shape[i + 1])));
+        if (count != static_cast<double>(shape[i + 1]))
+            throw Error(where + ".count", "is " + formatNumber(count) + ", but the frames have " + std::to_string(shape[i + 1]) + " cells there");
+        file.grid.axes.push_back({text(axis, where, "name", "axis " + std::to_string(i + 1)), text(axis, where, "unit", ""),
+                                  number(axis, where, "first", 0.0), number(axis, where, "step", 1.0), shape[i + 1],
+                                  flag(axis, where, "cyclic")});
+        if (file.grid.axes.back().step <= 0.0)
+            throw Error(where + ".step", "must be above 0");
+    }
+    file.time = {"time", "s", 0.0, 1.0, shape[0], false};
+    if (json.contains("time")) {
+        const std::string where = path + ": time";
+        checkKeys(json["time"], where, {"first", "step", "name", "unit"});
+        file.time.first = number(json["time"], where, "first", 0.0);
+        file.time.step = number(json["time"], where, "step", 1.0);
+        if (file.time.step <= 0.0)
+            throw Error(where + ".step", "must be above 0");
+    }
+    return file;
+}
+
+NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath)
+{
+    NumPyArray array = readNumPy(path);
+    if (array.shape.size() < 2 || array.values.empty())
+        throw Error(path, "must have the shape (frames, cells…) with at least one of each");
+    const auto bad = std::find_if(array.values.begin(), array.values.end(), [](float y) { return !(y >= 0.0f) || std::isinf(y); });
+    if (bad != array.values.end())
+        throw Error(path, "holds " + formatNumber(static_cast<double>(*bad)) + " at position "
+                              + std::to_string(bad - array.values.begin()) + "; normalised power is finite and not negative");
+    GridFile file;
+    if (gridPath.empty()) {
+        file.time = {"time", "s", 0.0, 1.0, array.shape[0], false};
+        for (std::size_t i = 1; i < array.shape.size(); ++i)
+            file.grid.axes.push_back({"axis " + std::to_string(i), "", 0.0, 1.0, array.shape[i], false});
+    } else {
+        file = readGridFile(gridPath, array.shape);
+    }
+    return std::make_shared<FrameArray>(file.time, file.grid, std::move(array.values));
+}
+
+} // namespace faintline

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "base/Grid.h"
+#include "detect/Smd.h"
+#include "model/MarkovModel.h"
+#include "spectrum/NormalisedFrames.h"
+
+#include <string>
+
+namespace faintline {
+
+/// A model and its reset rule as read from a JSON file.
+///
+///   { "axes": [ { "name", "cells", "cyclic", "rates": [-2, …, 2], "rateChange": [h(0), h(1), …], "step": [q(0), …],
+///                 "round": "halfDown" | "trunc" } ],
+///     "likelihood": { "kind": "rice" | "exponential" | "linear", "r0" | "snr" },
+///     "reset": { "law": "fixed" | "mean" | "half" | "none", "lnK", "K0" }, "initial": "uniform",
+///     "semiring": "max" | "sum", "scaleTransitions": bool }
+///
+/// Every key but axes and likelihood may be left out.
+struct ModelFile {
+    MarkovModel model;
+    ResetRule reset;
+    bool isSum = false; ///< semiring "sum": log-sum-exp instead of max
+};
+
+/// Throws Error naming the file and the key.
+ModelFile readModelFile(const std::string &path);
+
+/// Grid and time axis of a stack of frames: { "axes": [ { "name", "unit", "first", "step", "count", "cyclic" } ],
+/// "time": { "first", "step" } }; count may be left out where the frames tell it. Throws Error.
+struct GridFile {
+    Grid grid;
+    Axis time;
+};
+GridFile readGridFile(const std::string &path, const std::vector<Index> &shape);
+
+/// Ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units). Values that are
+/// negative or not finite are refused.
+NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath);
+
+} // namespace faintline

@@ -1,0 +1,160 @@
+#include "exchange/NumPy.h"
+
+#include "base/Error.h"
+#include "base/Field.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::string_view magic("\x93NUMPY", 6);
+
+    std::string shapeText(const std::vector<Index> &shape)
+    {
+        std::string text = "(";
+        for (Index n : shape)
+            text += std::to_string(n) + ",";
+        return text + ")";
+    }
+
+    std::string header(const std::vector<Index> &shape)
+    {
+        std::string dictionary = "{'descr': '<f4', 'fortran_order': False, 'shape': " + shapeText(shape) + ", }";
+        while ((magic.size() + 4 + dictionary.size() + 1) % 64 != 0)
+            dictionary += ' ';
+        dictionary += '\n';
+        std::string text(magic);
+        text += '\x01';
+        text += '\x00';
+        text += static_cast<char>(dictionary.size() & 0xff);
+        text += static_cast<char>(dictionary.size() >> 8);
+        return text + dictionary;
+    }
+
+    /// The text after "'key':" in the header's dictionary.
+    std::string_view entry(std::string_view dictionary, std::string_view key, const std::string &path)
+    {
+        const std::size_t at = dictionary.find("'" + std::string(key) + "'");
+        const std::size_t colon = at == std::string_view::npos ? at : dictionary.find(':', at);
+        if (colon == std::string_view::npos)
+            throw Error(path, "its NumPy header has no '" + std::string(key) + "'");
+        std::string_view rest = dictionary.substr(colon + 1);
+        while (rest.starts_with(' '))
+            rest.remove_prefix(1);
+        return rest;
+    }
+
+    std::vector<Index> parseShape(std::string_view text, const std::string &path)
+    {
+        if (!text.starts_with('('))
+            throw Error(path, "its NumPy header has no shape");
+        text = text.substr(1, text.find(')') - 1);
+        std::vector<Index> shape;
+        double values = 1.0;
+        while (!text.empty()) {
+            const std::size_t comma = text.find(',');
+            std::string_view word = text.substr(0, comma);
+            while (word.starts_with(' '))
+                word.remove_prefix(1);
+            while (word.ends_with(' '))
+                word.remove_suffix(1);
+            if (!word.empty()) {
+                const auto number = parseNumber(word);
+                if (!number || *number < 0.0 || *number != std::floor(*number) || *number > 0x1p40)
+                    throw Error(path, "its NumPy shape holds '" + std::string(word) + "'");
+                shape.push_back(static_cast<Index>(*number));
+                values *= *number;
+                if (values > 0x1p31)
+                    throw Error(path, "holds more than 2³¹ values");
+            }
+            text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 1);
+        }
+        return shape;
+    }
+
+    template <class T>
+    void readValues(std::ifstream &file, NumPyArray &array, std::size_t total, const std::string &path)
+    {
+        const Error cutShort(path, "is cut short: its shape " + shapeText(array.shape) + " asks for " + std::to_string(total) + " values");
+        std::error_code code;
+        const std::uintmax_t size = std::filesystem::file_size(path, code);
+        if (!code && size < total * sizeof(T))
+            throw cutShort; // before room is made for values that are not there
+        array.values.resize(total);
+        std::vector<T> chunk(1 << 16);
+        for (std::size_t done = 0; done < total;) {
+            const std::size_t count = std::min(chunk.size(), total - done);
+            if (!file.read(reinterpret_cast<char *>(chunk.data()), static_cast<std::streamsize>(count * sizeof(T))))
+                throw cutShort;
+            for (std::size_t i = 0; i < count; ++i)
+                array.values[done + i] = static_cast<float>(chunk[i]);
+            done += count;
+        }
+    }
+
+} // namespace
+
+NumPyArray readNumPy(const std::string &path)
+{
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        throw Error(path, "cannot be opened; a NumPy file (.npy) is wanted");
+    char start[10] = {};
+    if (!file.read(start, 10) || std::string_view(start, 6) != magic)
+        throw Error(path, "is no NumPy file (.npy)");
+    std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
+    if (start[6] >= 2) {
+        unsigned char more[2] = {};
+        file.read(reinterpret_cast<char *>(more), 2);
+        length += (static_cast<std::size_t>(more[0]) << 16) + (static_cast<std::size_t>(more[1]) << 24);
+    }
+    if (length > (1u << 20))
+        throw Error(path, "its NumPy header is longer than any should be");
+    std::string dictionary(length, ' ');
+    if (!file.read(dictionary.data(), static_cast<std::streamsize>(length)))
+        throw Error(path, "is cut short in its NumPy header");
+    if (entry(dictionary, "fortran_order", path).starts_with("True"))
+        throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
+    NumPyArray array;
+    array.shape = parseShape(entry(dictionary, "shape", path), path);
+    const auto total = static_cast<std::size_t>(std::accumulate(array.shape.begin(), array.shape.end(), Index(1), std::multiplies<>()));
+    const std::string_view type = entry(dictionary, "descr", path);
+    if (type.starts_with("'<f4'"))
+        readValues<float>(file, array, total, path);
+    else if (type.starts_with("'<f8'"))
+        readValues<double>(file, array, total, path);
+    else
+        throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; float32 or float64, little-endian, is wanted");
+    return array;
+}
+
+NumPyWriter::NumPyWriter(const std::string &path, const std::vector<Index> &shape) : m_file(path), m_path(path)
+{
+    static_assert(std::endian::native == std::endian::little);
+    for (Index n : shape)
+        m_expected *= n;
+    m_file.write(header(shape));
+}
+
+void NumPyWriter::write(std::span<const float> values)
+{
+    m_file.write(std::as_bytes(values));
+    m_written += std::ssize(values);
+}
+
+void NumPyWriter::finish()
+{
+    if (m_written != m_expected)
+        throw Error(m_path, std::to_string(m_written) + " of " + std::to_string(m_expected) + " values were written", Error::Kind::Failure);
+    m_file.commit();
+}
+
+} // namespace faintline

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "base/AtomicFile.h"
+#include "base/Axis.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// An array in NumPy's .npy format, version 1.0: float32 or float64, little-endian, C order.
+struct NumPyArray {
+    std::vector<Index> shape;
+    std::vector<float> values; ///< float64 is rounded to single precision
+};
+
+/// Throws Error where the file is no such array, is cut short, or holds more than 2³¹ values.
+NumPyArray readNumPy(const std::string &path);
+
+/// Writes a float32 array piece by piece; the file appears when `finish` is called, with all values there.
+class NumPyWriter
+{
+public:
+    NumPyWriter(const std::string &path, const std::vector<Index> &shape);
+    void write(std::span<const float> values);
+    /// Throws Error where fewer or more values came than the shape says.
+    void finish();
+
+private:
+    AtomicFile m_file;
+    std::string m_path;
+    Index m_expected = 1;
+    Index m_written = 0;
+};
+
+} // namespace faintline

@@ -1,0 +1,208 @@
+#include "exchange/writeEvents.h"
+
+#include "base/AtomicFile.h"
+#include "base/json.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace faintline {
+
+namespace {
+
+    std::string row(std::initializer_list<std::string> cells)
+    {
+        std::string line;
+        for (const std::string &cell : cells)
+            line += (line.empty() ? "" : ",") + cell;
+        return line + "\n";
+    }
+
+    /// Column names of a position: f for a frequency, else the axes' names.
+    std::vector<std::string> positionNames(const Grid &grid)
+    {
+        std::vector<std::string> names;
+        for (const Axis &axis : grid.axes)
+            names.push_back(grid.axes.size() == 1 ? "f" : axis.name);
+        return names;
+    }
+
+    std::string joined(const std::vector<std::string> &words)
+    {
+        std::string all;
+        for (const std::string &word : words)
+            all += (all.empty() ? "" : ",") + word;
+        return all;
+    }
+
+    std::string joined(const std::vector<double> &numbers)
+    {
+        std::vector<std::string> words;
+        for (double number : numbers)
+            words.push_back(formatNumber(number));
+        return joined(words);
+    }
+
+    std::vector<double> positionOf(const Grid &grid, Index cell)
+    {
+        std::vector<double> position;
+        const std::vector<Index> coordinates = grid.coordinates(cell);
+        for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
+            position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
+        return position;
+    }
+
+    std::string eventsCsv(const Analysis &analysis)
+    {
+        std::string text = row({"event", "t_onset", "t_detect", "t_end", joined(positionNames(analysis.grid())), "drift_hz_per_s",
+                                "statistic", "confirmed", "open"});
+        for (const Event &e : events(analysis))
+            text += row({std::to_string(e.id), formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds), formatNumber(e.endSeconds),
+                         joined(e.position), formatNumber(e.driftPerSecond), formatNumber(e.statistic), e.isConfirmed ? "1" : "0",
+                         e.isOpen ? "1" : "0"});
+        return text;
+    }
+
+    Json eventJson(const Event &e, const Grid &grid)
+    {
+        Json json;
+        json["event"] = e.id;
+        json["t_onset"] = e.onsetSeconds;
+        json["t_detect"] = e.detectSeconds;
+        json["t_end"] = e.endSeconds;
+        const std::vector<std::string> names = positionNames(grid);
+        for (std::size_t axis = 0; axis < names.size(); ++axis)
+            json[names[axis]] = e.position[axis];
+        json["drift_hz_per_s"] = e.driftPerSecond;
+        json["statistic"] = e.statistic;
+        json["confirmed"] = e.isConfirmed;
+        json["open"] = e.isOpen;
+        return json;
+    }
+
+    std::string eventsJson(const Analysis &analysis)
+    {
+        Json json;
+        json["threshold"] = analysis.threshold;
+        json["lnK"] = analysis.calibration->lnK;
+        json["settings"] = parseJson(settingsToJson(analysis.settings), "settings");
+        json["events"] = Json::array();
+        for (const Event &e : events(analysis))
+            json["events"].push_back(eventJson(e, analysis.grid()));
+        return json.dump(2) + "\n";
+    }
+
+    std::string audacityLabels(const Analysis &analysis)
+    {
+        std::string text;
+        for (const Event &e : events(analysis))
+            text += formatNumber(e.onsetSeconds) + "\t" + formatNumber(e.endSeconds) + "\t" + formatNumber(e.position.back()) + " Hz, "
+                + formatNumber(std::round(10.0 * e.statistic) / 10.0) + " nat\n";
+        return text;
+    }
+
+    std::string sigmfAnnotations(const Analysis &analysis)
+    {
+        if (!analysis.recording)
+            throw Error("events as SigMF", "need a recording; write .csv or .json for ready-made frames");
+        const double rate = analysis.recording->info().sampleRateHz;
+        const double centre = analysis.recording->info().centreHz;
+        Json json;
+        json["global"] = {{"core:version", "1.0.0"}, {"core:sample_rate", rate},
+                          {"core:description", "Events found by Faintline's sequential Markov detector"}};
+        json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
+        json["annotations"] = Json::array();
+        for (const Event &e : events(analysis)) {
+            const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [&](const Track &t) { return t.id == e.id; });
+            double low = e.position.back();
+            double high = low;
+            for (const TrackPoint &point : track->points) {
+                const double hz = analysis.grid().axes.back().value(static_cast<double>(point.cell));
+                low = std::min(low, hz);
+                high = std::max(high, hz);
+            }
+            Json annotation;
+            annotation["core:sample_start"] = std::llround(e.onsetSeconds * rate);
+            annotation["core:sample_count"] = std::max(1LL, std::llround((e.endSeconds - e.onsetSeconds) * rate));
+            annotation["core:freq_lower_edge"] = centre + low;
+            annotation["core:freq_upper_edge"] = centre + high;
+            annotation["core:label"] = "line " + std::to_string(e.id);
+            annotation["core:comment"] = "statistic " + formatNumber(e.statistic) + " nat";
+            json["annotations"].push_back(annotation);
+        }
+        return json.dump(2) + "\n";
+    }
+
+    std::string tracksCsv(const Analysis &analysis)
+    {
+        std::string text = row({"track", "t", joined(positionNames(analysis.grid())), "statistic"});
+        for (const Track &track : analysis.tracks)
+            for (const TrackPoint &point : track.points)
+                text += row({std::to_string(track.id), formatNumber(analysis.time().value(static_cast<double>(point.frame))),
+                             joined(positionOf(analysis.grid(), point.cell)), formatNumber(point.statistic)});
+        return text;
+    }
+
+    std::string tracksJson(const Analysis &analysis)
+    {
+        Json json = Json::array();
+        const std::vector<std::string> names = positionNames(analysis.grid());
+        for (const Track &track : analysis.tracks) {
+            Json one;
+            one["track"] = track.id;
+            one["t"] = Json::array();
+            for (const std::string &name : names)
+                one[name] = Json::array();
+            one["statistic"] = Json::array();
+            for (const TrackPoint &point : track.points) {
+                one["t"].push_back(analysis.time().value(static_cast<double>(point.frame)));
+                const std::vector<double> position = positionOf(analysis.grid(), point.cell);
+                for (std::size_t axis = 0; axis < names.size(); ++axis)
+                    one[names[axis]].push_back(position[axis]);
+                one["statistic"].push_back(point.statistic);
+            }
+            json.push_back(std::move(one));
+        }
+        return json.dump() + "\n";
+    }
+
+    void checkExtension(const std::string &path, std::initializer_list<std::string_view> extensions, const std::string &known)
+    {
+        if (std::none_of(extensions.begin(), extensions.end(), [&](std::string_view extension) { return path.ends_with(extension); }))
+            throw Error(path, "the kind of file is told by its extension: " + known);
+    }
+
+} // namespace
+
+void checkEventsPath(const std::string &path)
+{
+    checkExtension(path, {".csv", ".json", ".txt", ".sigmf-meta"}, ".csv, .json, .txt (Audacity labels) or .sigmf-meta");
+}
+
+void checkTracksPath(const std::string &path)
+{
+    checkExtension(path, {".csv", ".json"}, ".csv or .json");
+}
+
+void writeEvents(const Analysis &analysis, const std::string &path)
+{
+    checkEventsPath(path);
+    if (path.ends_with(".csv"))
+        writeTextFile(path, eventsCsv(analysis));
+    else if (path.ends_with(".json"))
+        writeTextFile(path, eventsJson(analysis));
+    else if (path.ends_with(".txt"))
+        writeTextFile(path, audacityLabels(analysis));
+    else
+        writeTextFile(path, sigmfAnnotations(analysis));
+}
+
+void writeTracks(const Analysis &analysis, const std::string &path)
+{
+    checkTracksPath(path);
+    writeTextFile(path, path.ends_with(".csv") ? tracksCsv(analysis) : tracksJson(analysis));
+}
+
+} // namespace faintline

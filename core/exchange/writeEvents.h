@@ -1,0 +1,23 @@
+#pragma once
+
+#include "analysis/analyse.h"
+
+#include <string>
+
+namespace faintline {
+
+/// Writes the events of an analysis, the kind by the extension: .csv, .json, .txt (Audacity labels), .sigmf-meta (annotations).
+///
+/// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz at detection; or one column per axis), drift_hz_per_s,
+/// statistic (nat), confirmed, open. Numbers in the C locale, shortest form that reads back the same. Files appear only
+/// when complete. Throws Error for an unknown extension or a full disk.
+void writeEvents(const Analysis &analysis, const std::string &path);
+
+/// Throws Error where a name's extension is none that `writeEvents` or `writeTracks` knows: to be asked before a long run.
+void checkEventsPath(const std::string &path);
+void checkTracksPath(const std::string &path);
+
+/// Writes the tracks: .csv with a row per frame of each track (track, t, f, statistic), or .json.
+void writeTracks(const Analysis &analysis, const std::string &path);
+
+} // namespace faintline

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "model/KinematicAxis.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// The product of kinematic axes: every combination of one rate and one cell per axis is a state.
+///
+/// Memory order: (rate of axis 1, …, rate of axis A, cell of axis 1, …, cell of axis A), the last index contiguous. All
+/// states of one rate combination form a *plane* of cellCount() values that lies like a frame does.
+class StateSpace
+{
+public:
+    StateSpace() = default;
+    /// Throws Error where an axis is not sound.
+    explicit StateSpace(std::vector<KinematicAxis> axes);
+
+    const std::vector<KinematicAxis> &axes() const { return m_axes; }
+    Index cellCount() const { return m_cellCount; }   ///< cells of a frame
+    Index planeCount() const { return m_planeCount; } ///< rate combinations
+    Index stateCount() const { return m_cellCount * m_planeCount; }
+
+    /// A state by its coordinates.
+    struct Coordinates {
+        std::vector<int> rates;   ///< rate indices, 0 … rateCount-1
+        std::vector<Index> cells;
+    };
+    Coordinates coordinates(Index state) const;
+    Index state(const Coordinates &coordinates) const;
+
+    Index planeOf(Index state) const { return state / m_cellCount; }
+    Index cellOf(Index state) const { return state % m_cellCount; }
+
+    /// Rates, in cells per step, of the states of one plane: one per axis.
+    std::vector<int> ratesOfPlane(Index plane) const;
+
+    struct Predecessor {
+        Index state;
+        double lnProbability;
+    };
+    /// The states that can move into `state`, lowest rate first, then lowest cell: the order in which ties are decided.
+    std::vector<Predecessor> predecessors(Index state) const;
+
+    /// The same axes over a box of cells, none of them cyclic: the state space of a tracker's window.
+    StateSpace window(const std::vector<Index> &cells) const;
+
+private:
+    std::vector<KinematicAxis> m_axes;
+    std::vector<std::vector<KinematicAxis::Move>> m_moves;
+    Index m_cellCount = 0;
+    Index m_planeCount = 0;
+};
+
+} // namespace faintline

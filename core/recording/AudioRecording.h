@@ -1,0 +1,66 @@
+#pragma once
+
+#include "recording/AudioDecoder.h"
+#include "recording/Recording.h"
+
+#include <memory>
+#include <mutex>
+
+namespace faintline {
+
+/// Whatever libsndfile reads: WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and more, with any number of channels.
+///
+/// With `iq`, channels 2k and 2k+1 are I and Q of complex channel k. Start time and centre frequency are taken from a
+/// broadcast chunk (bext) or from the chunk that receivers write (auxi), where there is one. A file that was cut short
+/// gives what is there, with a note.
+///
+/// Uncompressed data is read where it is wanted. Compressed data is decoded in fixed blocks that are kept while they
+/// are in use. Each block of a lossy codec (OGG, MP3) is decoded by a fresh decoder after a run-up, which it needs to
+/// settle (libsndfile's Vorbis seek gives a wrong first block), so that a sample's value never depends on what was read
+/// before. A codec that cannot seek is decoded from the beginning. Thread-safe: threads use handles of their own.
+class AudioRecording final : public Recording
+{
+public:
+    /// Throws Error where the file cannot be opened or is not a recording, saying what would be accepted.
+    AudioRecording(const std::string &path, bool iq);
+    ~AudioRecording() override;
+
+    void read(int channel, Index first, Index count, std::span<float> out) const override;
+
+    /// Whether libsndfile knows the content of a file, sound or damaged.
+    static bool recognises(const std::string &path);
+
+private:
+    struct Handle {
+        std::unique_ptr<AudioDecoder> decoder;
+        std::vector<float> samples; ///< the block last decoded, or scratch; all channels interleaved
+        Index block = -1;
+    };
+    enum class Access { Direct, Blocks, Forward };
+
+    std::unique_ptr<AudioDecoder> openDecoder() const;
+    std::unique_ptr<Handle> borrow(Index block, Index position) const;
+    void giveBack(std::unique_ptr<Handle> handle) const;
+    void readDirectly(Index offset, Index first, std::span<float> out) const;
+    void readBlocks(Index offset, Index first, std::span<float> out) const;
+    void decodeBlock(Handle &handle, Index block) const;
+    bool isReadable(std::unique_ptr<AudioDecoder> &decoder, Index sample) const;
+    Index readableCount(std::unique_ptr<AudioDecoder> &decoder) const;
+    void copyChannel(std::span<const float> frames, Index offset, std::span<float> out) const;
+    [[noreturn]] void failAt(Index sample) const;
+
+    std::shared_ptr<const FileBytes> m_file;
+    Index m_streams = 1; ///< channels of the file
+    Access m_access = Access::Direct;
+    Index m_runUp = 0;
+    Index m_blockSamples = 0;
+    mutable std::mutex m_mutex;
+    mutable std::vector<std::unique_ptr<Handle>> m_idle; ///< guarded by m_mutex
+};
+
+/// What openRecording accepts, for messages.
+inline constexpr const char *acceptedFormats =
+    "accepted are WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and other audio files, SigMF pairs (.sigmf-meta, "
+    ".sigmf-data), and raw samples when their type and rate are given (such as --raw-type ci16_le --raw-rate 48000)";
+
+} // namespace faintline

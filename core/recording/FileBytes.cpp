@@ -1,0 +1,56 @@
+#include "recording/FileBytes.h"
+
+#include "base/Error.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace faintline {
+
+FileBytes::FileBytes(const std::string &path) : m_path(path)
+{
+    // Without O_NONBLOCK a named pipe would keep us waiting for its writer.
+    m_descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (m_descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
+        throw Error(path, "there is no such file");
+    if (m_descriptor < 0)
+        throw Error(path, std::string("cannot be opened: ") + std::strerror(errno));
+    struct stat status = {};
+    const bool isKnown = ::fstat(m_descriptor, &status) == 0;
+    if (isKnown && S_ISREG(status.st_mode)) {
+        m_size = static_cast<Index>(status.st_size);
+        return;
+    }
+    ::close(m_descriptor);
+    if (isKnown && S_ISDIR(status.st_mode))
+        throw Error(path, "is a folder; a recording is a file");
+    throw Error(path, "is a device or a pipe; a recording must be a regular file, because it is read out of order");
+}
+
+FileBytes::~FileBytes()
+{
+    ::close(m_descriptor);
+}
+
+std::size_t FileBytes::readAt(Index offset, std::span<std::byte> out) const
+{
+    std::size_t done = 0;
+    while (done < out.size()) {
+        const auto from = static_cast<off_t>(offset) + static_cast<off_t>(done);
+        const ssize_t got = ::pread(m_descriptor, out.data() + done, out.size() - done, from);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            throw Error(m_path, std::string("cannot be read: ") + std::strerror(errno), Error::Kind::Failure);
+        if (got == 0)
+            break;
+        done += static_cast<std::size_t>(got);
+    }
+    return done;
+}
+
+} // namespace faintline

@@ -1,0 +1,36 @@
+#include "recording/InjectedRecording.h"
+
+namespace faintline {
+
+InjectedRecording::InjectedRecording(RecordingPointer base, const std::vector<InjectedLine> &lines, int channel,
+                                     std::uint64_t seed)
+    : m_base(std::move(base)), m_channel(channel)
+{
+    m_info = m_base->info();
+    for (const auto &[line, amplitude] : lines) {
+        checkLine(line, m_info, "lines[" + std::to_string(m_tones.size()) + "]");
+        m_tones.emplace_back(line, amplitude, m_info, seed, std::ssize(m_tones));
+    }
+    m_info.notes.push_back(std::to_string(lines.size()) + " known line(s) were injected into channel "
+                           + std::to_string(channel) + ".");
+}
+
+void InjectedRecording::read(int channel, Index first, Index count, std::span<float> out) const
+{
+    fill(first, count, out, [&](Index from, std::span<float> inside) {
+        m_base->read(channel, from, std::ssize(inside) / m_info.floatsPerSample(), inside);
+        if (channel == m_channel)
+            for (const Tone &tone : m_tones)
+                tone.addTo(from, inside);
+    });
+}
+
+Truth InjectedRecording::truth() const
+{
+    Truth truth;
+    for (const Tone &tone : m_tones)
+        truth.lines.push_back(tone.truth());
+    return truth;
+}
+
+} // namespace faintline

@@ -1,0 +1,159 @@
+#include "recording/LineScene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    std::string lineName(std::size_t i)
+    {
+        return "lines[" + std::to_string(i) + "]";
+    }
+
+} // namespace
+
+const std::vector<Field<LineSettings>> &LineSettings::fields()
+{
+    using S = LineSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::snrDb, "snrDb", "dB", -60.0, 120.0,
+              "Power of the line over the noise power in one resolution cell of a rectangular window of "
+              "referenceSeconds."),
+        field(&S::referenceSeconds, "referenceSeconds", "s", 1e-6, 1e6, "Length of the window that the SNR refers to."),
+        field(&S::startSeconds, "startSeconds", "s", 0.0, 1e9, "When the line begins."),
+        field(&S::durationSeconds, "durationSeconds", "s", 0.0, 1e9, "How long it lasts; 0 is to the recording's end."),
+        field(&S::frequencyHz, "frequencyHz", "Hz", -1e12, 1e12, "Frequency at its start."),
+        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of its frequency."),
+        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of its random wander about the drift."),
+        field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e9, "Correlation time of the wander."),
+        field(&S::fading, "fading", fadingNames, "Whether its amplitude is constant or fades."),
+        field(&S::fadingSeconds, "fadingSeconds", "s", 1e-6, 1e9, "Correlation time of the fading."),
+    };
+    return table;
+}
+
+const std::vector<Field<NoiseSettings>> &NoiseSettings::fields()
+{
+    using S = NoiseSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::deviation, "deviation", "", 1e-12, 1e6,
+              "Standard deviation of the noise in a sample; full scale is 1."),
+        field(&S::slopeDbPerOctave, "slopeDbPerOctave", "dB", -6.0, 6.0,
+              "How the noise's density goes with frequency."),
+        field(&S::levelDriftDb, "levelDriftDb", "dB", 0.0, 20.0,
+              "Standard deviation of the slow changes of its level."),
+        field(&S::levelDriftSeconds, "levelDriftSeconds", "s", 1e-3, 1e9, "Correlation time of these changes."),
+    };
+    return table;
+}
+
+const std::vector<Field<LineScene>> &LineScene::fields()
+{
+    using S = LineScene;
+    static const std::vector<Field<S>> table{
+        field(&S::sampleRateHz, "sampleRateHz", "Hz", 1e-6, 1e12, "Sample rate."),
+        field(&S::durationSeconds, "durationSeconds", "s", 1e-9, 1e9, "Length of the recording."),
+        field(&S::isComplex, "complex",
+              "Whether samples are I/Q, so that negative frequencies differ from positive ones."),
+        field(&S::centreHz, "centreHz", "Hz", -1e12, 1e12, "Frequency that 0 Hz of the samples stands for."),
+        field(&S::seed, "seed", "", 0.0, 2147483647.0,
+              "Names the random numbers: the same seed gives the same recording."),
+    };
+    return table;
+}
+
+RecordingInfo recordingInfo(const LineScene &scene)
+{
+    RecordingInfo info;
+    info.path = "simulated";
+    info.container = "simulated";
+    info.sampleType = scene.isComplex ? "cf32" : "rf32";
+    info.sampleRateHz = scene.sampleRateHz;
+    info.sampleCount = static_cast<Index>(std::floor(scene.sampleRateHz * scene.durationSeconds + 1e-6));
+    info.channelCount = 1;
+    info.isComplex = scene.isComplex;
+    info.centreHz = scene.centreHz;
+    return info;
+}
+
+void checkLine(const LineSettings &line, const RecordingInfo &recording, const std::string &name)
+{
+    checkFields(line, LineSettings::fields(), name);
+    const double recordingEnd = recording.durationSeconds();
+    if (line.startSeconds >= recordingEnd)
+        throw Error(name + ".startSeconds = " + formatNumber(line.startSeconds),
+                    "must lie before the recording's end, " + formatNumber(recordingEnd) + " s");
+    if (line.startSeconds + line.durationSeconds > recordingEnd + 1.0 / recording.sampleRateHz)
+        throw Error(name + ".durationSeconds = " + formatNumber(line.durationSeconds),
+                    "takes the line beyond the recording's end, " + formatNumber(recordingEnd) + " s");
+
+    const double duration = line.durationSeconds > 0.0 ? line.durationSeconds : recordingEnd - line.startSeconds;
+    const double low = recording.centreHz - (recording.isComplex ? 0.5 * recording.sampleRateHz : 0.0);
+    const double high = recording.centreHz + 0.5 * recording.sampleRateHz;
+    const double last = line.frequencyHz + line.driftHzPerSecond * duration;
+    if (std::min(line.frequencyHz, last) < low || std::max(line.frequencyHz, last) > high)
+        throw Error(name + ".frequencyHz = " + formatNumber(line.frequencyHz),
+                    "the line must stay within " + formatNumber(low) + " … " + formatNumber(high) + " Hz"
+                        + (line.driftHzPerSecond != 0.0 ? ", but drifts to " + formatNumber(last) + " Hz" : ""));
+
+    constexpr double mostSteps = 2e7; // 320 MB of path
+    if (line.wanderHz > 0.0 && duration > 0.1 * mostSteps * std::min(line.referenceSeconds, line.wanderSeconds))
+        throw Error(name + ".wanderSeconds = " + formatNumber(line.wanderSeconds),
+                    "is too short for a line of " + formatNumber(duration) + " s, or referenceSeconds is");
+    if (line.fading != Fading::None && duration > 0.02 * mostSteps * line.fadingSeconds)
+        throw Error(name + ".fadingSeconds = " + formatNumber(line.fadingSeconds),
+                    "is too short for a line of " + formatNumber(duration) + " s");
+}
+
+void checkScene(const LineScene &scene)
+{
+    checkFields(scene, LineScene::fields());
+    checkFields(scene.noise, NoiseSettings::fields(), "noise");
+    const double samples = scene.sampleRateHz * scene.durationSeconds;
+    if (!(samples >= 1.0 && samples <= 1e15))
+        throw Error("durationSeconds = " + formatNumber(scene.durationSeconds),
+                    "gives " + formatNumber(std::floor(samples)) + " samples; there must be 1 … 1e15");
+    if (scene.noise.levelDriftDb > 0.0 && scene.durationSeconds > 1e6 * scene.noise.levelDriftSeconds)
+        throw Error("noise.levelDriftSeconds = " + formatNumber(scene.noise.levelDriftSeconds),
+                    "must be at least a millionth of the duration");
+    for (std::size_t i = 0; i < scene.lines.size(); ++i)
+        checkLine(scene.lines[i], recordingInfo(scene), lineName(i));
+}
+
+LineScene lineSceneFromJson(const Json &json)
+{
+    LineScene scene;
+    readFields(json, LineScene::fields(), scene, {}, {"kind", "noise", "lines"});
+    if (const auto kind = json.find("kind"); kind != json.end() && *kind != "lines")
+        throw Error("kind", "must be \"lines\" for a scene of lines in noise");
+    for (const char *needed : {"sampleRateHz", "durationSeconds"})
+        if (!json.contains(needed))
+            throw Error(needed, "is missing; every other key has a default");
+    if (const auto noise = json.find("noise"); noise != json.end())
+        readFields(*noise, NoiseSettings::fields(), scene.noise, "noise");
+    if (const auto lines = json.find("lines"); lines != json.end()) {
+        if (!lines->is_array())
+            throw Error("lines", "must be a list, [ … ]");
+        scene.lines.resize(lines->size());
+        for (std::size_t i = 0; i < lines->size(); ++i)
+            readFields((*lines)[i], LineSettings::fields(), scene.lines[i], lineName(i));
+    }
+    checkScene(scene);
+    return scene;
+}
+
+Json toJson(const LineScene &scene)
+{
+    Json json;
+    json["kind"] = "lines";
+    json.update(writeFields(scene, LineScene::fields()));
+    json["noise"] = writeFields(scene.noise, NoiseSettings::fields());
+    json["lines"] = Json::array();
+    for (const LineSettings &line : scene.lines)
+        json["lines"].push_back(writeFields(line, LineSettings::fields()));
+    return json;
+}
+
+} // namespace faintline

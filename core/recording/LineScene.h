@@ -1,0 +1,84 @@
+#pragma once
+
+#include "base/json.h"
+#include "recording/Recording.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace faintline {
+
+enum class Fading { None, Rayleigh };
+inline constexpr std::array<std::string_view, 2> fadingNames{"none", "rayleigh"};
+
+/// One spectral line. Its instantaneous frequency is
+///
+///   f(t) = frequencyHz + driftHzPerSecond·(t - startSeconds) + w(t)
+///
+/// with w a Gaussian Ornstein-Uhlenbeck process of autocorrelation wanderHz²·e^(-|τ|/wanderSeconds), its path shifted
+/// and scaled to mean 0 and standard deviation exactly wanderHz. With Rayleigh fading the amplitude is multiplied by a
+/// complex Ornstein-Uhlenbeck process of mean power 1 and correlation time fadingSeconds.
+/// Source: Billon 2005, section 5.
+struct LineSettings {
+    double snrDb = -1.0;            ///< r: see toneAmplitude
+    double referenceSeconds = 0.25; ///< T: the window that r refers to
+    double startSeconds = 0.0;
+    double durationSeconds = 0.0; ///< 0: to the recording's end
+    double frequencyHz = 1000.0;  ///< at the start, centre frequency included
+    double driftHzPerSecond = 0.0;
+    double wanderHz = 0.0;
+    double wanderSeconds = 3.75;
+    Fading fading = Fading::None;
+    double fadingSeconds = 5.0;
+
+    static const std::vector<Field<LineSettings>> &fields();
+    bool operator==(const LineSettings &) const = default;
+};
+
+/// Gaussian noise. `deviation` is the standard deviation σ of a sample (of a complex one: E|n|² = σ²). Its density goes
+/// with the frequency's magnitude at slopeDbPerOctave, flat below 1/1024 of half the sample rate. Its level drifts by
+/// an Ornstein-Uhlenbeck process in dB of standard deviation levelDriftDb and correlation time levelDriftSeconds.
+struct NoiseSettings {
+    double deviation = 0.1;
+    double slopeDbPerOctave = 0.0;
+    double levelDriftDb = 0.0;
+    double levelDriftSeconds = 10.0;
+
+    static const std::vector<Field<NoiseSettings>> &fields();
+    bool operator==(const NoiseSettings &) const = default;
+};
+
+/// A recording to be simulated: spectral lines in noise. Rate and duration have no default.
+struct LineScene {
+    double sampleRateHz = 0.0;
+    double durationSeconds = 0.0;
+    bool isComplex = false; ///< "complex" in JSON
+    double centreHz = 0.0;  ///< frequency that 0 Hz of the samples stands for
+    int seed = 1;
+    NoiseSettings noise;
+    std::vector<LineSettings> lines;
+
+    /// The scene's own members, without noise and lines.
+    static const std::vector<Field<LineScene>> &fields();
+    bool operator==(const LineScene &) const = default;
+};
+
+/// What the scene's recording will be like.
+RecordingInfo recordingInfo(const LineScene &scene);
+
+/// Checks a line's ranges, and that it lies within the recording and, but for its wander, within its band.
+/// Throws Error naming the key ("lines[2].snrDb", where `name` is "lines[2]").
+void checkLine(const LineSettings &line, const RecordingInfo &recording, const std::string &name);
+
+/// Checks the scene and its lines. Throws Error naming the key.
+void checkScene(const LineScene &scene);
+
+/// The scene of a JSON object {"kind": "lines", "sampleRateHz": …, "durationSeconds": …, "noise": {…}, "lines": [{…}]}.
+/// Keys that are not known are errors, missing ones take their defaults. Throws Error as checkScene does.
+LineScene lineSceneFromJson(const Json &json);
+
+Json toJson(const LineScene &scene);
+
+} // namespace faintline

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "base/Axis.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// What is known of a recording without reading its samples.
+struct RecordingInfo {
+    std::string path;
+    std::string container;  ///< "WAV", "FLAC", "SigMF", "raw", "simulated" …
+    std::string sampleType; ///< "int16", "float32", "ci16_le" …
+    double sampleRateHz = 0.0;
+    Index sampleCount = 0;                  ///< samples per channel; one I/Q pair is one sample
+    int channelCount = 0;                   ///< an I/Q recording's two streams are one channel
+    bool isComplex = false;                 ///< I/Q: negative frequencies are different from positive ones
+    double centreHz = 0.0;                  ///< frequency that 0 Hz of the samples stands for
+    std::optional<double> startUnixSeconds; ///< UTC of the first sample
+    std::vector<std::string> notes;         ///< what was repaired or assumed while opening, one sentence each
+
+    double durationSeconds() const { return static_cast<double>(sampleCount) / sampleRateHz; }
+    Index floatsPerSample() const { return isComplex ? 2 : 1; }
+};
+
+/// Random access by sample to a recording that may be larger than memory.
+///
+/// A sample is one float, or two (I, Q) where isComplex. Integer formats are scaled to ±1 at full scale. Samples that
+/// are not finite read as 0 and are counted. `read` may be called from several threads at once, and its values do not
+/// depend on how a stretch is cut into requests.
+class Recording
+{
+public:
+    virtual ~Recording() = default;
+
+    const RecordingInfo &info() const { return m_info; }
+
+    /// Fills `out` (count samples of one channel, count·2 floats where isComplex) from sample `first` on. Samples
+    /// before the start or beyond the end read as 0. Precondition: 0 ≤ channel < channelCount. Throws Error where the
+    /// file fails under it.
+    virtual void read(int channel, Index first, Index count, std::span<float> out) const = 0;
+
+    /// Floats that were not finite in all reads so far (one that was read twice counts twice): 0 for a sound recording.
+    Index nonFiniteCount() const { return m_nonFiniteCount.load(std::memory_order_relaxed); }
+
+protected:
+    /// What every `read` does besides fetching: 0 outside the recording, `fetch(first, out)` for the part inside, then
+    /// 0 for whatever is not finite.
+    void fill(Index first, Index count, std::span<float> out,
+              const std::function<void(Index first, std::span<float> out)> &fetch) const;
+
+    RecordingInfo m_info;
+
+private:
+    mutable std::atomic<Index> m_nonFiniteCount = 0;
+};
+
+using RecordingPointer = std::shared_ptr<const Recording>;
+
+} // namespace faintline

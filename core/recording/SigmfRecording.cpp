@@ -1,0 +1,176 @@
+#include "recording/SigmfRecording.h"
+
+#include "base/json.h"
+#include "base/utc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace faintline {
+
+struct SigmfRecording::Meta {
+    std::string dataPath;
+    RawLayout layout;
+    double centreHz = 0.0;
+    std::optional<double> startUnixSeconds;
+    std::vector<std::string> notes;
+};
+
+namespace {
+
+    constexpr std::string_view metaEnding = ".sigmf-meta";
+    constexpr std::string_view dataEnding = ".sigmf-data";
+
+    std::string withEnding(const std::string &path, std::string_view ending)
+    {
+        return path.substr(0, path.size() - metaEnding.size()) + std::string(ending);
+    }
+
+    /// One of the objects of a metadata file, with its name for messages.
+    class Section
+    {
+    public:
+        Section(const Json &object, std::string name) : m_object(object), m_name(std::move(name))
+        {
+            if (!object.is_object())
+                throw Error(m_name, "must be an object, { … }");
+        }
+
+        [[noreturn]] void refuse(const char *key, const std::string &why) const
+        {
+            throw Error(m_name + "." + key, why);
+        }
+
+        const Json *find(const char *key) const
+        {
+            const auto found = m_object.find(key);
+            return found == m_object.end() || found->is_null() ? nullptr : &*found;
+        }
+
+        std::optional<double> number(const char *key, double minimum, double maximum) const
+        {
+            const Json *value = find(key);
+            if (!value)
+                return std::nullopt;
+            const double number = value->is_number() ? value->get<double>() : std::nan("");
+            if (!(number >= minimum && number <= maximum))
+                refuse(key, "must be a number in " + formatNumber(minimum) + " … " + formatNumber(maximum));
+            return number;
+        }
+
+        Index count(const char *key, double minimum, double maximum, Index otherwise) const
+        {
+            const double value = number(key, minimum, maximum).value_or(static_cast<double>(otherwise));
+            if (std::floor(value) != value)
+                refuse(key, "must be a whole number");
+            return static_cast<Index>(value);
+        }
+
+        std::optional<std::string> text(const char *key) const
+        {
+            const Json *value = find(key);
+            if (value && !value->is_string())
+                refuse(key, "must be a text");
+            return value ? std::optional(value->get<std::string>()) : std::nullopt;
+        }
+
+    private:
+        const Json &m_object;
+        std::string m_name;
+    };
+
+    constexpr double largestCount = 9007199254740992.0; // 2⁵³
+
+} // namespace
+
+bool SigmfRecording::isNamedSo(const std::string &path)
+{
+    return path.ends_with(metaEnding) || path.ends_with(dataEnding);
+}
+
+std::string SigmfRecording::dataPath(const std::string &path)
+{
+    return readMeta(path).dataPath;
+}
+
+SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
+{
+    const std::string metaPath = withEnding(path, metaEnding);
+    if (!std::filesystem::exists(metaPath))
+        throw Error(path, metaPath == path ? "there is no such file"
+                                           : "its metadata, " + metaPath
+                                                 + ", is missing; without it the samples can be opened as raw ones "
+                                                   "(such as --raw-type ci16_le --raw-rate 48000)");
+    const Json json = readJsonFile(metaPath);
+    if (!json.is_object() || !json.contains("global"))
+        throw Error(metaPath, "is no SigMF metadata: it must be an object with a key \"global\"");
+    const Section global(json["global"], metaPath + ": global");
+
+    Meta meta;
+    const std::optional<std::string> type = global.text("core:datatype");
+    if (!type)
+        global.refuse("core:datatype", "is missing; known are " + sampleTypeList());
+    meta.layout.type = parseSampleType(*type, metaPath + ": global.core:datatype");
+    const std::optional<double> rate = global.number("core:sample_rate", 1e-9, 1e15);
+    if (!rate)
+        global.refuse("core:sample_rate", "is missing; without it there are no frequencies");
+    meta.layout.sampleRateHz = *rate;
+    meta.layout.channelCount = static_cast<int>(global.count("core:num_channels", 1.0, 1024.0, 1));
+    meta.layout.trailingBytes = global.count("core:trailing_bytes", 0.0, largestCount, 0);
+    const Index offset = global.count("core:offset", 0.0, largestCount, 0);
+
+    meta.dataPath = withEnding(path, dataEnding);
+    if (const std::optional<std::string> dataset = global.text("core:dataset")) {
+        if (std::filesystem::path(*dataset).has_parent_path())
+            global.refuse("core:dataset", "must be the name of a file in the same folder");
+        meta.dataPath = (std::filesystem::path(metaPath).parent_path() / *dataset).string();
+    }
+    if (!std::filesystem::exists(meta.dataPath))
+        throw Error(path, "its samples, " + meta.dataPath + ", are missing");
+
+    const auto captures = json.find("captures");
+    if (captures == json.end() || captures->is_null())
+        return meta;
+    if (!captures->is_array())
+        throw Error(metaPath + ": captures", "must be a list, [ … ]");
+    for (std::size_t i = 0; i < captures->size(); ++i) {
+        const Section capture((*captures)[i], metaPath + ": captures[" + std::to_string(i) + "]");
+        const Index start = capture.count("core:sample_start", 0.0, largestCount, offset) - offset;
+        const double frequency = capture.number("core:frequency", -1e15, 1e15).value_or(0.0);
+        const Index header = capture.count("core:header_bytes", 0.0, largestCount, 0);
+        const std::optional<std::string> time = capture.text("core:datetime");
+        if (i == 0) {
+            meta.centreHz = frequency;
+            meta.layout.headerBytes = header;
+            meta.startUnixSeconds = time ? parseUtc(*time) : std::nullopt;
+            if (meta.startUnixSeconds)
+                *meta.startUnixSeconds -= static_cast<double>(start) / *rate;
+            else if (time)
+                meta.notes.push_back("core:datetime \"" + time->substr(0, 40)
+                                     + "\" is no ISO 8601 time and is left out.");
+        } else if (header > 0) {
+            capture.refuse("core:header_bytes", "bytes between captures cannot be skipped; only before the first");
+        } else if (frequency != meta.centreHz) {
+            meta.notes.push_back("From sample " + std::to_string(start)
+                                 + " on, another capture has the centre frequency " + formatNumber(frequency)
+                                 + " Hz; the first one's is used for all.");
+            break;
+        }
+    }
+    return meta;
+}
+
+SigmfRecording::SigmfRecording(const std::string &path, bool iq) : SigmfRecording(path, readMeta(path), iq) {}
+
+SigmfRecording::SigmfRecording(const std::string &path, const Meta &meta, bool iq)
+    : RawRecording(meta.dataPath, iq ? withIqPairs(path, meta.layout) : meta.layout)
+{
+    m_info.path = path;
+    m_info.container = "SigMF";
+    m_info.centreHz = meta.centreHz;
+    m_info.startUnixSeconds = meta.startUnixSeconds;
+    m_info.notes.insert(m_info.notes.end(), meta.notes.begin(), meta.notes.end());
+}
+
+} // namespace faintline

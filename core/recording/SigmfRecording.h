@@ -1,0 +1,30 @@
+#pragma once
+
+#include "recording/RawRecording.h"
+
+namespace faintline {
+
+/// A SigMF recording: samples in one file (.sigmf-data), what they are in another (.sigmf-meta, JSON).
+///
+/// Read are core:datatype, sample_rate, num_channels, offset, dataset, trailing_bytes and the first capture's
+/// sample_start, frequency, datetime and header_bytes; a note tells where later captures differ.
+/// Source: the SigMF specification, 1.2.
+class SigmfRecording final : public RawRecording
+{
+public:
+    /// Takes either file's name; `iq` pairs real channels. Throws Error naming the file and key at fault.
+    explicit SigmfRecording(const std::string &path, bool iq = false);
+
+    /// Whether a name is one of the two.
+    static bool isNamedSo(const std::string &path);
+
+    /// The file that holds the samples.
+    static std::string dataPath(const std::string &path);
+
+private:
+    struct Meta;
+    SigmfRecording(const std::string &path, const Meta &meta, bool iq);
+    static Meta readMeta(const std::string &path);
+};
+
+} // namespace faintline

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "recording/LineScene.h"
+#include "recording/NoiseSource.h"
+#include "recording/Tone.h"
+
+namespace faintline {
+
+/// A scene as a recording: x(n) = noise(n) + Σ tones(n), a pure function of (scene, n), computed where it is read.
+///
+/// Each line's amplitude follows from its SNR and the noise's density at its first frequency (toneAmplitude). Memory
+/// does not grow with the length, but for the nodes of wandering and fading lines (16 bytes for each
+/// 0.1·referenceSeconds). Thread-safe.
+class SimulatedRecording final : public Recording
+{
+public:
+    /// Throws Error where checkScene does.
+    explicit SimulatedRecording(const LineScene &scene);
+
+    void read(int channel, Index first, Index count, std::span<float> out) const override;
+
+    const LineScene &scene() const { return m_scene; }
+    Truth truth() const;
+
+private:
+    LineScene m_scene;
+    NoiseSource m_noise;
+    std::vector<Tone> m_tones;
+};
+
+} // namespace faintline

@@ -1,0 +1,187 @@
+#include "recording/Tone.h"
+
+#include "base/fastmath.h"
+#include "base/logmath.h"
+#include "base/multiversion.h"
+#include "recording/ornsteinUhlenbeck.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index pieceLength = 256;
+    constexpr double fadingStep = 0.02; ///< correlation times between nodes of the fading
+
+    struct Parabola {
+        double startSeconds;
+        double turns;       ///< phase at the start
+        double frequencyHz; ///< at the start
+        double rateHzPerSecond;
+    };
+
+    /// cos 2πφ and sin 2πφ of consecutive samples.
+    FAINTLINE_MULTIVERSION
+    void phasors(const Parabola &phase, double firstSample, double secondsPerSample, std::size_t n, float *cosine,
+                 float *sine)
+    {
+        constexpr double roundingShift = 6755399441055744.0; // adding 1.5·2⁵² rounds to a whole number
+        const double halfRate = 0.5 * phase.rateHzPerSecond;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double seconds =
+                (firstSample + static_cast<double>(static_cast<int>(i))) * secondsPerSample - phase.startSeconds;
+            const double turns = phase.turns + seconds * (phase.frequencyHz + seconds * halfRate);
+            const double whole = (turns + roundingShift) - roundingShift;
+            const auto [s, c] = fastSineCosineTurns(static_cast<float>(turns - whole));
+            cosine[i] = c;
+            sine[i] = s;
+        }
+    }
+
+    /// Nodes of the frequency path of a line of the given duration.
+    Index intervalCount(const LineSettings &line, double durationSeconds)
+    {
+        if (line.wanderHz == 0.0)
+            return 1; // the parabola is exact
+        const double step = 0.1 * std::min(line.referenceSeconds, line.wanderSeconds);
+        return std::max<Index>(1, static_cast<Index>(std::ceil(durationSeconds / step - 1e-9)));
+    }
+
+} // namespace
+
+double toneAmplitude(double snrDb, double noiseVariance, double windowSamples, bool isComplex)
+{
+    return (isComplex ? 1.0 : 2.0) * std::sqrt(noiseVariance * ratioFromDb(snrDb) / windowSamples);
+}
+
+Tone::Tone(const LineSettings &line, double amplitude, const RecordingInfo &recording, std::uint64_t seed, Index number)
+    : m_sampleRateHz(recording.sampleRateHz), m_centreHz(recording.centreHz), m_isComplex(recording.isComplex)
+{
+    const double recordingEnd = recording.durationSeconds();
+    m_truth.startSeconds = line.startSeconds;
+    m_truth.endSeconds =
+        line.durationSeconds > 0.0 ? std::min(line.startSeconds + line.durationSeconds, recordingEnd) : recordingEnd;
+    m_truth.snrDb = line.snrDb;
+    m_truth.referenceSeconds = line.referenceSeconds;
+    m_truth.amplitude = amplitude;
+    const double duration = std::max(0.0, m_truth.endSeconds - m_truth.startSeconds);
+
+    const Index intervals = intervalCount(line, duration);
+    m_truth.stepSeconds = duration / static_cast<double>(intervals);
+    std::vector<double> &frequency = m_truth.frequencyHz;
+    if (line.wanderHz > 0.0) {
+        Random random(seed, streamNumber(SimulationStream::Wander, number));
+        frequency = ornsteinUhlenbeck(random, intervals + 1, m_truth.stepSeconds / line.wanderSeconds);
+        standardise(frequency, line.wanderHz);
+    } else {
+        frequency.assign(static_cast<std::size_t>(intervals) + 1, 0.0);
+    }
+    for (std::size_t k = 0; k < frequency.size(); ++k)
+        frequency[k] += line.frequencyHz + line.driftHzPerSecond * static_cast<double>(k) * m_truth.stepSeconds;
+
+    m_turns.resize(frequency.size());
+    m_turns[0] = Random(seed, streamNumber(SimulationStream::Phase, number)).uniform();
+    for (std::size_t k = 1; k < m_turns.size(); ++k) {
+        const double turns =
+            m_turns[k - 1] + (0.5 * (frequency[k - 1] + frequency[k]) - m_centreHz) * m_truth.stepSeconds;
+        m_turns[k] = turns - std::floor(turns);
+    }
+
+    if (line.fading == Fading::Rayleigh) {
+        m_fadingStepSeconds = fadingStep * line.fadingSeconds;
+        const Index nodes = static_cast<Index>(std::ceil(duration / m_fadingStepSeconds)) + 1;
+        const auto component = [&](SimulationStream stream) {
+            Random random(seed, streamNumber(stream, number));
+            std::vector<double> path = ornsteinUhlenbeck(random, nodes, fadingStep);
+            for (double &value : path)
+                value *= std::sqrt(0.5);
+            return path;
+        };
+        m_fadingReal = component(SimulationStream::FadingReal);
+        m_fadingImaginary = component(SimulationStream::FadingImaginary);
+    }
+
+    const auto firstAt = [&](double seconds) { return static_cast<Index>(std::ceil(seconds * m_sampleRateHz - 1e-6)); };
+    m_begin = firstAt(m_truth.startSeconds);
+    m_end = firstAt(m_truth.endSeconds);
+}
+
+/// First sample of an interval between two nodes; that of the one after the last is the tone's end.
+Index Tone::firstSampleOf(Index interval) const
+{
+    if (interval <= 0)
+        return m_begin;
+    if (interval >= std::ssize(m_turns) - 1)
+        return m_end;
+    const double seconds = m_truth.startSeconds + static_cast<double>(interval) * m_truth.stepSeconds;
+    return std::clamp(static_cast<Index>(std::ceil(seconds * m_sampleRateHz)), m_begin, m_end);
+}
+
+Index Tone::intervalOf(Index sample) const
+{
+    const double seconds = static_cast<double>(sample) / m_sampleRateHz - m_truth.startSeconds;
+    const double guess = m_truth.stepSeconds > 0.0 ? seconds / m_truth.stepSeconds : 0.0;
+    Index interval = std::clamp<Index>(static_cast<Index>(guess), 0, std::ssize(m_turns) - 2);
+    while (interval > 0 && sample < firstSampleOf(interval))
+        --interval;
+    while (interval < std::ssize(m_turns) - 2 && sample >= firstSampleOf(interval + 1))
+        ++interval;
+    return interval;
+}
+
+void Tone::addTo(Index first, std::span<float> out) const
+{
+    const Index floats = m_isComplex ? 2 : 1;
+    const Index end = std::min(first + std::ssize(out) / floats, m_end);
+    Index at = std::max(first, m_begin);
+    if (at >= end)
+        return;
+    for (Index interval = intervalOf(at); at < end; ++interval)
+        for (const Index intervalEnd = std::min(end, firstSampleOf(interval + 1)); at < intervalEnd;) {
+            const Index run = std::min(pieceLength, intervalEnd - at);
+            addPiece(
+                interval, at,
+                out.subspan(static_cast<std::size_t>((at - first) * floats), static_cast<std::size_t>(run * floats)));
+            at += run;
+        }
+}
+
+/// Adds at most pieceLength samples, all within one interval.
+void Tone::addPiece(Index interval, Index first, std::span<float> out) const
+{
+    const auto k = static_cast<std::size_t>(interval);
+    const std::size_t count = out.size() / (m_isComplex ? 2 : 1);
+    const std::vector<double> &frequency = m_truth.frequencyHz;
+    const Parabola phase = {m_truth.startSeconds + static_cast<double>(interval) * m_truth.stepSeconds, m_turns[k],
+                            frequency[k] - m_centreHz, (frequency[k + 1] - frequency[k]) / m_truth.stepSeconds};
+    std::array<float, pieceLength> cosine;
+    std::array<float, pieceLength> sine;
+    phasors(phase, static_cast<double>(first), 1.0 / m_sampleRateHz, count, cosine.data(), sine.data());
+
+    for (std::size_t i = 0; i < count && !m_fadingReal.empty(); ++i) {
+        const double seconds =
+            static_cast<double>(first + static_cast<Index>(i)) / m_sampleRateHz - m_truth.startSeconds;
+        const double position = seconds / m_fadingStepSeconds;
+        const auto real = static_cast<float>(interpolate(m_fadingReal, position));
+        const auto imaginary = static_cast<float>(interpolate(m_fadingImaginary, position));
+        const float c = cosine[i];
+        cosine[i] = real * c - imaginary * sine[i];
+        sine[i] = real * sine[i] + imaginary * c;
+    }
+
+    const auto amplitude = static_cast<float>(m_truth.amplitude);
+    if (m_isComplex) {
+        for (std::size_t i = 0; i < count; ++i) {
+            out[2 * i] += amplitude * cosine[i];
+            out[2 * i + 1] += amplitude * sine[i];
+        }
+    } else {
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] += amplitude * cosine[i];
+    }
+}
+
+} // namespace faintline

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "base/json.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// What is known of a simulated or injected line: when, how strong, and its frequency f(t).
+struct TruthLine {
+    double startSeconds = 0.0; ///< of the first sample it is in, up to a sample
+    double endSeconds = 0.0;
+    double snrDb = 0.0;
+    double referenceSeconds = 0.0;   ///< the window that snrDb refers to
+    double amplitude = 0.0;          ///< of the tone, before fading
+    double stepSeconds = 0.0;        ///< between the values of frequencyHz
+    std::vector<double> frequencyHz; ///< f(startSeconds + k·stepSeconds), linear between; the last at endSeconds
+
+    /// f(t), the end values outside of the line. Precondition: frequencyHz is not empty.
+    double frequencyAt(double seconds) const;
+
+    bool operator==(const TruthLine &) const = default;
+};
+
+/// The lines of a recording, in order of the scene.
+struct Truth {
+    std::vector<TruthLine> lines;
+
+    bool operator==(const Truth &) const = default;
+};
+
+/// {"lines": [{"startSeconds": …, …, "frequencyHz": […]}]}
+Json toJson(const Truth &truth);
+
+/// Throws Error naming the key.
+Truth truthFromJson(const Json &json);
+
+} // namespace faintline

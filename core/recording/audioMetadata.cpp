@@ -1,0 +1,161 @@
+#include "recording/audioMetadata.h"
+
+#include "base/utc.h"
+
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::array<std::pair<int, const char *>, 10> containers{{
+        {SF_FORMAT_WAV, "WAV"},
+        {SF_FORMAT_WAVEX, "WAV"},
+        {SF_FORMAT_RF64, "RF64"},
+        {SF_FORMAT_W64, "W64"},
+        {SF_FORMAT_AIFF, "AIFF"},
+        {SF_FORMAT_FLAC, "FLAC"},
+        {SF_FORMAT_CAF, "CAF"},
+        {SF_FORMAT_OGG, "OGG"},
+        {SF_FORMAT_AU, "AU"},
+        {SF_FORMAT_MPEG, "MP3"},
+    }};
+
+    constexpr std::array<std::pair<int, const char *>, 11> sampleTypes{{
+        {SF_FORMAT_PCM_S8, "int8"},
+        {SF_FORMAT_PCM_16, "int16"},
+        {SF_FORMAT_PCM_24, "int24"},
+        {SF_FORMAT_PCM_32, "int32"},
+        {SF_FORMAT_PCM_U8, "uint8"},
+        {SF_FORMAT_FLOAT, "float32"},
+        {SF_FORMAT_DOUBLE, "float64"},
+        {SF_FORMAT_ULAW, "µ-law"},
+        {SF_FORMAT_ALAW, "A-law"},
+        {SF_FORMAT_VORBIS, "Vorbis"},
+        {SF_FORMAT_OPUS, "Opus"},
+    }};
+
+    std::string libraryName(int format)
+    {
+        SF_FORMAT_INFO info = {};
+        info.format = format;
+        if (sf_command(nullptr, SFC_GET_FORMAT_INFO, &info, sizeof info) != 0 || !info.name)
+            return "unknown";
+        return info.name;
+    }
+
+    template <std::size_t n>
+    std::string nameIn(const std::array<std::pair<int, const char *>, n> &table, int format)
+    {
+        for (const auto &[known, name] : table)
+            if (known == format)
+                return name;
+        return libraryName(format);
+    }
+
+    int number(std::string_view text)
+    {
+        int value = -1;
+        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+        return code == std::errc() && end == text.data() + text.size() ? value : -1;
+    }
+
+    /// EBU Tech 3285: date yyyy-mm-dd, time hh-mm-ss with any separators; the reference counts samples from midnight.
+    std::optional<double> bextTime(const SF_BROADCAST_INFO &bext, double rateHz)
+    {
+        const std::string_view date(bext.origination_date, sizeof bext.origination_date);
+        const std::string_view time(bext.origination_time, sizeof bext.origination_time);
+        const auto day = unixSeconds(number(date.substr(0, 4)), number(date.substr(5, 2)), number(date.substr(8, 2)));
+        const double samples = bext.time_reference_high * 0x1p32 + bext.time_reference_low;
+        if (day && samples > 0.0 && samples < 86400.0 * rateHz)
+            return *day + samples / rateHz;
+        return unixSeconds(number(date.substr(0, 4)), number(date.substr(5, 2)), number(date.substr(8, 2)),
+                           number(time.substr(0, 2)), number(time.substr(3, 2)), number(time.substr(6, 2)));
+    }
+
+    std::uint32_t littleEndian(const std::vector<std::byte> &bytes, std::size_t at, std::size_t count)
+    {
+        std::uint32_t value = 0;
+        for (std::size_t i = count; i-- > 0;)
+            value = value << 8 | static_cast<std::uint32_t>(bytes[at + i]);
+        return value;
+    }
+
+    /// SpectraVue's chunk, written by many receivers: two Windows SYSTEMTIMEs (start, stop), then the centre frequency.
+    void readAuxi(const std::vector<std::byte> &auxi, RecordingInfo &info)
+    {
+        if (auxi.size() < 36)
+            return;
+        const auto word = [&](std::size_t i) { return static_cast<int>(littleEndian(auxi, 2 * i, 2)); };
+        const auto start = unixSeconds(word(0), word(1), word(3), word(4), word(5), word(6) + word(7) / 1000.0);
+        if (!start || word(0) < 1970)
+            return;
+        info.startUnixSeconds = start;
+        info.notes.push_back("Start time taken from the auxi chunk, read as UTC.");
+        if (info.isComplex) {
+            info.centreHz = littleEndian(auxi, 32, 4);
+            info.notes.push_back("Centre frequency taken from the auxi chunk.");
+        } else if (info.channelCount == 2) {
+            info.notes.push_back(
+                "The auxi chunk says that a receiver wrote this file: its two channels may be I and Q.");
+        }
+    }
+
+} // namespace
+
+std::string containerName(int format)
+{
+    return nameIn(containers, format & SF_FORMAT_TYPEMASK);
+}
+
+std::string sampleTypeName(int format)
+{
+    return nameIn(sampleTypes, format & SF_FORMAT_SUBMASK);
+}
+
+void readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info)
+{
+    if (const auto bext = decoder.broadcastInfo()) {
+        info.startUnixSeconds = bextTime(*bext, info.sampleRateHz);
+        if (info.startUnixSeconds)
+            info.notes.push_back("Start time taken from the bext chunk, read as UTC.");
+    }
+    readAuxi(decoder.chunk("auxi"), info);
+    if (!info.startUnixSeconds)
+        info.startUnixSeconds = parseUtc(decoder.text(SF_STR_DATE));
+}
+
+long long missingBytes(const std::string &log)
+{
+    constexpr std::string_view words = "(should be ";
+    constexpr std::array<std::string_view, 7> lengths{"RIFF", "riff", "Riff size", "FORM", "SSND", "data", "Data Size"};
+    long long missing = 0;
+    for (std::size_t lineStart = 0; lineStart < log.size();) {
+        const std::size_t lineEnd = std::min(log.find('\n', lineStart), log.size());
+        std::string_view line = std::string_view(log).substr(lineStart, lineEnd - lineStart);
+        lineStart = lineEnd + 1;
+        line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+        const std::size_t colon = line.find(':');
+        const std::size_t should = line.find(words);
+        if (colon == std::string_view::npos || should == std::string_view::npos)
+            continue;
+        for (const std::string_view name : lengths) {
+            if (!line.starts_with(name))
+                continue;
+            long long claimed = 0;
+            long long actual = 0;
+            const std::string_view first = line.substr(std::min(line.find_first_not_of(' ', colon + 1), line.size()));
+            const std::string_view second = line.substr(should + words.size());
+            std::from_chars(first.data(), first.data() + first.size(), claimed);
+            std::from_chars(second.data(), second.data() + second.size(), actual);
+            missing = std::max(missing, claimed - actual);
+        }
+    }
+    return missing;
+}
+
+} // namespace faintline

@@ -1,0 +1,431 @@
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int framesPerBlock = 64;   // more add nothing to the estimate's accuracy
+    constexpr Index largestBlockCount = 1024;
+    constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
+    // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
+    constexpr double roundingFloor = 1e-13;
+
+    /// The lower median of n exponentials of mean 1 has mean Σ_{i=0}^{k-1} 1/(n-i), k its rank.
+    double medianMean(int n)
+    {
+        double mean = 0.0;
+        for (int i = 0; i < (n + 1) / 2; ++i)
+            mean += 1.0 / (n - i);
+        return mean;
+    }
+
+    float medianOf(std::vector<float> &values)
+    {
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    }
+
+    /// Running median of a sequence over ±half, continued by point reflection about its robust ends.
+    std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
+    {
+        const Index n = std::ssize(sequence);
+        half = std::min(half, n - 1);
+        const auto pivot = [&](Index from) {
+            std::vector<float> few;
+            for (Index i = from; i < std::min(from + 5, n); ++i)
+                few.push_back(sequence[static_cast<std::size_t>(i)]);
+            return medianOf(few);
+        };
+        const float low = pivot(0);
+        const float high = pivot(std::max<Index>(0, n - 5));
+        const auto at = [&](Index i) {
+            if (i < 0)
+                return 2.0f * low - sequence[static_cast<std::size_t>(std::min(-i, n - 1))];
+            if (i >= n)
+                return 2.0f * high - sequence[static_cast<std::size_t>(std::max<Index>(0, 2 * (n - 1) - i))];
+            return sequence[static_cast<std::size_t>(i)];
+        };
+        // A sorted window that one value enters and one leaves.
+        std::vector<float> window;
+        for (Index i = -half; i <= half; ++i)
+            window.push_back(at(i));
+        std::sort(window.begin(), window.end());
+        std::vector<float> medians(sequence.size());
+        for (Index i = 0; i < n; ++i) {
+            medians[static_cast<std::size_t>(i)] = window[static_cast<std::size_t>(half)];
+            const auto leaving = std::lower_bound(window.begin(), window.end(), at(i - half));
+            window.erase(leaving);
+            const float entering = at(i + half + 1);
+            window.insert(std::upper_bound(window.begin(), window.end(), entering), entering);
+        }
+        return medians;
+    }
+
+    /// Mean of ratio e^(value-median) over the cells within ±half that are not lines.
+    void refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double largestRatio)
+    {
+        const Index n = std::ssize(values);
+        std::vector<double> sum(static_cast<std::size_t>(n) + 1, 0.0);
+        std::vector<double> count(static_cast<std::size_t>(n) + 1, 0.0);
+        for (Index i = 0; i < n; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const double ratio = std::exp(static_cast<double>(values[k] - medians[k]));
+            const bool noise = ratio < largestRatio && ratio > 1.0 / largestRatio;
+            sum[k + 1] = sum[k] + (noise ? ratio : 0.0);
+            count[k + 1] = count[k] + (noise ? 1.0 : 0.0);
+        }
+        for (Index i = 0; i < n; ++i) {
+            const auto from = static_cast<std::size_t>(std::max<Index>(0, i - half));
+            const auto to = static_cast<std::size_t>(std::min(n, i + half + 1));
+            const double cells = count[to] - count[from];
+            if (cells >= 3.0)
+                medians[static_cast<std::size_t>(i)] += static_cast<float>(std::log((sum[to] - sum[from]) / cells));
+        }
+    }
+
+    /// ln mean noise power per cell of one block of frames (frames × cells).
+    std::vector<float> blockBackground(const std::vector<float> &frames, Index cells, Index half)
+    {
+        const Index frameCount = std::ssize(frames) / cells;
+        std::vector<Index> loud;
+        double strongest = 0.0;
+        for (Index frame = 0; frame < frameCount; ++frame) {
+            const auto row = frames.begin() + frame * cells;
+            const float peak = *std::max_element(row, row + cells);
+            strongest = std::max(strongest, static_cast<double>(peak));
+            if (peak > 0.0f)
+                loud.push_back(frame);
+        }
+        std::vector<float> ln(static_cast<std::size_t>(cells), silence);
+        if (loud.empty())
+            return ln;
+        const int used = static_cast<int>(loud.size());
+        const double bias = std::log(medianMean(used));
+        const double floor = std::log(strongest * roundingFloor);
+        std::vector<float> column(loud.size());
+        for (Index cell = 0; cell < cells; ++cell) {
+            for (std::size_t i = 0; i < loud.size(); ++i)
+                column[i] = frames[static_cast<std::size_t>(loud[i] * cells + cell)];
+            const double power = static_cast<double>(medianOf(column));
+            ln[static_cast<std::size_t>(cell)] =
+                static_cast<float>(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
+        }
+        std::vector<float> background = runningMedian(ln, half);
+        refine(ln, background, half, 1.0 + 5.0 / std::sqrt(static_cast<double>(used)));
+        for (float &value : background)
+            value = std::max(value, static_cast<float>(floor));
+        return background;
+    }
+
+    /// Averages each block with its neighbours in time as far as the level stays put: stationary noise is known better than one
+    /// block tells, a change of level ends the average. `tolerance`: of ln power, about four standard errors of a block.
+    std::vector<float> averageWhileSteady(const std::vector<float> &ln, Index blocks, Index cells, float tolerance)
+    {
+        constexpr Index reach = 6;
+        std::vector<float> result(ln.size());
+        for (Index block = 0; block < blocks; ++block) {
+            for (Index cell = 0; cell < cells; ++cell) {
+                const float own = ln[static_cast<std::size_t>(block * cells + cell)];
+                float sum = own;
+                float count = 1.0f;
+                for (Index direction : {-1, 1}) {
+                    for (Index i = 1; i <= reach; ++i) {
+                        const Index other = block + direction * i;
+                        if (other < 0 || other >= blocks)
+                            break;
+                        const float value = ln[static_cast<std::size_t>(other * cells + cell)];
+                        if (std::abs(value - own) > tolerance)
+                            break;
+                        sum += value;
+                        count += 1.0f;
+                    }
+                }
+                result[static_cast<std::size_t>(block * cells + cell)] = sum / count;
+            }
+        }
+        return result;
+    }
+
+    /// Sub-bands of about 96 cells, none where fewer than 48 could tell the level.
+    Index subBandCount(double cells)
+    {
+        return cells < 48.0 ? 0 : static_cast<Index>(std::clamp(cells / 96.0, 1.0, 64.0));
+    }
+
+    /// ln of each frame's level over its block's background, per sub-band: the median cell. 0 in digital silence.
+    void appendLevels(const std::vector<float> &frames, const std::vector<float> &row, Index bands, std::vector<float> &levels)
+    {
+        const Index cells = std::ssize(row);
+        std::vector<float> sample;
+        for (Index frame = 0; frame < std::ssize(frames) / cells; ++frame) {
+            for (Index band = 0; band < bands; ++band) {
+                sample.clear();
+                for (Index cell = band * cells / bands; cell < (band + 1) * cells / bands; ++cell) {
+                    const auto c = static_cast<std::size_t>(cell);
+                    sample.push_back(row[c] > silence ? frames[static_cast<std::size_t>(frame * cells + cell)] * std::exp(-row[c]) : 0.0f);
+                }
+                const float median = medianOf(sample);
+                levels.push_back(median > 0.0f ? std::log(median / std::numbers::ln2_v<float>) : 0.0f);
+            }
+        }
+    }
+
+    /// Weights of linear interpolation on an axis: index of the lower neighbour and the fraction toward the next.
+    struct Between {
+        Index lower;
+        double fraction;
+    };
+
+    Between between(const Axis &axis, double value)
+    {
+        const double position = std::clamp(axis.position(value), 0.0, static_cast<double>(axis.count - 1));
+        const Index lower = std::min(static_cast<Index>(position), std::max<Index>(0, axis.count - 2));
+        return {lower, axis.count < 2 ? 0.0 : position - static_cast<double>(lower)};
+    }
+
+    /// Between two blocks' ln powers. Between silence and noise there is nothing to interpolate: the noisy block speaks for both.
+    float betweenBlocks(float early, float late, double fraction)
+    {
+        if (early <= silence || late <= silence)
+            return std::max(early, late);
+        return static_cast<float>((1.0 - fraction) * static_cast<double>(early) + fraction * static_cast<double>(late));
+    }
+
+    /// Levels over the final background: smoothed by a running median over seven windows, faded in beyond their scatter.
+    std::vector<float> finishLevels(const std::vector<float> &raw, const std::vector<float> &rows, const NoiseBackground &background,
+                                    double windowsPerBlock)
+    {
+        const Index bands = background.bandCount;
+        const Index cells = background.frequency.count;
+        const Index windows = background.levelTime.count;
+        std::vector<float> result(raw.size());
+        if (bands == 0)
+            return result;
+        constexpr Index half = 3;
+        const double cellsPerBand = static_cast<double>(cells) / static_cast<double>(bands);
+        const double scatter = 1.44 / std::sqrt(cellsPerBand / 1.5) * 1.25 / std::sqrt(2.0 * half + 1.0);
+        std::vector<float> series(static_cast<std::size_t>(windows));
+        std::vector<float> few;
+        for (Index band = 0; band < bands; ++band) {
+            for (Index window = 0; window < windows; ++window) {
+                // From "over its own block's row" to "over the averaged and interpolated background".
+                const auto block = std::min(static_cast<Index>(static_cast<double>(window) / windowsPerBlock), background.time.count - 1);
+                const Between t = between(background.time, background.levelTime.value(static_cast<double>(window)));
+                double difference = 0.0;
+                double counted = 0.0;
+                for (Index cell = band * cells / bands; cell < (band + 1) * cells / bands; ++cell) {
+                    const auto at = [&](const std::vector<float> &values, Index b) {
+                        return values[static_cast<std::size_t>(std::min(b, background.time.count - 1) * cells + cell)];
+                    };
+                    const float power = betweenBlocks(at(background.lnPower, t.lower), at(background.lnPower, t.lower + 1), t.fraction);
+                    if (at(rows, block) > silence && power > silence) {
+                        difference += static_cast<double>(at(rows, block) - power);
+                        counted += 1.0;
+                    }
+                }
+                const float own = raw[static_cast<std::size_t>(window * bands + band)];
+                series[static_cast<std::size_t>(window)] = own + static_cast<float>(counted > 0.0 ? difference / counted : 0.0);
+            }
+            for (Index window = 0; window < windows; ++window) {
+                few.clear();
+                for (Index i = std::max<Index>(0, window - half); i <= std::min(windows - 1, window + half); ++i)
+                    few.push_back(series[static_cast<std::size_t>(i)]);
+                const auto level = static_cast<double>(medianOf(few));
+                const double faded = level * std::clamp(std::abs(level) / scatter - 2.0, 0.0, 1.0);
+                result[static_cast<std::size_t>(window * bands + band)] = static_cast<float>(faded);
+            }
+        }
+        return result;
+    }
+
+} // namespace
+
+const std::vector<Field<NormaliserSettings>> &NormaliserSettings::fields()
+{
+    using S = NormaliserSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::halfWidthCells, "halfWidthCells", "cells", 2.0, 10000.0,
+              "Half the frequency window of the background estimate: wider than any line, narrower than the noise's shape."),
+        field(&S::blockWindows, "blockWindows", "T_FT", 4.0, 1e6,
+              "Length of a background block in windows: longer than any burst, shorter than level changes."),
+        field(&S::followLevel, "followLevel",
+              "Divide out sudden level changes of a whole band, such as bursts, gain steps and clicks."),
+    };
+    return table;
+}
+
+double NoiseBackground::lnPowerAt(double seconds, double hz) const
+{
+    const Between t = between(time, seconds);
+    const Between f = between(frequency, hz);
+    const auto value = [&](Index block, Index cell) {
+        return static_cast<double>(lnPower[static_cast<std::size_t>(std::min(block, time.count - 1) * frequency.count
+                                                                    + std::min(cell, frequency.count - 1))]);
+    };
+    const auto along = [&](Index block) {
+        return value(block, f.lower) * (1.0 - f.fraction) + value(block, f.lower + 1) * f.fraction;
+    };
+    return along(t.lower) * (1.0 - t.fraction) + along(t.lower + 1) * t.fraction;
+}
+
+std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram, const NormaliserSettings &settings,
+                                                          const RunContext &context)
+{
+    SpectrogramSettings coarse = spectrogram.settings();
+    coarse.windowSeconds = spectrogram.windowSamples() / spectrogram.recording().info().sampleRateHz;
+    coarse.stepsPerWindow = 1;
+    coarse.binsPerCell = 1;
+    // The band's neighbourhood belongs to the estimate: a narrow band has no noise of its own to speak of.
+    SelectionSettings wide = spectrogram.selection();
+    if (wide.lowHz < wide.highHz) {
+        const double margin = 2.0 * settings.halfWidthCells / coarse.windowSeconds;
+        wide.lowHz -= margin;
+        wide.highHz += margin;
+    }
+    const Spectrogram frames(spectrogram.recordingPointer(), coarse, wide);
+
+    const Index frameCount = frames.time().count;
+    const Index cells = frames.frequency().count;
+    const Index framesWanted = std::max(static_cast<Index>(std::llround(settings.blockWindows)),
+                                        (frameCount + largestBlockCount - 1) / largestBlockCount);
+    const Index blockCount = std::max<Index>(1, frameCount / framesWanted);
+    const double blockFrames = static_cast<double>(frameCount) / static_cast<double>(blockCount);
+
+    auto background = std::make_shared<NoiseBackground>();
+    const double step = blockFrames * frames.time().step;
+    background->time = {"time", "s", frames.time().first + 0.5 * (blockFrames - 1.0) * frames.time().step, step, blockCount, false};
+    background->frequency = frames.frequency();
+    background->lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
+
+    // Frames looked at lie on one even raster over all blocks, every frame where there are not too many of them.
+    const Index stride = static_cast<Index>(std::ceil(blockFrames / framesPerBlock));
+    background->levelTime = {"time", "s", frames.time().first, static_cast<double>(stride) * frames.time().step,
+                             (frameCount + stride - 1) / stride, false};
+    background->bandCount = settings.followLevel ? subBandCount(static_cast<double>(cells)) : 0;
+    std::vector<float> levels;
+    std::vector<float> rows;
+    std::vector<float> block;
+    for (Index b = 0; b < blockCount; ++b) {
+        context.checkpoint(static_cast<double>(b) / static_cast<double>(blockCount), "noise background");
+        const auto first = static_cast<Index>(std::floor(static_cast<double>(b) * blockFrames));
+        const auto end = std::min(frameCount, static_cast<Index>(std::floor(static_cast<double>(b + 1) * blockFrames)));
+        const Index firstUsed = (first + stride - 1) / stride * stride;
+        const Index used = (end - firstUsed + stride - 1) / stride;
+        block.resize(static_cast<std::size_t>(used * cells));
+        for (Index i = 0; i < (stride > 1 ? used : 1); ++i)
+            frames.read(firstUsed + i * stride, stride > 1 ? 1 : used,
+                        std::span(block).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>((stride > 1 ? 1 : used) * cells)));
+        const std::vector<float> row = blockBackground(block, cells, settings.halfWidthCells);
+        rows.insert(rows.end(), row.begin(), row.end());
+        appendLevels(block, row, background->bandCount, levels);
+    }
+    // A median of n exponentials scatters by 1.44/√n; neighbouring cells share a half of what they tell.
+    const double perBlock = std::min<double>(framesPerBlock, blockFrames) * (2.0 * settings.halfWidthCells + 1.0) / 2.0;
+    background->lnPower = averageWhileSteady(rows, blockCount, cells, static_cast<float>(4.0 * 1.44 / std::sqrt(perBlock)));
+    background->lnLevel = finishLevels(levels, rows, *background, blockFrames / static_cast<double>(stride));
+    return background;
+}
+
+NormalisedSpectrogram::NormalisedSpectrogram(std::shared_ptr<const Spectrogram> spectrogram,
+                                             std::shared_ptr<const NoiseBackground> background, const NormaliserSettings &settings)
+    : NormalisedFrames(spectrogram->time(), Grid{{spectrogram->frequency()}}), m_spectrogram(std::move(spectrogram)),
+      m_background(std::move(background)), m_settings(settings)
+{
+}
+
+void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out) const
+{
+    m_spectrogram->read(first, count, out);
+    const auto cells = static_cast<std::size_t>(grid().size());
+    for (Index i = 0; i < count; ++i)
+        normalise(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells));
+}
+
+void NormalisedSpectrogram::normalise(Index frame, std::span<float> values) const
+{
+    const NoiseBackground &b = *m_background;
+    const Between t = between(b.time, time().value(static_cast<double>(frame)));
+    const float *early = b.lnPower.data() + t.lower * b.frequency.count;
+    const float *late = b.lnPower.data() + std::min(t.lower + 1, b.time.count - 1) * b.frequency.count;
+    std::vector<float> inverse(static_cast<std::size_t>(b.frequency.count));
+    for (std::size_t cell = 0; cell < inverse.size(); ++cell)
+        inverse[cell] = betweenBlocks(early[cell], late[cell], t.fraction);
+    addLevels(time().value(static_cast<double>(frame)), inverse);
+    for (float &value : inverse)
+        value = value <= 0.5f * silence ? 0.0f : std::exp(-value);
+    const Axis &axis = grid().axes[0];
+    const double start = b.frequency.position(axis.first);
+    const double perBin = axis.step / b.frequency.step;
+    const double lastCell = static_cast<double>(b.frequency.count - 1);
+    for (std::size_t bin = 0; bin < values.size(); ++bin) {
+        const double position = std::clamp(start + static_cast<double>(bin) * perBin, 0.0, lastCell);
+        const auto lower = std::min(static_cast<std::size_t>(position), inverse.size() - 1);
+        const auto upper = std::min(lower + 1, inverse.size() - 1);
+        const auto fraction = static_cast<float>(position - static_cast<double>(lower));
+        values[bin] *= inverse[lower] + fraction * (inverse[upper] - inverse[lower]);
+    }
+    if (m_settings.followLevel)
+        guardAgainstClicks(values);
+}
+
+void NormalisedSpectrogram::addLevels(double seconds, std::vector<float> &ln) const
+{
+    const NoiseBackground &b = *m_background;
+    if (b.bandCount == 0)
+        return;
+    const Between t = between(b.levelTime, seconds);
+    const auto level = [&](Index band) {
+        const auto at = [&](Index window) {
+            return static_cast<double>(b.lnLevel[static_cast<std::size_t>(std::min(window, b.levelTime.count - 1) * b.bandCount + band)]);
+        };
+        return (1.0 - t.fraction) * at(t.lower) + t.fraction * at(t.lower + 1);
+    };
+    std::vector<double> levels;
+    for (Index band = 0; band < b.bandCount; ++band)
+        levels.push_back(level(band));
+    if (std::all_of(levels.begin(), levels.end(), [](double value) { return value == 0.0; }))
+        return;
+    const Axis bands{"band", "", 0.5 / static_cast<double>(b.bandCount), 1.0 / static_cast<double>(b.bandCount), b.bandCount, false};
+    for (std::size_t cell = 0; cell < ln.size(); ++cell) {
+        const Between f = between(bands, (static_cast<double>(cell) + 0.5) / static_cast<double>(ln.size()));
+        const auto upper = static_cast<std::size_t>(std::min(f.lower + 1, b.bandCount - 1));
+        ln[cell] += static_cast<float>((1.0 - f.fraction) * levels[static_cast<std::size_t>(f.lower)] + f.fraction * levels[upper]);
+    }
+}
+
+void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const
+{
+    // What is shorter than the spacing of the levels. In most frames counting is enough: the median of a sub-band exceeds a
+    // limit where more than half of its values do.
+    const double binsPerCell = m_spectrogram->binsPerCell();
+    const auto bands = static_cast<std::size_t>(subBandCount(static_cast<double>(values.size()) / binsPerCell));
+    constexpr Index half = 20;
+    const double allowed = 1.0 + 4.0 * 1.44 / std::sqrt(2.0 * half + 1.0);
+    const auto limit = static_cast<float>(allowed * std::numbers::ln2_v<double>);
+    bool isLoud = false;
+    for (std::size_t band = 0; band < bands; ++band) {
+        const auto from = static_cast<std::ptrdiff_t>(band * values.size() / bands);
+        const auto to = static_cast<std::ptrdiff_t>((band + 1) * values.size() / bands);
+        isLoud = isLoud || 2 * std::count_if(values.begin() + from, values.begin() + to, [limit](float y) { return y > limit; }) > to - from;
+    }
+    if (!isLoud)
+        return;
+    // The frame's own running median over frequency, which keeps the edges of what is loud.
+    const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(binsPerCell)));
+    std::vector<float> ln;
+    for (std::size_t bin = 0; bin < values.size(); bin += stride)
+        ln.push_back(std::log(std::max(values[bin], 1e-6f)));
+    const std::vector<float> medians = runningMedian(ln, half);
+    for (std::size_t bin = 0; bin < values.size(); ++bin) {
+        const float excess = std::exp(medians[bin / stride]) / limit;
+        if (excess > 1.0f)
+            values[bin] /= excess;
+    }
+}
+
+} // namespace faintline

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "base/Grid.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// Frames whose noise has mean 1 in every cell: the only input a detector takes.
+///
+/// A frame is one value y ≥ 0 per cell of `grid`, power over noise power. Frames are read by index, in any order, from
+/// any thread. A spectrogram cannot stand here before a normaliser has been through it.
+class NormalisedFrames
+{
+public:
+    virtual ~NormalisedFrames() = default;
+
+    const Axis &time() const { return m_time; }
+    const Grid &grid() const { return m_grid; }
+
+    /// Writes frames first … first+count-1, count × grid().size() values, row by row.
+    virtual void read(Index first, Index count, std::span<float> out) const = 0;
+
+protected:
+    NormalisedFrames(Axis time, Grid grid) : m_time(std::move(time)), m_grid(std::move(grid)) {}
+
+    Axis m_time;
+    Grid m_grid;
+};
+
+using NormalisedFramesPointer = std::shared_ptr<const NormalisedFrames>;
+
+/// Ready-made normalised frames held in memory: simulated pings, arrays from files, tests.
+class FrameArray final : public NormalisedFrames
+{
+public:
+    /// `values`: time.count × grid.size(), row by row.
+    FrameArray(Axis time, Grid grid, std::vector<float> values)
+        : NormalisedFrames(std::move(time), std::move(grid)), m_values(std::move(values))
+    {
+    }
+
+    void read(Index first, Index count, std::span<float> out) const override;
+
+private:
+    std::vector<float> m_values;
+};
+
+} // namespace faintline

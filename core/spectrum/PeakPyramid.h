@@ -1,0 +1,82 @@
+#pragma once
+
+#include "base/Axis.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// Values as one byte, for pictures only: no decision is ever taken on them.
+///
+/// Power: -15 … +112 dB in steps of ½ dB. Score: -4 … 46 nat in steps of ¼ nat, above that in steps of 15 %, to 10⁵ nat.
+class ByteScale
+{
+public:
+    enum class Kind { PowerDb, ScoreNats };
+
+    explicit ByteScale(Kind kind = Kind::PowerDb);
+
+    Kind kind() const { return m_kind; }
+    /// The value a byte stands for: dB or nat.
+    double value(int byte) const { return static_cast<double>(m_values[static_cast<std::size_t>(byte)]); }
+    /// The nearest byte of a value in dB or nat.
+    std::uint8_t byte(double value) const;
+    /// Encodes power ratios (PowerDb) or scores (ScoreNats).
+    void encode(std::span<const float> values, std::span<std::uint8_t> bytes) const;
+
+private:
+    Kind m_kind;
+    std::vector<float> m_values;
+};
+
+/// A recording-long picture that keeps its maxima: a line one bin wide survives zooming out.
+///
+/// Level 0 has one row per `framesPerRow` frames, each further level one per four rows of the level below; a row is the maximum, cell
+/// by cell, of what it stands for. 1.33 bytes a cell. When the byte budget would be exceeded, rows of level 0 are
+/// merged by four, so memory stays bounded however long the recording.
+class PeakPyramid
+{
+public:
+    PeakPyramid(Axis time, Index cells, ByteScale scale, std::size_t byteBudget = std::size_t(160) << 20);
+
+    /// Takes the next frames, in order: whole rows of `cells` values.
+    void append(std::span<const float> frames);
+
+    /// Closes the last, incomplete rows. Nothing may be appended afterwards.
+    void finish();
+
+    const Axis &time() const { return m_time; } ///< of frames
+    Index cells() const { return m_cells; }
+    const ByteScale &scale() const { return m_scale; }
+    Index frameCount() const { return m_frameCount; }
+
+    int levelCount() const { return static_cast<int>(m_levels.size()); }
+    Index framesPerRow(int level) const;
+    Index rowCount(int level) const { return std::ssize(m_levels[static_cast<std::size_t>(level)]) / m_cells; }
+    std::span<const std::uint8_t> row(int level, Index row) const;
+
+    /// Coarsest level whose rows hold no more than `frames` frames each.
+    int levelFor(double frames) const;
+
+private:
+    void push(int level, std::span<const std::uint8_t> row);
+    void coarsen();
+    std::size_t bytes() const;
+
+    Axis m_time;
+    Index m_cells;
+    ByteScale m_scale;
+    std::size_t m_byteBudget;
+    Index m_baseFrames = 1; ///< frames per row of level 0
+    Index m_frameCount = 0;
+    std::vector<std::vector<std::uint8_t>> m_levels;
+    struct Pending {
+        std::vector<std::uint8_t> row;
+        Index count = 0;
+    };
+    std::vector<Pending> m_pending; ///< of level 0 (in frames), 1, … (in rows of the level below)
+};
+
+} // namespace faintline

@@ -1,0 +1,191 @@
+#include "spectrum/Spectrogram.h"
+
+#include "base/Error.h"
+#include "base/multiversion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    FAINTLINE_MULTIVERSION
+    void applyWindow(const float *samples, const float *window, std::size_t n, float *out)
+    {
+        for (std::size_t i = 0; i < n; ++i)
+            out[i] = samples[i] * window[i];
+    }
+
+    FAINTLINE_MULTIVERSION
+    void applyWindowComplex(const float *samples, const float *window, std::size_t n, float *out)
+    {
+        for (std::size_t i = 0; i < n; ++i) {
+            out[2 * i] = samples[2 * i] * window[i];
+            out[2 * i + 1] = samples[2 * i + 1] * window[i];
+        }
+    }
+
+    FAINTLINE_MULTIVERSION
+    void squaredMagnitude(const float *bins, std::size_t n, float *out)
+    {
+        for (std::size_t i = 0; i < n; ++i)
+            out[i] = bins[2 * i] * bins[2 * i] + bins[2 * i + 1] * bins[2 * i + 1];
+    }
+
+    std::string seconds(double value)
+    {
+        return formatNumber(value) + " s";
+    }
+
+} // namespace
+
+const std::vector<Field<SpectrogramSettings>> &SpectrogramSettings::fields()
+{
+    using S = SpectrogramSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::windowSeconds, "windowSeconds", "s", 0.0, 1e6,
+              "Length T_FT of the sliding Fourier window; 0 chooses it from the recording's length and rate."),
+        field(&S::stepsPerWindow, "stepsPerWindow", "", 1.0, 64.0, "Frames per window, k_t: 2 overlaps by half."),
+        field(&S::binsPerCell, "binsPerCell", "", 1.0, 32.0,
+              "Frequency bins per resolution cell 1/T_FT, k_f: above 1 the window is padded with zeros."),
+        field(&S::window, "window", windowShapeNames,
+              "Shape of the window: the lower its side lobes, the nearer a faint line may lie to a strong one."),
+    };
+    return table;
+}
+
+const std::vector<Field<SelectionSettings>> &SelectionSettings::fields()
+{
+    using S = SelectionSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::channel, "channel", "", 0.0, 1023.0, "Channel, counted from 0."),
+        field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part looked at, from the first sample."),
+        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part looked at; 0 is the recording's end."),
+        field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12, "Lower edge of the band; the whole band where it equals the upper."),
+        field(&S::highHz, "highHz", "Hz", -1e12, 1e12, "Upper edge of the band."),
+    };
+    return table;
+}
+
+double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
+{
+    const double wanted = 3.0 * std::sqrt(info.durationSeconds() / info.sampleRateHz);
+    const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
+    const double mantissa = wanted / decade;
+    double chosen = decade * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
+    // At least 16 samples, so that there is a spectrum at all; never more than a quarter of the recording.
+    chosen = std::max(chosen, 16.0 / info.sampleRateHz);
+    return std::min(chosen, std::max(info.durationSeconds() / 4.0, 1.0 / info.sampleRateHz));
+}
+
+Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &settings, const SelectionSettings &selection)
+    : m_recording(std::move(recording)), m_settings(settings), m_selection(selection)
+{
+    const RecordingInfo &info = m_recording->info();
+    const double rate = info.sampleRateHz;
+    if (selection.channel >= info.channelCount)
+        throw Error("selection.channel = " + std::to_string(selection.channel),
+                    "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+
+    const double to = selection.toSeconds > 0.0 ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
+    if (selection.fromSeconds >= to)
+        throw Error("selection.fromSeconds = " + formatNumber(selection.fromSeconds),
+                    "must lie before the end of the part looked at, " + seconds(to));
+    m_firstSample = static_cast<Index>(std::llround(selection.fromSeconds * rate));
+    const Index sampleCount = std::min(static_cast<Index>(std::llround(to * rate)), info.sampleCount) - m_firstSample;
+
+    const double windowSeconds = settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info);
+    const double wantedSamples = windowSeconds * rate;
+    if (wantedSamples * settings.binsPerCell > 1e8)
+        throw Error("spectrogram.windowSeconds = " + formatNumber(windowSeconds),
+                    "gives a transform of more than 100 million points; shorten the window");
+    m_windowSamples = static_cast<int>(std::llround(wantedSamples));
+    if (m_windowSamples < 2)
+        throw Error("spectrogram.windowSeconds = " + formatNumber(windowSeconds),
+                    "holds fewer than 2 samples at " + formatNumber(rate) + " Hz");
+    if (sampleCount < m_windowSamples)
+        throw Error(info.path,
+                    "the part looked at is " + std::to_string(sampleCount) + " samples (" + seconds(static_cast<double>(sampleCount) / rate)
+                        + ") long, shorter than one window of " + seconds(windowSeconds)
+                        + "; choose a shorter spectrogram.windowSeconds");
+    m_hopSamples = std::max(1, static_cast<int>(std::lround(static_cast<double>(m_windowSamples) / settings.stepsPerWindow)));
+    m_window = sampleWindow(settings.window, m_windowSamples);
+    m_fft = std::make_shared<Fft>(Fft::fastLength(m_windowSamples * settings.binsPerCell),
+                                  info.isComplex ? Fft::Input::Complex : Fft::Input::Real);
+
+    m_time = {"time", "s", (static_cast<double>(m_firstSample) + 0.5 * m_windowSamples) / rate,
+              static_cast<double>(m_hopSamples) / rate, (sampleCount - m_windowSamples) / m_hopSamples + 1, false};
+
+    const int n = m_fft->length();
+    const double binHz = rate / n;
+    Axis whole{"frequency", "Hz", 0.0, binHz, m_fft->binCount(), false};
+    if (info.isComplex)
+        whole.first -= (n / 2) * binHz;
+    m_frequency = whole;
+    if (selection.lowHz < selection.highHz) {
+        const Index low = static_cast<Index>(std::ceil(std::max(0.0, whole.position(selection.lowHz) - 1e-9)));
+        const Index high = static_cast<Index>(
+            std::floor(std::min(static_cast<double>(whole.count - 1), whole.position(selection.highHz) + 1e-9)));
+        if (low > high)
+            throw Error("selection.lowHz … highHz = " + formatNumber(selection.lowHz) + " … " + formatNumber(selection.highHz),
+                        "holds no bin; the recording spans " + formatNumber(whole.first) + " … " + formatNumber(whole.last()) + " Hz");
+        m_firstBin = low;
+        m_frequency.first = whole.value(static_cast<double>(low));
+        m_frequency.count = high - low + 1;
+    } else if (selection.lowHz > selection.highHz) {
+        throw Error("selection.lowHz = " + formatNumber(selection.lowHz), "must not lie above selection.highHz");
+    }
+}
+
+void Spectrogram::read(Index first, Index count, std::span<float> out) const
+{
+    const std::size_t floats = m_recording->info().isComplex ? 2 : 1;
+    const auto bins = static_cast<std::size_t>(m_frequency.count);
+    const auto buffer = m_fft->buffer();
+    // Samples of a run of frames are read once; a run is bounded so that memory does not grow with the request.
+    const Index framesPerRun = std::max<Index>(1, (1 << 20) / m_hopSamples);
+    std::vector<float> samples;
+    for (Index done = 0; done < count; done += framesPerRun) {
+        const Index run = std::min(framesPerRun, count - done);
+        const Index sampleCount = (run - 1) * m_hopSamples + m_windowSamples;
+        samples.resize(static_cast<std::size_t>(sampleCount) * floats);
+        m_recording->read(m_selection.channel, m_firstSample + (first + done) * m_hopSamples, sampleCount, samples);
+        for (Index frame = 0; frame < run; ++frame) {
+            const std::size_t offset = static_cast<std::size_t>(frame * m_hopSamples) * floats;
+            transformFrame(std::span(samples).subspan(offset, static_cast<std::size_t>(m_windowSamples) * floats), *buffer,
+                           out.subspan(static_cast<std::size_t>(done + frame) * bins, bins));
+        }
+    }
+}
+
+void Spectrogram::transformFrame(std::span<const float> samples, Fft::Buffer &buffer, std::span<float> out) const
+{
+    const auto window = static_cast<std::size_t>(m_windowSamples);
+    const bool isComplex = m_recording->info().isComplex;
+    const std::span<float> input = buffer.input();
+    if (isComplex)
+        applyWindowComplex(samples.data(), m_window.data(), window, input.data());
+    else
+        applyWindow(samples.data(), m_window.data(), window, input.data());
+    std::fill(input.begin() + static_cast<std::ptrdiff_t>(samples.size()), input.end(), 0.0f);
+    m_fft->run(buffer);
+
+    const auto *bins = reinterpret_cast<const float *>(buffer.output().data());
+    const Index n = m_fft->length();
+    if (!isComplex) {
+        squaredMagnitude(bins + 2 * m_firstBin, out.size(), out.data());
+        return;
+    }
+    // Ascending frequency: bin i of the whole band is transform bin (i - ⌊n/2⌋) mod n.
+    const Index firstPositive = n / 2;
+    for (Index done = 0; done < std::ssize(out);) {
+        const Index whole = m_firstBin + done;
+        const Index source = whole < firstPositive ? whole + n - firstPositive : whole - firstPositive;
+        const Index run = std::min(std::ssize(out) - done, whole < firstPositive ? firstPositive - whole : n - whole);
+        squaredMagnitude(bins + 2 * source, static_cast<std::size_t>(run), out.data() + done);
+        done += run;
+    }
+}
+
+} // namespace faintline

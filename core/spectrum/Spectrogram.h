@@ -1,0 +1,90 @@
+#pragma once
+
+#include "base/Field.h"
+#include "base/Grid.h"
+#include "recording/Recording.h"
+#include "spectrum/Fft.h"
+#include "spectrum/Window.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// How a recording is cut into spectra, in Billon's terms.
+struct SpectrogramSettings {
+    double windowSeconds = 0.0;       ///< T_FT; 0 chooses it from the recording
+    int stepsPerWindow = 2;           ///< k_t: frames per T_FT
+    int binsPerCell = 2;              ///< k_f: bins per resolution cell 1/T_FT
+    WindowShape window = WindowShape::Hann;
+
+    static const std::vector<Field<SpectrogramSettings>> &fields();
+    bool operator==(const SpectrogramSettings &) const = default;
+};
+
+/// Which part of a recording is looked at.
+struct SelectionSettings {
+    int channel = 0;
+    double fromSeconds = 0.0;
+    double toSeconds = 0.0; ///< 0: to the end
+    double lowHz = 0.0;     ///< band, as an offset from the centre frequency for I/Q
+    double highHz = 0.0;    ///< low = high: the whole band
+
+    static const std::vector<Field<SelectionSettings>> &fields();
+    bool operator==(const SelectionSettings &) const = default;
+};
+
+/// The sliding spectrum of a recording, computed on demand:
+///
+///   y(t, f) = |Σₙ w(n) x(t·hop + n) e^{-2πi f n}|²,   Σ w² = 1
+///
+/// `hop` = T_FT/k_t samples, transform length ≥ k_f·T_FT samples (rounded up to a fast length), so that white noise of
+/// variance σ² gives E[y] = σ². The time of a frame is the middle of its window. Real input gives the bins from 0 Hz to half
+/// the sample rate, complex input those from -½ to +½ of it: offsets from the recording's centre frequency.
+/// Source: Billon 2005, sections 4 and 5. Oracle: a direct discrete Fourier transform. Thread-safe; frames are a pure
+/// function of (recording, settings, index).
+class Spectrogram
+{
+public:
+    /// Throws Error where the recording is shorter than a window or the settings leave no bin.
+    Spectrogram(RecordingPointer recording, const SpectrogramSettings &settings, const SelectionSettings &selection = {});
+
+    const Axis &time() const { return m_time; }
+    const Axis &frequency() const { return m_frequency; }
+    const Recording &recording() const { return *m_recording; }
+    RecordingPointer recordingPointer() const { return m_recording; }
+    const SpectrogramSettings &settings() const { return m_settings; }
+    const SelectionSettings &selection() const { return m_selection; }
+
+    int windowSamples() const { return m_windowSamples; }
+    int hopSamples() const { return m_hopSamples; }
+    int transformLength() const { return m_fft->length(); }
+    /// Bins per resolution cell as realised: transform length over window length.
+    double binsPerCell() const { return static_cast<double>(m_fft->length()) / m_windowSamples; }
+
+    /// Computes frames first … first+count-1 into `out`, count × frequency().count values, row by row.
+    void read(Index first, Index count, std::span<float> out) const;
+
+    /// T_FT for a recording nobody said anything about: 3·√(duration/rate), rounded to 1, 2 or 5 · 10ⁿ seconds, which
+    /// gives about as many cells as frames.
+    static double automaticWindowSeconds(const RecordingInfo &info);
+
+private:
+    void transformFrame(std::span<const float> samples, Fft::Buffer &buffer, std::span<float> out) const;
+
+    RecordingPointer m_recording;
+    SpectrogramSettings m_settings;
+    SelectionSettings m_selection;
+    int m_windowSamples = 0;
+    int m_hopSamples = 0;
+    Index m_firstSample = 0;
+    Index m_firstBin = 0; ///< of the band, in ascending frequency
+    std::vector<float> m_window;
+    std::shared_ptr<const Fft> m_fft;
+    Axis m_time;
+    Axis m_frequency;
+};
+
+} // namespace faintline

@@ -1,0 +1,286 @@
+#include "track/DetectionChain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t recordBytes = std::size_t(32) << 20;
+    constexpr int framesUntilDuplicate = 3;
+    constexpr double skirtLevel = 8.0; ///< y that noise seldom reaches
+    constexpr Index largestSkirtSteps = 16;
+
+    /// A path usually comes to its signal over some frames of noise that happened to suit it. The signal begins where the score
+    /// begins to grow: the change point between no growth and half the path's own mean growth.
+    void dropRunUp(std::vector<TrackPoint> &points)
+    {
+        const double tilt = 0.5 * points.back().statistic / static_cast<double>(points.size());
+        std::size_t onset = 0;
+        double least = 0.0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double before = i == 0 ? 0.0 : points[i - 1].statistic;
+            const double tilted = before - tilt * static_cast<double>(i);
+            if (tilted < least) {
+                least = tilted;
+                onset = i;
+            }
+        }
+        points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(onset));
+    }
+
+} // namespace
+
+DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<Detector> detector, ChainSettings settings)
+    : m_model(model), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
+      m_trackerModel(std::make_unique<TrackerModel>(model, grid, m_settings.track, m_settings.threshold)),
+      m_seenLimit(std::clamp<std::size_t>(recordBytes / (sizeof(float) * static_cast<std::size_t>(grid.size())), 16, 4096)),
+      m_lambda(static_cast<std::size_t>(grid.size()))
+{
+}
+
+void DetectionChain::update(Index frame, std::span<const float> y, std::span<float> statistic)
+{
+    if (!m_settings.feedback) {
+        m_detector->update(y, statistic);
+        return;
+    }
+    // What the last frame's tracks took over is forgotten only now, so that between frames the scores are those shown.
+    for (const CellBox &box : m_boxes)
+        m_detector->forget(m_grid, box);
+    updateTrackers(frame, y);
+
+    Seen seen;
+    seen.y.assign(y.begin(), y.end());
+    m_boxes.clear();
+    for (const HmmTracker &tracker : m_trackers)
+        m_boxes.push_back(boxRound(tracker.coordinates(), y));
+    for (const CellBox &box : m_boxes)
+        box.forEachCell(m_grid, [&](Index cell) { seen.y[static_cast<std::size_t>(cell)] = 0.0f; });
+    const double lnK = m_detector->regulation().lnK;
+    m_detector->update(seen.y, statistic);
+    seen.lnK = m_seen.empty() ? lnK : m_detector->regulation().lnK;
+    if (m_seen.size() == m_seenLimit) {
+        m_seen.pop_front();
+        ++m_firstSeen;
+    }
+    if (m_seen.empty())
+        m_firstSeen = frame;
+    m_seen.push_back(std::move(seen));
+
+    const auto clusters = findClusters(m_grid, statistic, m_settings.threshold, m_settings.shoulder, m_settings.linkCells);
+    for (const Cluster &cluster : clusters)
+        startTrack(frame, cluster, y);
+    m_seen.back().forgotten = m_boxes;
+    for (const HmmTracker &tracker : m_trackers)
+        tracker.paint(statistic);
+}
+
+void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
+{
+    if (m_trackers.empty())
+        return;
+    m_model.likelihood.apply(y, m_lambda);
+    const double lnK = m_detector->regulation().lnK;
+    std::vector<HmmTracker> going;
+    std::vector<std::vector<Index>> places; // as of the last frame: some trackers are about to move or end
+    for (const HmmTracker &tracker : m_trackers)
+        places.push_back(tracker.coordinates());
+    for (std::size_t i = 0; i < m_trackers.size(); ++i) {
+        HmmTracker &tracker = m_trackers[i];
+        const auto hidden = hideOthers(places, i);
+        const bool goesOn = tracker.update(frame, m_lambda, lnK);
+        for (const auto &[cell, value] : hidden)
+            m_lambda[static_cast<std::size_t>(cell)] = value;
+        if (goesOn)
+            going.push_back(std::move(tracker));
+        else
+            m_ended.push_back(tracker.finish(false));
+    }
+    m_trackers = std::move(going);
+    endDuplicates();
+}
+
+std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const std::vector<std::vector<Index>> &places, std::size_t own)
+{
+    // A tracker must not slip over to a stronger signal that another one follows: what lies nearer to the other is its.
+    const auto distance = [this](const std::vector<Index> &a, const std::vector<Index> &b) {
+        Index largest = 0;
+        for (std::size_t axis = 0; axis < a.size(); ++axis) {
+            Index d = std::abs(a[axis] - b[axis]);
+            if (m_grid.axes[axis].cyclic)
+                d = std::min(d, m_grid.axes[axis].count - d);
+            largest = std::max(largest, d);
+        }
+        return largest;
+    };
+    const std::vector<Index> &mine = places[own];
+    const auto nothing = static_cast<float>(m_model.likelihood.at(0.0));
+    std::vector<std::pair<Index, float>> hidden;
+    for (std::size_t other = 0; other < places.size(); ++other) {
+        const std::vector<Index> &centre = places[other];
+        if (other == own || distance(mine, centre) > m_trackerModel->largestExtent)
+            continue;
+        CellBox{centre, m_settings.inhibitCells}.forEachCell(m_grid, [&](Index cell) {
+            const std::vector<Index> c = m_grid.coordinates(cell);
+            if (distance(c, centre) >= distance(c, mine))
+                return;
+            float &value = m_lambda[static_cast<std::size_t>(cell)];
+            hidden.emplace_back(cell, value);
+            value = nothing;
+        });
+    }
+    // Undone backward, a cell hidden twice gets its first value back.
+    std::reverse(hidden.begin(), hidden.end());
+    return hidden;
+}
+
+void DetectionChain::endDuplicates()
+{
+    // Two trackers on one signal: the younger one ends.
+    for (std::size_t younger = m_trackers.size(); younger-- > 1;) {
+        for (std::size_t older = 0; older < younger; ++older) {
+            HmmTracker &young = m_trackers[younger];
+            if (!CellBox{m_trackers[older].coordinates(), m_settings.linkCells}.contains(m_grid, young.coordinates())) {
+                young.separatedFrom(m_trackers[older].track().id);
+                continue;
+            }
+            if (young.besides(m_trackers[older].track().id) < framesUntilDuplicate)
+                continue;
+            m_ended.push_back(young.finish(false));
+            m_trackers.erase(m_trackers.begin() + static_cast<std::ptrdiff_t>(younger));
+            break;
+        }
+    }
+}
+
+CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<const float> y) const
+{
+    CellBox box{centre, m_settings.inhibitCells};
+    const Index middle = m_grid.cell(centre);
+    const double level = static_cast<double>(y[static_cast<std::size_t>(middle)]);
+    if (m_settings.spill)
+        box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.spill(level));
+    if (m_settings.skirtStep <= 0 || level < skirtLevel)
+        return box;
+    // Beyond the window's own side lobes a modulated line has skirts: its hill, down to where it stops falling.
+    const Axis &axis = m_grid.axes.back();
+    const Index position = centre.back();
+    const auto hillOn = [&](Index direction) {
+        const auto groupPeak = [&](Index from) {
+            float peak = 0.0f;
+            for (Index i = 0; i < m_settings.skirtStep; ++i)
+                if (const Index cell = axis.wrapped(position + direction * (from + i)); cell >= 0)
+                    peak = std::max(peak, y[static_cast<std::size_t>(middle - position + cell)]);
+            return peak;
+        };
+        Index reach = box.halfWidth.back();
+        const Index limit = reach + largestSkirtSteps * m_settings.skirtStep;
+        float before = groupPeak(std::max<Index>(0, reach - m_settings.skirtStep + 1));
+        while (reach < limit) {
+            const float next = groupPeak(reach + 1);
+            if (static_cast<double>(next) < skirtLevel || next > before)
+                break;
+            before = next;
+            reach += m_settings.skirtStep;
+        }
+        return reach;
+    };
+    const Index below = hillOn(-1);
+    const Index above = hillOn(+1);
+    box.halfWidth.back() = (below + above + 1) / 2;
+    box.centre.back() = position + (above - below) / 2;
+    if (const Index inside = axis.wrapped(box.centre.back()); inside >= 0)
+        box.centre.back() = inside;
+    return box;
+}
+
+Index DetectionChain::bestState(Index cell) const
+{
+    const std::span<const float> scores = m_detector->scores();
+    Index best = cell;
+    for (Index plane = 1; plane < m_model.space.planeCount(); ++plane) {
+        const Index state = plane * m_model.space.cellCount() + cell;
+        if (scores[static_cast<std::size_t>(state)] > scores[static_cast<std::size_t>(best)])
+            best = state;
+    }
+    return best;
+}
+
+RecursionRecord DetectionChain::record() const
+{
+    RecursionRecord result;
+    result.firstFrame = m_firstSeen;
+    const auto at = [this](Index frame) -> const Seen & { return m_seen[static_cast<std::size_t>(frame - m_firstSeen)]; };
+    result.frame = [at](Index frame) { return std::span<const float>(at(frame).y); };
+    result.lnK = [at](Index frame) { return at(frame).lnK; };
+    result.forgotten = [at](Index frame) { return std::span<const CellBox>(at(frame).forgotten); };
+    return result;
+}
+
+std::vector<PathStep> DetectionChain::detectorPathInto(Index state) const
+{
+    return tracePath(m_model, m_grid, record(), m_firstSeen + std::ssize(m_seen) - 1, state,
+                     static_cast<double>(m_detector->scores()[static_cast<std::size_t>(state)]));
+}
+
+DetectionChain::PathInto DetectionChain::pathInto(Index cell) const
+{
+    PathInto path;
+    Index state = bestState(cell);
+    double best = static_cast<double>(m_detector->scores()[static_cast<std::size_t>(state)]);
+    const HmmTracker *following = nullptr;
+    for (const HmmTracker &tracker : m_trackers) {
+        Index candidate = 0;
+        if (const double score = tracker.scoreAt(cell, &candidate); score > best) {
+            best = score;
+            state = candidate;
+            following = &tracker;
+        }
+    }
+    path.isTracked = following != nullptr;
+    path.steps = following ? following->explain(state) : detectorPathInto(state);
+    return path;
+}
+
+void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<const float> y)
+{
+    const Index state = bestState(cluster.peakCell);
+    Track track;
+    track.id = m_nextId++;
+    track.detectFrame = frame;
+    for (const PathStep &step : detectorPathInto(state))
+        track.points.push_back({step.frame, m_model.space.cellOf(step.state), m_model.space.planeOf(step.state), step.score});
+    dropRunUp(track.points);
+    track.onsetFrame = track.points.front().frame;
+    track.isConfirmed = m_settings.track.confirmFrames <= 1 && m_settings.track.confirmNats <= 0.0;
+
+    const double offset = static_cast<double>(cluster.peakStatistic)
+        - static_cast<double>(m_detector->scores()[static_cast<std::size_t>(state)]);
+    m_trackers.emplace_back(*m_trackerModel, std::move(track), state, cluster.cells, m_detector->scores(), offset);
+
+    // The box must hold the whole cluster, or its rim would start a second track in the next frame.
+    CellBox box = boxRound(m_grid.coordinates(cluster.peakCell), y);
+    for (Index cell : cluster.cells) {
+        const std::vector<Index> c = m_grid.coordinates(cell);
+        for (std::size_t axis = 0; axis < c.size(); ++axis) {
+            const Axis &a = m_grid.axes[axis];
+            Index distance = std::abs(c[axis] - box.centre[axis]);
+            if (a.cyclic)
+                distance = std::min(distance, a.count - distance);
+            box.halfWidth[axis] = std::max(box.halfWidth[axis], distance + m_settings.linkCells[axis]);
+        }
+    }
+    m_boxes.push_back(std::move(box));
+}
+
+void DetectionChain::finish()
+{
+    for (HmmTracker &tracker : m_trackers)
+        m_ended.push_back(tracker.finish(true));
+    m_trackers.clear();
+    std::sort(m_ended.begin(), m_ended.end(), [](const Track &a, const Track &b) { return a.id < b.id; });
+}
+
+} // namespace faintline

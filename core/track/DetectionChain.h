@@ -1,0 +1,98 @@
+#pragma once
+
+#include "detect/Detector.h"
+#include "detect/PathTrace.h"
+#include "model/MarkovModel.h"
+#include "track/Cluster.h"
+#include "track/HmmTracker.h"
+#include "track/Track.h"
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace faintline {
+
+/// What the chain needs to know besides the model: everything in cells of the grid and nats.
+struct ChainSettings {
+    double threshold = 0.0;           ///< on the detector's statistic
+    double shoulder = 0.0;            ///< cells above this round a crossing belong to the same excursion and are forgotten with it
+    std::vector<Index> linkCells;     ///< crossings this near belong to one cluster, per axis
+    std::vector<Index> inhibitCells;  ///< half the box kept from the detector round a track, per axis
+    TrackSettings track;
+    bool feedback = true;             ///< false: detector only, no reset, no inhibition, no tracks
+    /// Half-width along the last axis over which a signal of power y spills into its neighbours; may be empty.
+    std::function<Index(double y)> spill;
+    /// Bins of one resolution cell along the last axis: a strong signal's skirts are followed outward in such steps; 0: not.
+    Index skirtStep = 0;
+};
+
+/// From frames to tracks: Parsons' Figure 1.
+///
+/// For each frame, in this order: the trackers take the raw frame, and those whose signal is gone end; y is set to 0 in a box
+/// round every track and the detector takes the rest; crossings are clustered; the peak of each cluster starts a track,
+/// whose past is traced back to its onset, and the detector forgets the box round it. The statistic shown is the
+/// detector's, raised to the trackers' scores where they follow something. Deterministic; one object per thread.
+class DetectionChain
+{
+public:
+    DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<Detector> detector, ChainSettings settings);
+
+    /// Takes frame number `frame` (ascending, no gaps); writes the statistic of every cell.
+    void update(Index frame, std::span<const float> y, std::span<float> statistic);
+
+    /// Ends the tracks still open. Afterwards `tracks()` is complete, ordered by detection, then cell.
+    void finish();
+
+    const std::vector<Track> &tracks() const { return m_ended; }
+    const std::vector<HmmTracker> &trackers() const { return m_trackers; }
+    const Detector &detector() const { return *m_detector; }
+
+    /// The best path into a cell in the newest frame, by the tracker that follows the cell or by the detector.
+    struct PathInto {
+        std::vector<PathStep> steps; ///< under a tracker: from the frame it was seeded in
+        bool isTracked = false;
+    };
+    PathInto pathInto(Index cell) const;
+
+    /// The detector's best path into a state of the newest frame.
+    std::vector<PathStep> detectorPathInto(Index state) const;
+
+    /// The boxes kept from the detector in the last frame.
+    const std::vector<CellBox> &inhibited() const { return m_boxes; }
+
+private:
+    /// One frame as the detector saw it.
+    struct Seen {
+        std::vector<float> y;
+        double lnK = 0.0;
+        std::vector<CellBox> forgotten;
+    };
+
+    void updateTrackers(Index frame, std::span<const float> y);
+    std::vector<std::pair<Index, float>> hideOthers(const std::vector<std::vector<Index>> &places, std::size_t own);
+    void endDuplicates();
+    CellBox boxRound(const std::vector<Index> &centre, std::span<const float> y) const;
+    void startTrack(Index frame, const Cluster &cluster, std::span<const float> y);
+    Index bestState(Index cell) const;
+    RecursionRecord record() const;
+
+    MarkovModel m_model;
+    Grid m_grid;
+    std::unique_ptr<Detector> m_detector;
+    ChainSettings m_settings;
+    std::unique_ptr<TrackerModel> m_trackerModel;
+    std::vector<HmmTracker> m_trackers;
+    std::vector<Track> m_ended;
+    std::vector<CellBox> m_boxes;
+    std::deque<Seen> m_seen;
+    Index m_firstSeen = 0;
+    std::size_t m_seenLimit;
+    int m_nextId = 1;
+    std::vector<float> m_lambda;
+};
+
+} // namespace faintline

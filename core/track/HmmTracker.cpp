@@ -1,0 +1,328 @@
+#include "track/HmmTracker.h"
+
+#include "base/logmath.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr float unreached = -std::numeric_limits<float>::infinity();
+
+    std::vector<Index> halfWidths(const StateSpace &space, const TrackSettings &settings)
+    {
+        std::vector<Index> result;
+        for (std::size_t axis = 0; axis < space.axes().size(); ++axis) {
+            const double wanted = settings.windowCells.empty() ? 12.0 : settings.windowCells[std::min(axis, settings.windowCells.size() - 1)];
+            const Index largest = (space.axes()[axis].cells - 1) / 2;
+            result.push_back(std::clamp(static_cast<Index>(std::llround(wanted)), Index(0), largest));
+        }
+        return result;
+    }
+
+    std::vector<Index> reaches(const StateSpace &space)
+    {
+        std::vector<Index> result;
+        for (const KinematicAxis &axis : space.axes())
+            result.push_back(axis.largestDisplacement());
+        return result;
+    }
+
+    std::vector<Index> sides(const std::vector<Index> &half, const std::vector<Index> &margin)
+    {
+        std::vector<Index> result;
+        for (std::size_t i = 0; i < half.size(); ++i)
+            result.push_back(2 * (half[i] + margin[i]) + 1);
+        return result;
+    }
+
+    /// Distance along an axis, the short way round on a cyclic one.
+    Index offsetOnAxis(const Axis &axis, Index from, Index to)
+    {
+        Index distance = to - from;
+        if (axis.cyclic) {
+            if (2 * distance > axis.count)
+                distance -= axis.count;
+            if (2 * distance < -axis.count)
+                distance += axis.count;
+        }
+        return distance;
+    }
+
+} // namespace
+
+const std::vector<Field<TrackSettings>> &TrackSettings::fields()
+{
+    using S = TrackSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::windowCells, "windowCells", "bins", 0.0, 10000.0,
+              "Half the window of states that follows a signal, per axis; the last number repeats."),
+        field(&S::decayNats, "decayNats", "nat", 0.0, 1000.0, "Taken off a track's level every frame, so that a track on noise fades."),
+        field(&S::ceilingNats, "ceilingNats", "nat", 0.0, 1e6, "A track's level never stands higher above the threshold than this."),
+        field(&S::endNats, "endNats", "nat", 0.0, 1e6, "A track ends when its level is this far below the threshold."),
+        field(&S::confirmNats, "confirmNats", "nat", 0.0, 1e6, "A track is confirmed when its level is this far above the threshold."),
+        field(&S::confirmFrames, "confirmFrames", "frames", 1.0, 1e6, "A track is confirmed at this age at the earliest."),
+        field(&S::smoothingFrames, "smoothingFrames", "frames", 1.0, 10000.0, "Lag of the smoothing of a track's path."),
+    };
+    return table;
+}
+
+TrackerModel::TrackerModel(const MarkovModel &model, const Grid &frameGrid, const TrackSettings &trackSettings, double thresholdNats)
+    : space(model.space), grid(frameGrid), settings(trackSettings), threshold(thresholdNats), transitionScale(model.transitionScale),
+      halfWidth(halfWidths(space, settings)), reach(reaches(space)),
+      window(space.window(sides(halfWidth, std::vector<Index>(halfWidth.size(), 0)))), padded(space.window(sides(halfWidth, reach))),
+      recursion(padded, model.transitionScale), scores(static_cast<std::size_t>(padded.stateCount()))
+{
+    for (std::size_t axis = 0; axis < halfWidth.size(); ++axis)
+        largestExtent = std::max(largestExtent, 2 * (halfWidth[axis] + reach[axis]));
+}
+
+HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells, std::span<const float> detectorScores,
+                       double scoreOffset)
+    : m_model(&model), m_track(std::move(start)), m_best(state)
+{
+    Slice slice;
+    slice.frame = m_track.detectFrame;
+    slice.centre = model.grid.coordinates(model.space.cellOf(state));
+    slice.scores.assign(static_cast<std::size_t>(model.window.stateCount()), unreached);
+    m_statistic = static_cast<double>(detectorScores[static_cast<std::size_t>(state)]) + scoreOffset;
+    slice.offset = m_statistic;
+    for (Index local = 0; local < model.window.stateCount(); ++local) {
+        const Index cell = globalCell(slice, model.window.cellOf(local));
+        if (std::binary_search(cells.begin(), cells.end(), cell)) {
+            const Index global = model.window.planeOf(local) * model.space.cellCount() + cell;
+            slice.scores[static_cast<std::size_t>(local)] = static_cast<float>(
+                static_cast<double>(detectorScores[static_cast<std::size_t>(global)]) + scoreOffset - slice.offset);
+        }
+    }
+    m_history.push_back(std::move(slice));
+    m_level = std::min(m_statistic, model.threshold + model.settings.ceilingNats);
+    m_levels.push_back(m_level);
+    m_track.peakStatistic = m_statistic;
+    if (!m_track.points.empty())
+        m_track.points.pop_back(); // the detection frame's point is traced with the rest
+}
+
+bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
+{
+    TrackerModel &model = *m_model;
+    const Slice &last = m_history.back();
+    // Old scores into the middle of the padded window.
+    std::fill(model.scores.begin(), model.scores.end(), unreached);
+    for (Index local = 0; local < model.window.stateCount(); ++local) {
+        StateSpace::Coordinates c = model.window.coordinates(local);
+        for (std::size_t axis = 0; axis < c.cells.size(); ++axis)
+            c.cells[axis] += model.reach[axis];
+        model.scores[static_cast<std::size_t>(model.padded.state(c))] = last.scores[static_cast<std::size_t>(local)];
+    }
+    const std::span<float> predicted = model.recursion.predict(model.scores);
+    const Index cells = model.padded.cellCount();
+    for (Index cell = 0; cell < cells; ++cell) {
+        std::vector<Index> c = model.padded.coordinates(cell).cells;
+        for (std::size_t axis = 0; axis < c.size(); ++axis)
+            c[axis] += last.centre[axis] - model.halfWidth[axis] - model.reach[axis];
+        const Index global = model.grid.cell(c);
+        const float gain = global < 0 ? unreached : lambda[static_cast<std::size_t>(global)] + static_cast<float>(lnK);
+        for (Index plane = 0; plane < model.padded.planeCount(); ++plane) {
+            const auto n = static_cast<std::size_t>(plane * cells + cell);
+            model.scores[n] = gain == unreached ? unreached : predicted[n] + gain;
+        }
+    }
+    follow(frame, lambda, lnK);
+    const double ceiling = model.threshold + model.settings.ceilingNats;
+    if (m_level >= model.threshold + model.settings.confirmNats
+        && frame - m_track.detectFrame + 1 >= model.settings.confirmFrames)
+        m_track.isConfirmed = true;
+    m_level = std::min(m_level, ceiling);
+    m_levels.push_back(m_level);
+    const auto lag = static_cast<std::size_t>(model.settings.smoothingFrames);
+    if (m_history.size() >= 2 * lag + 1)
+        commit(lag);
+    return m_level >= model.threshold - model.settings.endNats;
+}
+
+void HmmTracker::follow(Index frame, std::span<const float> lambda, double lnK)
+{
+    TrackerModel &model = *m_model;
+    const auto best = std::max_element(model.scores.begin(), model.scores.end());
+    const Index local = best - model.scores.begin();
+    const double before = m_statistic;
+    const Slice &last = m_history.back();
+    if (*best == unreached) { // left the grid
+        m_level = minusInfinity;
+        return;
+    }
+    m_statistic = last.offset + static_cast<double>(*best);
+    m_level += m_statistic - before - model.settings.decayNats;
+    m_track.peakStatistic = std::max(m_track.peakStatistic, m_statistic);
+
+    std::vector<Index> centre = model.padded.coordinates(local).cells;
+    for (std::size_t axis = 0; axis < centre.size(); ++axis)
+        centre[axis] = model.grid.axes[axis].wrapped(centre[axis] + last.centre[axis] - model.halfWidth[axis] - model.reach[axis]);
+    m_best = model.padded.planeOf(local) * model.space.cellCount() + model.grid.cell(centre);
+    m_history.push_back(cutOut(frame, centre, lambda, lnK));
+}
+
+HmmTracker::Slice HmmTracker::cutOut(Index frame, const std::vector<Index> &centre, std::span<const float> lambda,
+                                     double lnK) const
+{
+    const TrackerModel &model = *m_model;
+    const Slice &last = m_history.back();
+    Slice slice{frame, centre, std::vector<float>(static_cast<std::size_t>(model.window.stateCount()), unreached), m_statistic, {}, lnK};
+    for (Index cell = 0; cell < model.window.cellCount(); ++cell) {
+        const Index global = globalCell(slice, cell);
+        slice.lambda.push_back(global < 0 ? 0.0f : lambda[static_cast<std::size_t>(global)]);
+    }
+    const double shift = last.offset - m_statistic;
+    for (Index local = 0; local < model.window.stateCount(); ++local) {
+        StateSpace::Coordinates c = model.window.coordinates(local);
+        bool inside = true;
+        for (std::size_t axis = 0; axis < c.cells.size(); ++axis) {
+            c.cells[axis] += offsetOnAxis(model.grid.axes[axis], last.centre[axis], centre[axis]) + model.reach[axis];
+            inside = inside && c.cells[axis] >= 0 && c.cells[axis] < model.padded.axes()[axis].cells;
+        }
+        if (inside)
+            slice.scores[static_cast<std::size_t>(local)] = static_cast<float>(
+                static_cast<double>(model.scores[static_cast<std::size_t>(model.padded.state(c))]) + shift);
+    }
+    return slice;
+}
+
+Index HmmTracker::localOf(const Slice &slice, Index state) const
+{
+    const TrackerModel &model = *m_model;
+    StateSpace::Coordinates c = model.space.coordinates(state);
+    for (std::size_t axis = 0; axis < c.cells.size(); ++axis) {
+        c.cells[axis] = offsetOnAxis(model.grid.axes[axis], slice.centre[axis], c.cells[axis]) + model.halfWidth[axis];
+        if (c.cells[axis] < 0 || c.cells[axis] >= model.window.axes()[axis].cells)
+            return -1;
+    }
+    return model.window.state(c);
+}
+
+Index HmmTracker::globalCell(const Slice &slice, Index localCell) const
+{
+    const TrackerModel &model = *m_model;
+    std::vector<Index> c = model.window.coordinates(localCell).cells;
+    for (std::size_t axis = 0; axis < c.size(); ++axis)
+        c[axis] += slice.centre[axis] - model.halfWidth[axis];
+    return model.grid.cell(c);
+}
+
+Index HmmTracker::predecessorIn(const Slice &earlier, Index state, double &lnTransition) const
+{
+    const TrackerModel &model = *m_model;
+    float best = unreached;
+    Index origin = state;
+    for (const StateSpace::Predecessor &p : model.space.predecessors(state)) {
+        const Index from = localOf(earlier, p.state);
+        if (from < 0)
+            continue;
+        const double ln = p.lnProbability * model.transitionScale;
+        const float score = earlier.scores[static_cast<std::size_t>(from)] + static_cast<float>(ln);
+        if (score > best) {
+            best = score;
+            origin = p.state;
+            lnTransition = ln;
+        }
+    }
+    return origin;
+}
+
+double HmmTracker::scoreAt(Index cell, Index *state) const
+{
+    const Slice &slice = m_history.back();
+    double best = minusInfinity;
+    for (Index plane = 0; plane < m_model->space.planeCount(); ++plane) {
+        const Index candidate = plane * m_model->space.cellCount() + cell;
+        const Index local = localOf(slice, candidate);
+        if (local < 0)
+            break;
+        const double score = slice.offset + static_cast<double>(slice.scores[static_cast<std::size_t>(local)]);
+        if (score > best) {
+            best = score;
+            if (state)
+                *state = candidate;
+        }
+    }
+    return best;
+}
+
+std::vector<PathStep> HmmTracker::explain(Index state) const
+{
+    std::vector<PathStep> path;
+    for (std::size_t i = m_history.size(); i-- > 0;) {
+        const Slice &slice = m_history[i];
+        const Index local = localOf(slice, state);
+        PathStep step;
+        step.frame = slice.frame;
+        step.state = state;
+        step.score = slice.offset + static_cast<double>(slice.scores[static_cast<std::size_t>(local)]);
+        if (i > 0) {
+            step.logLikelihoodRatio = static_cast<double>(slice.lambda[static_cast<std::size_t>(m_model->window.cellOf(local))]);
+            step.lnK = slice.lnK;
+            state = predecessorIn(m_history[i - 1], state, step.lnTransition);
+        }
+        path.push_back(step);
+    }
+    std::reverse(path.begin(), path.end());
+    return path;
+}
+
+void HmmTracker::commit(std::size_t count)
+{
+    const TrackerModel &model = *m_model;
+    // Backward from the most probable state of the newest slice.
+    std::vector<TrackPoint> path(m_history.size());
+    Index state = m_best;
+    for (std::size_t i = m_history.size(); i-- > 0;) {
+        const Slice &slice = m_history[i];
+        const Index local = localOf(slice, state);
+        path[i] = {slice.frame, model.space.cellOf(state), model.space.planeOf(state),
+                   slice.offset + static_cast<double>(slice.scores[static_cast<std::size_t>(local)])};
+        if (i == 0)
+            break;
+        double lnTransition = 0.0;
+        state = predecessorIn(m_history[i - 1], state, lnTransition);
+    }
+    m_track.points.insert(m_track.points.end(), path.begin(), path.begin() + static_cast<std::ptrdiff_t>(count));
+    m_history.erase(m_history.begin(), m_history.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+void HmmTracker::paint(std::span<float> statistic) const
+{
+    const TrackerModel &model = *m_model;
+    const Slice &slice = m_history.back();
+    for (Index cell = 0; cell < model.window.cellCount(); ++cell) {
+        const Index global = globalCell(slice, cell);
+        if (global < 0)
+            continue;
+        float best = unreached;
+        for (Index plane = 0; plane < model.window.planeCount(); ++plane)
+            best = std::max(best, slice.scores[static_cast<std::size_t>(plane * model.window.cellCount() + cell)]);
+        float &value = statistic[static_cast<std::size_t>(global)];
+        value = std::max(value, best + static_cast<float>(slice.offset));
+    }
+}
+
+Track HmmTracker::finish(bool isOpen)
+{
+    commit(m_history.size());
+    // The final fall's beginning: the change point between "holds" and "loses half the decay a frame".
+    const double tilt = 0.5 * m_model->settings.decayNats;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < m_levels.size(); ++i)
+        if (m_levels[i] + tilt * static_cast<double>(i) >= m_levels[last] + tilt * static_cast<double>(last))
+            last = i;
+    m_track.isOpen = isOpen && m_level >= m_model->threshold;
+    m_track.endFrame = m_track.isOpen ? m_track.points.back().frame : m_track.detectFrame + static_cast<Index>(last);
+    while (m_track.points.size() > 1 && m_track.points.back().frame > m_track.endFrame)
+        m_track.points.pop_back();
+    m_track.endFrame = m_track.points.back().frame;
+    return std::move(m_track);
+}
+
+} // namespace faintline

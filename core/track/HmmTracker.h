@@ -1,0 +1,117 @@
+#pragma once
+
+#include "base/Field.h"
+#include "detect/PathTrace.h"
+#include "detect/Recursion.h"
+#include "model/MarkovModel.h"
+#include "track/Track.h"
+
+#include <deque>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// How a detected signal is followed and given up.
+struct TrackSettings {
+    std::vector<double> windowCells{12.0}; ///< half the window that follows the state, per axis (the last one repeats)
+    double decayNats = 0.05;   ///< taken off the level every frame, so that a track on noise fades
+    double ceilingNats = 8.0;  ///< the level never stands higher above the threshold than this
+    double endNats = 8.0;      ///< a track ends when its level is this far below the threshold
+    double confirmNats = 0.0;  ///< a track is confirmed this far above the threshold …
+    int confirmFrames = 1;     ///< … and at this age
+    int smoothingFrames = 48;  ///< lag of the path's smoothing
+
+    static const std::vector<Field<TrackSettings>> &fields();
+    bool operator==(const TrackSettings &) const = default;
+};
+
+/// What all trackers of a chain share: the model, the shape of the window, and scratch memory (one chain, one thread).
+struct TrackerModel {
+    TrackerModel(const MarkovModel &model, const Grid &grid, const TrackSettings &settings, double threshold);
+
+    const StateSpace space;
+    const Grid grid;
+    const TrackSettings settings;
+    const double threshold;
+    const double transitionScale;
+    std::vector<Index> halfWidth; ///< of the window, per axis
+    std::vector<Index> reach;     ///< largest displacement in one step, per axis
+    Index largestExtent = 0;      ///< beyond this distance a cell cannot matter to a tracker
+    StateSpace window;
+    StateSpace padded;            ///< the window with room for one step
+    Recursion<MaxPlus<float>> recursion;
+    std::vector<float> scores;    ///< padded
+};
+
+/// Follows one signal on a small window of the state space that moves with the most probable state.
+///
+/// The same recursion as the detector's, without reset: u = λ + ln K + max_m [ln P(n|m) + u(m)]. Two scores are kept. The
+/// *statistic* is the path's own and goes on from the detector's. The *level* decides about the end: it follows the
+/// statistic, loses `decayNats` a frame, is held below threshold + `ceilingNats`, and the track ends when it falls
+/// below threshold - `endNats`. The path is smoothed by tracing back from the best state `smoothingFrames` or more later.
+/// The end is put where the level's final fall began. Source: Parsons 2008 section 2.3 and Figure 1.
+class HmmTracker
+{
+public:
+    /// Seeded from the detector's scores in the cells of the excursion whose best state crossed the threshold (`cells`,
+    /// ascending); `start` has the path so far.
+    HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells, std::span<const float> detectorScores,
+               double scoreOffset);
+
+    /// Takes the log-likelihood ratios of a whole frame; false when the track has ended.
+    bool update(Index frame, std::span<const float> lambda, double lnK);
+
+    Index cell() const { return m_model->space.cellOf(m_best); }
+    const std::vector<Index> &coordinates() const { return m_history.back().centre; }
+    double statistic() const { return m_statistic; }
+    double level() const { return m_level; }
+    const Track &track() const { return m_track; }
+
+    /// Counts the consecutive frames spent beside another track; answers how many it has been.
+    int besides(int otherId) { return ++m_beside[otherId]; }
+    void separatedFrom(int otherId) { m_beside.erase(otherId); }
+
+    /// Raises `statistic` to this track's score in every cell of its window.
+    void paint(std::span<float> statistic) const;
+
+    /// Score of the best state in a cell, -∞ outside of the window; and that state.
+    double scoreAt(Index cell, Index *state = nullptr) const;
+
+    /// The terms of the path to a state in the newest frame, back to the state it was seeded from (first step, score only).
+    /// As far as the history goes: ask for a long smoothing lag first.
+    std::vector<PathStep> explain(Index state) const;
+
+    /// Ends the track, its points traced and cut at the last evidence.
+    Track finish(bool isOpen);
+
+private:
+    /// The window's scores after one frame, relative to `offset`.
+    struct Slice {
+        Index frame = 0;
+        std::vector<Index> centre; ///< grid coordinates of the window's middle
+        std::vector<float> scores;
+        double offset = 0.0;
+        std::vector<float> lambda; ///< of the window's cells
+        double lnK = 0.0;
+    };
+
+    Slice cutOut(Index frame, const std::vector<Index> &centre, std::span<const float> lambda, double lnK) const;
+    void follow(Index frame, std::span<const float> lambda, double lnK);
+    Index predecessorIn(const Slice &earlier, Index state, double &lnTransition) const;
+    Index globalCell(const Slice &slice, Index localCell) const;
+    Index localOf(const Slice &slice, Index state) const;
+    void commit(std::size_t count);
+
+    TrackerModel *m_model;
+    Track m_track;
+    std::deque<Slice> m_history;
+    std::vector<double> m_levels; ///< one a frame from detection on
+    Index m_best = 0;             ///< global index of the most probable state
+    std::map<int, int> m_beside;
+    double m_statistic = 0.0;
+    double m_level = 0.0;
+};
+
+} // namespace faintline

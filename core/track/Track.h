@@ -1,0 +1,29 @@
+#pragma once
+
+#include "base/Grid.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// Where a followed signal was in one frame.
+struct TrackPoint {
+    Index frame = 0;
+    Index cell = 0;         ///< flat index on the frames' grid
+    Index plane = 0;        ///< combination of rates, as in StateSpace
+    double statistic = 0.0; ///< score of the path up to here, nat above background
+};
+
+/// One signal from its onset to its end, and the decision that started it.
+struct Track {
+    int id = 0;              ///< counted from 1, in order of detection, then of cell
+    Index onsetFrame = 0;    ///< where the detecting path's score began to grow
+    Index detectFrame = 0;   ///< where the statistic first exceeded the threshold
+    Index endFrame = 0;      ///< last frame with evidence
+    double peakStatistic = 0.0;
+    bool isConfirmed = false;
+    bool isOpen = false;     ///< still followed when the data ended
+    std::vector<TrackPoint> points; ///< onset … end, one per frame
+};
+
+} // namespace faintline

@@ -1,0 +1,131 @@
+#include "analysis/AnalysisSettings.h"
+
+#include "base/Error.h"
+#include "base/Random.h"
+#include "support/recordings.h"
+
+#include <QtTest>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// The one settings value: its table, its text form, its checks.
+class tst_AnalysisSettings : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void everyFieldHasNameSentenceAndDefault();
+    void roundTripOfRandomSettings();
+    void settingAThresholdChoosesIt();
+    void jsonKeepsTheChoice();
+    void refusals();
+    void stages();
+    void presetsAreSound();
+};
+
+void tst_AnalysisSettings::everyFieldHasNameSentenceAndDefault()
+{
+    const AnalysisSettings defaults;
+    QStringList names;
+    for (const auto &field : AnalysisSettings::fields()) {
+        names << QString::fromStdString(field.name);
+        QVERIFY(field.name.find('.') != std::string::npos);
+        QVERIFY2(field.sentence.ends_with('.'), field.name.c_str());
+        const auto value = field.get(defaults);
+        QVERIFY(value.has_value());
+        checkFieldValue(field, *value);
+    }
+    QCOMPARE(names.removeDuplicates(), 0);
+    QVERIFY(names.contains("spectrogram.windowSeconds")); // relied on from outside
+    QVERIFY(names.contains("decide.falseAlarmsPerHour"));
+}
+
+void tst_AnalysisSettings::roundTripOfRandomSettings()
+{
+    Random random(9, 1);
+    for (int trial = 0; trial < 200; ++trial) {
+        AnalysisSettings settings;
+        for (const auto &field : AnalysisSettings::fields()) {
+            if (random.uniform() < 0.5 || field.name == "model.slopeChange" || field.name == "model.lowestSlope")
+                continue;
+            switch (field.kind) {
+            case FieldKind::Flag:
+                field.set(settings, random.uniform() < 0.5);
+                break;
+            case FieldKind::Integer:
+                field.set(settings, static_cast<int>(std::max(3.0, field.minimum) + std::floor(random.uniform() * 10.0)));
+                break;
+            case FieldKind::Number:
+                field.set(settings, field.minimum + random.uniform() * (std::min(field.maximum, 1e6) - field.minimum));
+                break;
+            case FieldKind::Choice:
+                field.set(settings, field.choices[static_cast<std::size_t>(random.uniform() * static_cast<double>(field.choices.size()))]);
+                break;
+            case FieldKind::Numbers:
+                field.set(settings, std::vector<double>{1.0, 2.5});
+                break;
+            case FieldKind::Text:
+                break;
+            }
+        }
+        QVERIFY(settingsFromJson(settingsToJson(settings), "test") == settings);
+        QVERIFY(settingsFromJson(settingsToJson(settings, false), "test") == settings);
+    }
+}
+
+void tst_AnalysisSettings::settingAThresholdChoosesIt()
+{
+    AnalysisSettings settings;
+    setSetting(settings, "decide.thresholdNats", "12.5");
+    QVERIFY(settings.decide.by == DecideSettings::By::Nats);
+    setSetting(settings, "decide.falseAlarmsPerHour", "3");
+    QVERIFY(settings.decide.by == DecideSettings::By::FalseAlarmsPerHour);
+}
+
+void tst_AnalysisSettings::jsonKeepsTheChoice()
+{
+    AnalysisSettings settings;
+    setSetting(settings, "decide.thresholdNats", "12.5");
+    setSetting(settings, "decide.pfaPerCell", "1e-5");
+    setSetting(settings, "decide.by", "falseAlarmsPerHour");
+    QVERIFY(settingsFromJson(settingsToJson(settings), "test") == settings);
+}
+
+void tst_AnalysisSettings::refusals()
+{
+    AnalysisSettings settings;
+    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.windowSecond", "1"); }), "the nearest is spectrogram.windowSeconds"));
+    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.windowSeconds", "-1"); }), "must lie in 0 … 1e+06 s"));
+    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.window", "round"); }), "must be one of rectangular, hann"));
+    QVERIFY(contains(errorOf([&] { settingsFromJson("{\"a\": 1}", "x.json"); }), "is no setting"));
+    QVERIFY(contains(errorOf([&] { settingsFromJson("{", "x.json"); }), "x.json"));
+    setSetting(settings, "model.slopeChange", "0.5, 0.1");
+    QVERIFY(contains(errorOf([&] { checkSettings(settings); }), "it must be 1"));
+    settings = {};
+    settings.model.lowestSlope = 3;
+    QVERIFY(contains(errorOf([&] { checkSettings(settings); }), "must not exceed model.highestSlope"));
+}
+
+void tst_AnalysisSettings::stages()
+{
+    const AnalysisSettings a;
+    AnalysisSettings b = a;
+    QVERIFY(firstStale(a, b) == Stage::Nothing);
+    b.decide.falseAlarmsPerHour = 2.0;
+    QVERIFY(firstStale(a, b) == Stage::Detector);
+    b.noise.halfWidthCells = 9;
+    QVERIFY(firstStale(a, b) == Stage::Noise);
+    b.selection.channel = 1;
+    QVERIFY(firstStale(a, b) == Stage::Spectrogram);
+}
+
+void tst_AnalysisSettings::presetsAreSound()
+{
+    for (const Preset &p : presets())
+        checkSettings(p.settings);
+    QVERIFY(contains(errorOf([] { preset("none"); }), "there are lines"));
+}
+
+QTEST_APPLESS_MAIN(tst_AnalysisSettings)
+#include "tst_AnalysisSettings.moc"

@@ -1,0 +1,499 @@
+// The window from outside: what a person does, and what is to be seen then.
+
+#include "app/MainWindow.h"
+
+#include "app/ActivityBar.h"
+#include "app/KeysOverlay.h"
+#include "app/MessageBar.h"
+#include "app/ScenarioCard.h"
+#include "app/SessionSaver.h"
+#include "app/WelcomePage.h"
+#include "app/Workbench.h"
+#include "widgets/EventTable.h"
+#include "widgets/ExceedancePlot.h"
+
+#include <qwt_plot_canvas.h>
+#include <qwt_scale_map.h>
+
+#include <QDropEvent>
+#include <QElapsedTimer>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 120000; // ms
+
+void writeFile(const QString &path, const QByteArray &bytes)
+{
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(bytes);
+}
+
+/// 16-bit mono WAV: noise and a tone that drifts.
+QByteArray wav(int rate, double seconds)
+{
+    const int count = static_cast<int>(rate * seconds);
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0.0, 2000.0);
+    QByteArray samples;
+    QDataStream data(&samples, QIODevice::WriteOnly);
+    data.setByteOrder(QDataStream::LittleEndian);
+    for (int i = 0; i < count; ++i) {
+        const double t = static_cast<double>(i) / rate;
+        const double phase = 2.0 * std::numbers::pi * (200.0 * t + 0.5 * t * t);
+        data << static_cast<qint16>(std::lround(noise(random) + 800.0 * std::sin(phase)));
+    }
+    QByteArray file;
+    QDataStream header(&file, QIODevice::WriteOnly);
+    header.setByteOrder(QDataStream::LittleEndian);
+    header.writeRawData("RIFF", 4);
+    header << quint32(36 + samples.size());
+    header.writeRawData("WAVEfmt ", 8);
+    header << quint32(16) << quint16(1) << quint16(1) << quint32(rate) << quint32(2 * rate) << quint16(2) << quint16(16);
+    header.writeRawData("data", 4);
+    header << quint32(samples.size());
+    return file + samples;
+}
+
+/// Waits until the window has nothing left to do.
+bool settle(MainWindow &window)
+{
+    if (!window.controller().isBusy())
+        return true;
+    QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+    return settled.wait(patience);
+}
+
+bool openAndSettle(MainWindow &window, const QString &path)
+{
+    window.open(path);
+    return settle(window);
+}
+
+/// Where a statistic lies on the canvas of the threshold plot.
+QPoint positionOf(ExceedancePlot &plot, double nats)
+{
+    const QwtScaleMap map = plot.canvasMap(QwtAxis::XBottom);
+    return {static_cast<int>(std::lround(map.transform(nats))), plot.canvas()->height() / 2};
+}
+
+void drop(QWidget &widget, const QString &path)
+{
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(path)});
+    QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&widget, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent event(QPointF(50.0, 50.0), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&widget, &event);
+}
+
+} // namespace
+
+class tst_MainWindow : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+    QString m_scene;
+
+    QString path(const QString &name) const { return m_folder.filePath(name); }
+
+    std::unique_ptr<MainWindow> window(bool remembers = false) const
+    {
+        auto result = std::make_unique<MainWindow>(
+            remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
+        result->saver().setAsking(false);
+        result->resize(1400, 900);
+        result->show();
+        return result;
+    }
+
+private slots:
+    void initTestCase()
+    {
+        Theme::apply(Theme::Kind::Dark);
+        m_scene = path("scene.json");
+        writeFile(m_scene, R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+            {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120, "driftHzPerSecond": 1},
+            {"snrDb": 4, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 20, "frequencyHz": 350}]})");
+        writeFile(path("tone.wav"), wav(1000, 60.0));
+        writeFile(path("text.wav"), "This is no sound.");
+        writeFile(path("short.wav"), wav(1000, 0.01));
+    }
+
+    void beginsWithThePicturesAndNoDialog()
+    {
+        auto window = this->window();
+        QVERIFY(window->welcome().isVisible());
+        QVERIFY(!window->workbench().isVisible());
+        QSignalSpy settled(&window->welcome(), &WelcomePage::settled);
+        QVERIFY(settled.wait(patience));
+        for (const ScenarioCard *card : window->welcome().cards()) {
+            QVERIFY(card->analysis());
+            QVERIFY(!card->analysis()->tracks.empty());
+        }
+        // One click leads inside, at once, for the result is there already.
+        QTest::mouseClick(window->welcome().cards().front(), Qt::LeftButton);
+        QVERIFY(window->workbench().isVisible());
+        QVERIFY(window->workbench().output()->picture());
+        QVERIFY(!window->controller().isBusy());
+        QCOMPARE(window->messages().text(), QString());
+    }
+
+    void opensAScenario()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        QVERIFY(window->workbench().isVisible());
+        QVERIFY(window->workbench().input()->picture());
+        QVERIFY(window->workbench().output()->picture());
+        QVERIFY(window->document().shownEvents().size() >= 2);
+        QCOMPARE(window->eventTable().shownIds().size(), window->document().shownEvents().size());
+        QCOMPARE(window->document().truth().lines.size(), std::size_t(2));
+        QVERIFY(window->windowTitle().startsWith("scene.json"));
+        QVERIFY(window->document().viewport().cursor());
+        QCOMPARE(window->workbench().output()->threshold(), window->document().analysis()->threshold);
+    }
+
+    void opensAWavThatIsDropped()
+    {
+        auto window = this->window();
+        drop(*window, path("tone.wav"));
+        QVERIFY(settle(*window));
+        QCOMPARE(window->messages().text(), QString());
+        const std::vector<Event> events = window->document().shownEvents();
+        QVERIFY(!events.empty());
+        QVERIFY(events.front().position.back() > 190.0 && events.front().position.back() < 270.0);
+    }
+
+    void theThresholdIsDraggedAndUndone()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        Document &document = window->document();
+        ExceedancePlot &plot = window->thresholdPlot();
+        const std::vector<int> before = window->eventTable().shownIds();
+        const double threshold = document.analysis()->threshold;
+        double strongest = 0.0;
+        double weakest = 1e9;
+        for (const Event &event : document.shownEvents()) {
+            strongest = std::max(strongest, event.statistic);
+            weakest = std::min(weakest, event.statistic);
+        }
+        const double between = std::min(0.5 * (weakest + strongest), weakest + 2.0);
+        QVERIFY(before.size() >= 2 && between > weakest);
+
+        // While it moves: fewer events, at once, and nothing runs.
+        QTest::mousePress(plot.canvas(), Qt::LeftButton, {}, positionOf(plot, threshold));
+        QTest::mouseMove(plot.canvas(), positionOf(plot, between));
+        QVERIFY(!window->controller().isBusy());
+        QVERIFY(std::abs(document.shownThreshold() - between) < 0.5);
+        QVERIFY(window->eventTable().shownIds().size() < before.size());
+        QVERIFY(!window->eventTable().shownIds().empty());
+        QCOMPARE(*window->workbench().output()->threshold(), document.shownThreshold());
+        QCOMPARE(document.undoStack().count(), 0);
+
+        // Let go: a setting, and the chain runs.
+        QTest::mouseRelease(plot.canvas(), Qt::LeftButton, {}, positionOf(plot, between));
+        QCOMPARE(document.undoStack().count(), 1);
+        QVERIFY(window->controller().isBusy());
+        QVERIFY(settle(*window));
+        QVERIFY(document.isCurrent());
+        QVERIFY(std::abs(document.analysis()->threshold - between) < 0.5);
+        QVERIFY(window->eventTable().shownIds().size() < before.size());
+
+        QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QCOMPARE(document.settings(), AnalysisSettings());
+        QCOMPARE(document.analysis()->threshold, threshold);
+        QCOMPARE(window->eventTable().shownIds(), before);
+
+        QTest::keyClick(window.get(), Qt::Key_Y, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QVERIFY(std::abs(document.analysis()->threshold - between) < 0.5);
+    }
+
+    void theThresholdKeepsItsPlaceInOtherUnits()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        const double threshold = window->document().analysis()->threshold;
+        for (const auto unit : {ExceedancePlot::Unit::PfaPerCell, ExceedancePlot::Unit::Nats, ExceedancePlot::Unit::FalseAlarmsPerHour}) {
+            emit window->thresholdPlot().unitChanged(unit);
+            QVERIFY(settle(*window));
+            QVERIFY(std::abs(window->document().analysis()->threshold - threshold) < 0.1);
+        }
+        QCOMPARE(window->document().settings().decide.by, DecideSettings::By::FalseAlarmsPerHour);
+    }
+
+    void keysDoWhatTheSheetSays()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        Document &document = window->document();
+        WaterfallView *input = window->workbench().input();
+        WaterfallView *output = window->workbench().output();
+        output->setFocus();
+
+        const auto orientation = output->orientation();
+        QTest::keyClick(output, Qt::Key_O);
+        QVERIFY(output->orientation() != orientation);
+        QCOMPARE(input->orientation(), output->orientation());
+
+        const QString map = output->colourMap().name();
+        QTest::keyClick(output, Qt::Key_C);
+        QVERIFY(output->colourMap().name() != map);
+        QCOMPARE(input->colourMap().name(), output->colourMap().name());
+
+        document.viewport().zoomTo({10.0, 20.0}, {100.0, 200.0});
+        QVERIFY(!document.viewport().showsAll());
+        QTest::keyClick(output, Qt::Key_Backspace);
+        QVERIFY(document.viewport().showsAll());
+        document.viewport().zoomTo({10.0, 20.0}, {100.0, 200.0});
+        QTest::keyClick(output, Qt::Key_0);
+        QVERIFY(document.viewport().showsAll());
+
+        QTest::keyClick(output, Qt::Key_M);
+        QVERIFY(output->isMeasuring() && input->isMeasuring());
+        QTest::keyClick(output, Qt::Key_M);
+        QVERIFY(!output->isMeasuring());
+
+        output->setRange(0.0, 10.0);
+        QTest::keyClick(output, Qt::Key_A);
+        QVERIFY(output->isRangeAutomatic());
+        QTest::keyClick(output, Qt::Key_BraceLeft);
+        QVERIFY(!output->isRangeAutomatic());
+
+        document.viewport().setCursor({10.0, 100.0});
+        QTest::keyClick(output, Qt::Key_L);
+        QVERIFY(std::abs(document.viewport().cursor()->seconds - 10.0 - document.analysis()->time().step) < 1e-9);
+        QTest::keyClick(output, Qt::Key_J);
+        QVERIFY(std::abs(document.viewport().cursor()->seconds - 10.0) < 1e-9);
+        const double hz = document.viewport().cursor()->hz;
+        QTest::keyClick(output, output->orientation() == WaterfallView::Orientation::LeftToRight ? Qt::Key_Up : Qt::Key_Right);
+        QVERIFY(document.viewport().cursor()->hz > hz);
+
+        QTest::keyClick(output, Qt::Key_Space);
+        const double seconds = document.viewport().cursor()->seconds;
+        QTRY_VERIFY(document.viewport().cursor()->seconds > seconds);
+        QTest::keyClick(output, Qt::Key_Space);
+
+        const double threshold = document.shownThreshold();
+        QTest::keyClick(output, Qt::Key_Period);
+        QTest::keyClick(output, Qt::Key_Period);
+        QVERIFY(settle(*window));
+        QVERIFY(std::abs(document.analysis()->threshold - threshold - 0.5) < 0.1);
+        QCOMPARE(document.undoStack().count(), 1);
+        QTest::keyClick(output, Qt::Key_Comma);
+        QVERIFY(settle(*window));
+    }
+
+    void nGoesFromEventToEvent()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        WaterfallView *output = window->workbench().output();
+        output->setFocus();
+        const std::vector<int> ids = window->eventTable().shownIds();
+        QVERIFY(ids.size() >= 2);
+        QTest::keyClick(output, Qt::Key_N);
+        const int first = window->eventTable().selectedEvent();
+        QTest::keyClick(output, Qt::Key_N);
+        const int second = window->eventTable().selectedEvent();
+        QVERIFY(first != 0 && second != 0 && first != second);
+        QCOMPARE(output->selectedEvent(), second);
+        QCOMPARE(window->workbench().input()->selectedEvent(), second);
+        const Viewport::Point cursor = *window->document().viewport().cursor();
+        for (const Event &event : window->document().shownEvents())
+            if (event.id == second)
+                QVERIFY(std::abs(cursor.seconds - event.detectSeconds) < 1.0);
+        QTest::keyClick(output, Qt::Key_N, Qt::ShiftModifier);
+        QCOMPARE(window->eventTable().selectedEvent(), first);
+    }
+
+    void f1ShowsTheKeysAndAnyKeyTakesThemAway()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        auto *sheet = window->findChild<KeysOverlay *>();
+        QTest::keyClick(window.get(), Qt::Key_F1);
+        QVERIFY(sheet->isVisible());
+        QTest::keyClick(sheet, Qt::Key_A);
+        QVERIFY(!sheet->isVisible());
+        QTest::keyClick(window->workbench().output(), Qt::Key_Question);
+        QVERIFY(sheet->isVisible());
+        QTest::mouseClick(sheet, Qt::LeftButton);
+        QVERIFY(!sheet->isVisible());
+    }
+
+    void f5LeavesNothingButThePictures()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        QVERIFY(window->eventTable().isVisible());
+        QTest::keyClick(window->workbench().output(), Qt::Key_F5);
+        QVERIFY(!window->eventTable().isVisible());
+        QVERIFY(!window->menuBar()->isVisible());
+        QVERIFY(window->workbench().output()->isVisible());
+        QTest::keyClick(window->workbench().output(), Qt::Key_F5);
+        QVERIFY(window->eventTable().isVisible());
+        QVERIFY(window->menuBar()->isVisible());
+    }
+
+    void theNewestSettingsWin()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        QSignalSpy analysed(&window->document(), &Document::analysisChanged);
+        for (int i = 1; i <= 20; ++i)
+            window->controller().edit("model.snr", 0.1 * i, "Change the SNR");
+        QVERIFY(settle(*window));
+        QVERIFY(window->document().isCurrent());
+        QCOMPARE(window->document().analysis()->settings.model.snr, 2.0);
+        QCOMPARE(analysed.count(), 1);
+    }
+
+    void cancelKeepsWhatIsShown()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        const auto before = window->document().analysis();
+        window->controller().edit("model.snr", 3.0, "Change the SNR");
+        QVERIFY(window->controller().isBusy());
+        QTest::keyClick(window.get(), Qt::Key_Escape);
+        QVERIFY(!window->controller().isBusy());
+        QCOMPARE(window->document().analysis(), before);
+        QVERIFY(!window->document().isCurrent());
+        QTest::keyClick(window.get(), Qt::Key_R, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QVERIFY(window->document().isCurrent());
+    }
+
+    void refusalsAreSentences()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, path("none.wav")));
+        QVERIFY2(window->messages().text().contains("none.wav"), qPrintable(window->messages().text()));
+        QVERIFY(window->welcome().isVisible());
+        QVERIFY(openAndSettle(*window, path("text.wav")));
+        QVERIFY2(window->messages().text().contains("text.wav"), qPrintable(window->messages().text()));
+
+        QVERIFY(openAndSettle(*window, m_scene));
+        QCOMPARE(window->messages().text(), QString());
+        const auto before = window->document().analysis();
+        QVERIFY(openAndSettle(*window, path("text.wav")));
+        QVERIFY(!window->messages().text().isEmpty());
+        QCOMPARE(window->document().analysis(), before); // what was open still is
+        QVERIFY(window->workbench().isVisible());
+
+        // Settings no single field can refuse: said, and undone as any other.
+        window->controller().edit("model.lowestSlope", 5, "Change the slope");
+        QVERIFY(settle(*window));
+        QVERIFY2(window->messages().text().contains("lowestSlope"), qPrintable(window->messages().text()));
+        QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QCOMPARE(window->messages().text(), QString());
+        QVERIFY(window->document().isCurrent());
+    }
+
+    void aRecordingThatIsTooShortSaysSoAndLeavesTheForm()
+    {
+        auto window = this->window();
+        window->open(path("short.wav"), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 1.0; });
+        QVERIFY(settle(*window));
+        QVERIFY(!window->messages().text().isEmpty());
+        QVERIFY(window->workbench().isVisible());
+        QVERIFY(!window->document().analysis());
+    }
+
+    void sessionsComeBack()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, path("tone.wav")));
+        writeSession(path("s.faintline"), {window->document().source(), {}, window->document().settings(), {}});
+        QVERIFY(openAndSettle(*window, path("s.faintline")));
+        QVERIFY(window->windowTitle().startsWith("s.faintline"));
+
+        window->controller().edit("model.snr", 2.0, "Change the SNR");
+        QVERIFY(settle(*window));
+        QVERIFY(window->isWindowModified());
+        window->document().viewport().zoomTo({10.0, 20.0}, {100.0, 200.0});
+        window->workbench().output()->setColourMap("viridis");
+        const Viewport::Box visible = window->document().viewport().visible();
+        QSignalSpy saved(window.get(), &MainWindow::saved);
+        QTest::keyClick(window.get(), Qt::Key_S, Qt::ControlModifier);
+        QVERIFY(saved.wait(patience));
+        QVERIFY(!window->isWindowModified());
+
+        auto other = this->window();
+        QVERIFY(openAndSettle(*other, path("s.faintline")));
+        QCOMPARE(other->document().settings(), window->document().settings());
+        QVERIFY(other->document().viewport().visible() == visible);
+        QCOMPARE(other->workbench().input()->colourMap().name(), "viridis");
+        QCOMPARE(other->document().shownEvents().size(), window->document().shownEvents().size());
+        QVERIFY(!other->isWindowModified());
+    }
+
+    void remembersFilesAndLayout()
+    {
+        {
+            auto window = this->window(true);
+            QVERIFY(openAndSettle(*window, path("tone.wav")));
+            QVERIFY(openAndSettle(*window, m_scene));
+            window->workbench().output()->setColourMap("cividis");
+            window->close();
+        }
+        auto window = this->window(true);
+        QVERIFY(openAndSettle(*window, m_scene));
+        QCOMPARE(window->workbench().output()->colourMap().name(), "cividis");
+        QSettings memory(path("memory.ini"), QSettings::IniFormat);
+        QCOMPARE(memory.value("recent").toStringList(), (QStringList{m_scene, path("tone.wav")}));
+    }
+
+    void closesInTheMiddleOfAJob()
+    {
+        QElapsedTimer clock;
+        clock.start();
+        for (int i = 0; i < 5; ++i) {
+            auto window = this->window();
+            window->open(path("tone.wav"));
+            QTest::qWait(20 * i);
+        }
+        QVERIFY(clock.elapsed() < 20000);
+    }
+
+    void twoHundredEditsInTheWindowUndoneAreWhatTheyWere()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        std::mt19937 random(9);
+        const std::vector<QString> names{"model.snr", "noise.blockWindows", "decide.thresholdNats", "spectrogram.windowSeconds"};
+        for (int i = 0; i < 200; ++i) {
+            window->controller().edit(names[random() % names.size()], 0.25 + 0.01 * static_cast<double>(random() % 100), "Change");
+            if (i % 7 == 0)
+                QCoreApplication::processEvents();
+        }
+        while (window->document().undoStack().canUndo())
+            window->document().undoStack().undo();
+        QCOMPARE(window->document().settings(), AnalysisSettings());
+        QVERIFY(settle(*window));
+        QVERIFY(window->document().isCurrent());
+        QCOMPARE(window->messages().text(), QString());
+    }
+};
+
+QTEST_MAIN(tst_MainWindow)
+#include "tst_MainWindow.moc"

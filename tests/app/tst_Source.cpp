@@ -1,0 +1,76 @@
+#include "app/OpenOptionsDialog.h"
+#include "app/Source.h"
+
+#include "base/Error.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QTemporaryDir>
+#include <QTest>
+
+using namespace faintline;
+
+class tst_Source : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+
+    QString file(const QString &name, const QByteArray &bytes) const
+    {
+        const QString path = m_folder.filePath(name);
+        QFile file(path);
+        if (file.open(QIODevice::WriteOnly))
+            file.write(bytes);
+        return path;
+    }
+
+private slots:
+    void aJsonFileIsAScenario()
+    {
+        const Source source = sourceOf(file("a.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "lines": [{"frequencyHz": 20}]})"));
+        QVERIFY(source.scene);
+        QCOMPARE(source.name(), "a.json");
+        const OpenedSource opened = openSource(source);
+        QCOMPARE(opened.recording->info().sampleCount, Index(1000));
+        QCOMPARE(opened.truth.lines.size(), std::size_t(1));
+    }
+
+    void aMistakeInAScenarioNamesFileAndKey()
+    {
+        const QString path = file("b.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "moon": 1})");
+        try {
+            sourceOf(path);
+            QFAIL("taken");
+        } catch (const Error &error) {
+            QVERIFY(QString(error.what()).startsWith(path));
+            QVERIFY(QString(error.what()).contains("moon"));
+        }
+    }
+
+    void onlyBareSamplesNeedToBeAskedAbout()
+    {
+        QVERIFY(needsRawOptions(file("c.cf32", "0123456789abcdef"), {}));
+        QVERIFY(needsRawOptions(file("c.iq", "0123456789abcdef"), {}));
+        QVERIFY(!needsRawOptions(file("c.wav", "0123456789abcdef"), {}));
+        QVERIFY(!needsRawOptions(m_folder.filePath("missing.cf32"), {})); // there is nothing to ask
+        QVERIFY(!needsRawOptions(file("d.cf32", "0123456789abcdef"), {false, "cf32_le", 100.0}));
+    }
+
+    void theDialogBeginsWithWhatTheNameSays()
+    {
+        const QString path = file("e.cu8", "0123456789abcdef");
+        OpenOptionsDialog dialog(path);
+        QCOMPARE(dialog.options().rawType, std::string("cu8"));
+        dialog.findChild<QDoubleSpinBox *>()->setValue(8.0);
+        OpenOptions options = dialog.options();
+        const OpenedSource opened = openSource(sourceOf(path, options));
+        QVERIFY(opened.recording->info().isComplex);
+        QCOMPARE(opened.recording->info().durationSeconds(), 1.0);
+        dialog.findChild<QComboBox *>()->setCurrentText("moon"); // refused in words, not by a crash
+        QCOMPARE(dialog.options().rawType, std::string("moon"));
+    }
+};
+
+QTEST_MAIN(tst_Source)
+#include "tst_Source.moc"

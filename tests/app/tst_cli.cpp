@@ -1,0 +1,666 @@
+#include "analysis/analyse.h"
+#include "analysis/explain.h"
+#include "base/json.h"
+#include "exchange/NumPy.h"
+#include "exchange/writeEvents.h"
+#include "recording/openRecording.h"
+#include "support/recordings.h"
+
+#include <QProcess>
+#include <QtTest>
+
+#include <csignal>
+
+#include <sys/resource.h>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// The command line from outside: the real program, its files, its exit codes and what it says where.
+class tst_cli : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+
+    void helpAndVersion();
+    void infoAsText();
+    void infoAsJson();
+    void describesEverySetting();
+    void simulatesTheSameAgain();
+    void findsTheLine();
+    void statisticHasTheFramesShape();
+    void threadsChangeNoByte();
+    void isTheLibrary();
+    void explainsItsTerms();
+    void framesInPlaceOfARecording();
+
+    void billonsVectors_data();
+    void billonsVectors();
+    void parsonsVectors();
+    void lnLambdaByEye();
+
+    void mistakes_data();
+    void mistakes();
+    void mistakesInFrames_data();
+    void mistakesInFrames();
+    void fullDiskIsAFailure();
+    void interruptLeavesNothing_data();
+    void interruptLeavesNothing();
+    void oddRecordings_data();
+    void oddRecordings();
+    void samplesThatAreNoNumbers();
+
+private:
+    std::shared_ptr<const Analysis> inLibrary(const char *name, std::vector<float> &statistic) const
+    {
+        AnalysisSettings own;
+        setSetting(own, "spectrogram.windowSeconds", "0.5");
+        setSetting(own, "decide.falseAlarmsPerHour", "2");
+        return analyse(openRecording(pathOf(name)), own, {}, nullptr, [&](Index, std::span<const float> values) {
+            statistic.insert(statistic.end(), values.begin(), values.end());
+        });
+    }
+    QString path(const QString &name) const { return m_folder.filePath(name); }
+    std::string pathOf(const char *name) const { return path(name).toStdString(); }
+    QByteArray content(const QString &name) const { return readBytes(path(name).toStdString()); }
+
+    QTemporaryDir m_folder;
+};
+
+namespace {
+
+    const QString program = QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline-cli");
+    constexpr int patience = 120'000; // ms, for a machine that is busy with other things
+
+    struct Outcome {
+        int code = -1;
+        QByteArray out;
+        QByteArray err;
+    };
+
+    /// Runs the program to its end in a folder.
+    Outcome run(const QTemporaryDir &folder, const QStringList &arguments, const std::function<void()> &inChild = {})
+    {
+        QProcess process;
+        process.setWorkingDirectory(folder.path());
+        if (inChild)
+            process.setChildProcessModifier(inChild);
+        process.start(program, arguments);
+        if (!process.waitForFinished(patience) || process.exitStatus() != QProcess::NormalExit) {
+            qWarning("%s: did not end by itself", qPrintable(arguments.join(' ')));
+            return {};
+        }
+        return {process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
+    }
+
+    /// Rows of a CSV file without its header, as numbers; empty where one is none.
+    std::vector<std::vector<double>> numbersOf(const QByteArray &csv)
+    {
+        std::vector<std::vector<double>> rows;
+        const QList<QByteArray> lines = csv.trimmed().split('\n');
+        for (qsizetype i = 1; i < lines.size(); ++i) {
+            rows.emplace_back();
+            for (const QByteArray &cell : lines[i].split(',')) {
+                bool isNumber = false;
+                rows.back().push_back(cell.toDouble(&isNumber));
+                if (!isNumber)
+                    return {};
+            }
+        }
+        return rows;
+    }
+
+    /// Fifteen seconds of a line at 210 Hz in thirty of noise.
+    const char *const scene = R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 30, "seed": 3,
+        "lines": [{"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 8, "durationSeconds": 15, "frequencyHz": 210,
+                   "driftHzPerSecond": 0.2}]})";
+
+    const QStringList settings{"--set", "spectrogram.windowSeconds=0.5", "--set", "decide.falseAlarmsPerHour=2"};
+
+    QByteArray shared(const char *name)
+    {
+        return readBytes(std::string(FAINTLINE_SOURCE_DIR "/../shared/vectors/") + name);
+    }
+
+    void writeArray(const std::string &path, const std::vector<Index> &shape, const std::vector<float> &values)
+    {
+        NumPyWriter writer(path, shape);
+        writer.write(values);
+        writer.finish();
+    }
+
+    /// A WAV file of float samples, its header by hand, so that it may lie.
+    QByteArray wav(quint32 rate, quint16 channels, const std::vector<float> &samples)
+    {
+        const auto number = [](auto value) { return QByteArray(reinterpret_cast<const char *>(&value), sizeof value); };
+        const QByteArray data(reinterpret_cast<const char *>(samples.data()), static_cast<qsizetype>(4 * samples.size()));
+        return "RIFF" + number(static_cast<quint32>(36 + data.size())) + "WAVEfmt " + number(quint32(16)) + number(quint16(3)) + number(channels)
+            + number(rate) + number(static_cast<quint32>(rate * channels * 4)) + number(static_cast<quint16>(channels * 4)) + number(quint16(32))
+            + "data" + number(static_cast<quint32>(data.size())) + data;
+    }
+
+} // namespace
+
+void tst_cli::initTestCase()
+{
+    QVERIFY2(QFile::exists(program), "faintline-cli is not built");
+    writeBytes(pathOf("scene.json"), scene);
+    const Outcome made = run(m_folder, {"simulate", "scene.json", "--out", "line.wav", "--truth", "truth.json"});
+    QCOMPARE(made.err, QByteArray());
+    QCOMPARE(made.code, 0);
+    QCOMPARE(made.out, QByteArray());
+    const Outcome found = run(m_folder, QStringList{"detect", "line.wav", "--threads", "1", "--events", "events.csv", "--tracks", "tracks.csv",
+                                                    "--statistic", "D.npy"} + settings);
+    QCOMPARE(found.err, QByteArray());
+    QCOMPARE(found.code, 0);
+    QCOMPARE(found.out, QByteArray());
+}
+
+void tst_cli::helpAndVersion()
+{
+    for (const QStringList &arguments : {QStringList{"--help"}, {"detect", "--help"}, {"--version"}}) {
+        const Outcome told = run(m_folder, arguments);
+        QCOMPARE(told.code, 0);
+        QVERIFY(told.out.contains(arguments.last() == "--version" ? "faintline-cli " : "--threads") || told.out.contains("--events"));
+        QCOMPARE(told.err, QByteArray());
+    }
+    const QByteArray all = run(m_folder, {"--help"}).out;
+    for (const char *command : {"info", "describe", "detect", "statistic", "explain", "simulate"})
+        QVERIFY2(all.contains(command), command);
+}
+
+void tst_cli::infoAsText()
+{
+    const Outcome told = run(m_folder, {"info", "line.wav"});
+    QCOMPARE(told.code, 0);
+    QCOMPARE(told.err, QByteArray());
+    QVERIFY(told.out.contains("WAV, float32"));
+    QVERIFY(told.out.contains("1000 Hz"));
+    QVERIFY(told.out.contains("30000 samples, 30 s"));
+}
+
+void tst_cli::infoAsJson()
+{
+    writeBytes(pathOf("iq.sigmf-data"), QByteArray(400, '\0'));
+    writeBytes(pathOf("iq.sigmf-meta"), R"({"global": {"core:datatype": "ci16_le", "core:sample_rate": 50, "core:version": "1.0.0"},
+        "captures": [{"core:sample_start": 0, "core:frequency": 7e6, "core:datetime": "2024-07-26T00:00:00Z"}], "annotations": []})");
+    const Outcome told = run(m_folder, {"info", "iq.sigmf-meta", "--json"});
+    QCOMPARE(told.code, 0);
+    const Json json = parseJson(told.out.toStdString(), "info");
+    QCOMPARE(json["container"].get<std::string>(), std::string("SigMF"));
+    QCOMPARE(json["sampleType"].get<std::string>(), std::string("ci16_le"));
+    QCOMPARE(json["sampleRateHz"].get<double>(), 50.0);
+    QCOMPARE(json["channels"].get<int>(), 1);
+    QCOMPARE(json["samples"].get<int>(), 100);
+    QCOMPARE(json["durationSeconds"].get<double>(), 2.0);
+    QCOMPARE(json["complex"].get<bool>(), true);
+    QCOMPARE(json["centreHz"].get<double>(), 7e6);
+    QCOMPARE(json["startUnixSeconds"].get<double>(), 1721952000.0);
+}
+
+void tst_cli::describesEverySetting()
+{
+    const QByteArray all = run(m_folder, {"describe"}).out;
+    for (const auto &field : AnalysisSettings::fields()) {
+        QVERIFY2(all.contains(field.name.c_str()), field.name.c_str());
+        QVERIFY2(all.contains(field.sentence.c_str()), field.name.c_str());
+    }
+    for (const Preset &known : presets())
+        QVERIFY2(all.contains(known.sentence.c_str()), known.name.c_str());
+    QCOMPARE(run(m_folder, {"describe", "decide.falseAlarmsPerHour"}).out,
+             QByteArray("decide.falseAlarmsPerHour, 1/h\n    1e-09 … 1e+09; default 1\n"
+                        "    False alarms per hour of recording that the threshold allows on noise.\n"));
+}
+
+void tst_cli::simulatesTheSameAgain()
+{
+    QCOMPARE(run(m_folder, {"simulate", "scene.json", "--out", "again.wav", "--threads", "2"}).code, 0);
+    QVERIFY(content("again.wav") == content("line.wav"));
+    QCOMPARE(run(m_folder, {"simulate", "scene.json", "--out", "other.wav", "--seed", "4"}).code, 0);
+    QVERIFY(content("other.wav") != content("line.wav"));
+    QCOMPARE(content("other.wav").size(), content("line.wav").size());
+    QCOMPARE(run(m_folder, {"simulate", "scene.json", "--out", "short.wav", "--type", "int16"}).code, 0);
+    const Json info = parseJson(run(m_folder, {"info", "short.wav", "--json"}).out.toStdString(), "info");
+    QCOMPARE(info["sampleType"].get<std::string>(), std::string("int16"));
+    const Json truth = readJsonFile(pathOf("truth.json"));
+    QCOMPARE(truth["lines"].size(), std::size_t(1));
+    QCOMPARE(truth["lines"][0]["snrDb"].get<double>(), 9.0);
+    QCOMPARE(truth["lines"][0]["startSeconds"].get<double>(), 8.0);
+}
+
+void tst_cli::findsTheLine()
+{
+    // The line runs from 210 Hz at 8 s to 213 Hz at 23 s; a window is 0.5 s long, a resolution cell 2 Hz wide.
+    const QByteArray csv = content("events.csv");
+    QVERIFY(csv.startsWith("event,t_onset,t_detect,t_end,f,drift_hz_per_s,statistic"));
+    const auto events = numbersOf(csv);
+    QCOMPARE(events.size(), std::size_t(1));
+    const std::vector<double> &event = events[0];
+    QVERIFY2(std::abs(event[1] - 8.0) < 1.5, csv.data());
+    QVERIFY2(event[2] >= event[1] && event[2] < 16.0, csv.data());
+    QVERIFY2(event[3] > 22.0, csv.data());
+    QVERIFY2(std::abs(event[4] - (210.0 + 0.2 * (event[2] - 8.0))) < 2.5, csv.data());
+
+    const QByteArray tracksCsv = content("tracks.csv");
+    QVERIFY(tracksCsv.startsWith("track,t,f,statistic\n"));
+    const auto rows = numbersOf(tracksCsv);
+    QCOMPARE(rows.front()[1], event[1]); // from onset …
+    QCOMPARE(rows.back()[1], event[3]);  // … to end, a row per frame
+    QCOMPARE(std::ssize(rows), static_cast<Index>(std::llround((event[3] - event[1]) / 0.25)) + 1);
+    for (const std::vector<double> &row : rows)
+        if (row[1] > 10.0 && row[1] < 22.0)
+            QVERIFY2(std::abs(row[2] - (210.0 + 0.2 * (row[1] - 8.0))) <= 3.0, tracksCsv.data());
+}
+
+void tst_cli::statisticHasTheFramesShape()
+{
+    // 30 s of 0.5-s windows that overlap by half; transforms of 1000 samples.
+    const NumPyArray array = readNumPy(pathOf("D.npy"));
+    QCOMPARE(array.shape, (std::vector<Index>{119, 501}));
+    QVERIFY(std::ranges::all_of(array.values, [](float value) { return std::isfinite(value); }));
+}
+
+void tst_cli::threadsChangeNoByte()
+{
+    const Outcome two = run(m_folder, QStringList{"detect", "line.wav", "--threads", "2", "--events", "events2.csv", "--tracks", "tracks2.csv",
+                                                  "--statistic", "D2.npy", "--summary", "--progress", "json"} + settings);
+    QCOMPARE(two.code, 0);
+    QVERIFY(content("events2.csv") == content("events.csv"));
+    QVERIFY(content("tracks2.csv") == content("tracks.csv"));
+    QVERIFY(content("D2.npy") == content("D.npy"));
+
+    // On the way: the summary where results go, progress where it does not get between them.
+    QVERIFY2(two.out.startsWith("119 frames of 501 cells, 0.25 s a frame\n"), two.out.data());
+    QVERIFY2(two.out.contains("\n1 event(s)\n"), two.out.data());
+    double last = 0.0;
+    for (const QByteArray &line : two.err.trimmed().split('\n')) {
+        const Json json = parseJson(line.toStdString(), "progress");
+        QVERIFY2(json["progress"].get<double>() >= last, two.err.data());
+        last = json["progress"].get<double>();
+        QVERIFY(json["doing"].is_string());
+    }
+    QCOMPARE(last, 1.0);
+}
+
+void tst_cli::isTheLibrary()
+{
+    std::vector<float> statistic;
+    const auto analysis = inLibrary("line.wav", statistic);
+    writeEvents(*analysis, pathOf("library.csv"));
+    writeTracks(*analysis, pathOf("libraryTracks.csv"));
+    QCOMPARE(content("library.csv"), content("events.csv"));
+    QCOMPARE(content("libraryTracks.csv"), content("tracks.csv"));
+    QCOMPARE(statistic, readNumPy(pathOf("D.npy")).values);
+    // Noise is explained as the followed line is.
+    const Explanation noise = explain(*analysis, 18.0, {400.0});
+    QVERIFY(!noise.isTracked);
+    QVERIFY(std::abs(noise.statistic - static_cast<double>(statistic[71 * 501 + 400])) < 1e-3);
+}
+
+void tst_cli::explainsItsTerms()
+{
+    const Outcome told = run(m_folder, QStringList{"explain", "line.wav", "--time", "18", "--frequency", "212", "--json"} + settings);
+    QCOMPARE(told.err, QByteArray());
+    QCOMPARE(told.code, 0);
+    const Json json = parseJson(told.out.toStdString(), "explain");
+    const auto statistic = json["statistic"].get<double>();
+    QCOMPARE(json["tracked"].get<bool>(), true);
+    double sum = 0.0;
+    for (const Json &step : json["steps"]) {
+        sum += step["llr"].get<double>() + step["ln_transition"].get<double>() + step["lnK"].get<double>();
+        QVERIFY(std::abs(step["sum"].get<double>() - sum) < 1e-6);
+    }
+    QVERIFY(std::abs(sum - statistic) < 1e-6);
+    QCOMPARE(json["steps"].front()["lnK"].get<double>(), 0.0); // where the path was reset, nothing is carried over
+    QCOMPARE(json["steps"].front()["ln_transition"].get<double>(), 0.0);
+    QCOMPARE(json["steps"].back()["t"].get<double>(), json["time"].get<double>());
+    QCOMPARE(json["margin"].get<double>(), statistic - json["threshold"].get<double>());
+
+    const NumPyArray D = readNumPy(pathOf("D.npy"));
+    const auto frame = static_cast<std::size_t>(std::llround((json["time"].get<double>() - 0.25) / 0.25));
+    const auto bin = static_cast<std::size_t>(std::llround(json["position"][0].get<double>()));
+    const auto shown = static_cast<double>(D.values[frame * 501 + bin]);
+    QVERIFY2(std::abs(shown - statistic) < 1e-3, qPrintable(QString("D.npy %1, explained %2").arg(shown).arg(statistic)));
+    QVERIFY(std::abs(shown - json["displayed"].get<double>()) < 1e-5);
+}
+
+void tst_cli::framesInPlaceOfARecording()
+{
+    // Exponential noise with a target that climbs a cell a frame from cell 5 on.
+    Random random(1, 1);
+    std::vector<float> y(40 * 50);
+    for (float &value : y)
+        value = static_cast<float>(random.exponential());
+    for (std::size_t frame = 10; frame < 30; ++frame)
+        y[frame * 50 + frame + 5] += 9.0f;
+    writeArray(pathOf("y.npy"), {40, 50}, y);
+    writeBytes(pathOf("grid.json"), R"({"axes": [{"name": "range", "unit": "m", "first": 1000, "step": 10}], "time": {"first": 5, "step": 2}})");
+    writeBytes(pathOf("model.json"), R"({"axes": [{"cells": 50, "rates": [-1, 0, 1], "rateChange": [1]}], "likelihood": {"kind": "linear"},
+        "reset": {"law": "fixed", "lnK": -1.4}})");
+    const Outcome found = run(m_folder, {"detect", "--frames", "y.npy", "--grid", "grid.json", "--model", "model.json", "--set",
+                                         "decide.thresholdNats=20", "--events", "target.csv", "--tracks", "target.json", "--statistic", "T.npy"});
+    QCOMPARE(found.err, QByteArray());
+    QCOMPARE(found.code, 0);
+    const auto events = numbersOf(content("target.csv"));
+    QCOMPARE(events.size(), std::size_t(1));
+    const double detect = events[0][2]; // frame (t - 5)/2, cell frame + 5
+    QVERIFY(detect >= 25.0 && detect < 65.0);
+    QVERIFY2(std::abs(events[0][4] - (1000.0 + 10.0 * ((detect - 5.0) / 2.0 + 5.0))) <= 20.0, content("target.csv").data());
+    QVERIFY2(std::abs(events[0][5] - 5.0) < 0.6, content("target.csv").data()); // 10 m in 2 s
+    QCOMPARE(readNumPy(pathOf("T.npy")).shape, (std::vector<Index>{40, 50}));
+}
+
+void tst_cli::billonsVectors_data()
+{
+    QTest::addColumn<QByteArray>("axis");
+    QTest::addColumn<double>("lnK");
+    QTest::addColumn<int>("column"); ///< of outputs.csv
+    QTest::addColumn<int>("states");
+    QTest::newRow("stable, K = 0.92") << QByteArray(R"("rates": [0], "rateChange": [1])") << std::log(0.92) << 4 << 16;
+    QTest::newRow("5 slopes, K = 2") << QByteArray(R"("rates": [-2, -1, 0, 1, 2], "rateChange": [0.3333333333333333, 0.3333333333333333])")
+                                     << std::log(2.0) << 5 << 80;
+}
+
+void tst_cli::billonsVectors()
+{
+    QFETCH(QByteArray, axis);
+    QFETCH(double, lnK);
+    QFETCH(int, column);
+    QFETCH(int, states);
+    const auto expected = numbersOf(shared("billon/outputs.csv"));
+    if (expected.empty())
+        QSKIP("skipped: no ../shared");
+    QCOMPARE(expected.size(), std::size_t(12 * 16));
+    std::vector<float> y;
+    for (const auto &row : expected)
+        y.push_back(static_cast<float>(row[2]));
+    writeArray(pathOf("billon.npy"), {12, 16}, y);
+    writeBytes(pathOf("billon.json"), R"({"axes": [{"name": "frequency", "cells": 16, )" + axis
+                   + R"(}], "likelihood": {"kind": "rice", "r0": 0.5}, "reset": {"law": "fixed", "lnK": )" + QByteArray::number(lnK, 'g', 17) + "}}");
+    const Outcome done = run(m_folder, {"statistic", "--frames", "billon.npy", "--model", "billon.json", "--out", "L.npy", "--projected", "P.npy"});
+    QCOMPARE(done.err, QByteArray());
+    QCOMPARE(done.code, 0);
+    const NumPyArray L = readNumPy(pathOf("L.npy"));
+    const NumPyArray projected = readNumPy(pathOf("P.npy"));
+    QCOMPARE(L.shape, (std::vector<Index>{12, states / 16, 16}));
+    QCOMPARE(projected.shape, (std::vector<Index>{12, 16}));
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        // The vectors' ln Λ starts from ln P_n = -ln N; L = ln NΛ.
+        const double wanted = expected[i][static_cast<std::size_t>(column)] + std::log(states);
+        QVERIFY2(std::abs(static_cast<double>(projected.values[i]) - wanted) < 1e-5,
+                 qPrintable(QString("frame %1, bin %2: %3, vector %4").arg(i / 16).arg(i % 16).arg(double(projected.values[i])).arg(wanted)));
+        float largest = -INFINITY;
+        for (std::size_t rate = 0; rate < static_cast<std::size_t>(states / 16); ++rate)
+            largest = std::max(largest, L.values[(i / 16 * static_cast<std::size_t>(states / 16) + rate) * 16 + i % 16]);
+        QCOMPARE(projected.values[i], largest);
+    }
+}
+
+void tst_cli::parsonsVectors()
+{
+    const auto input = numbersOf(shared("parsons/input.csv"));
+    const auto expected = numbersOf(shared("parsons/expected_non.csv"));
+    if (input.empty() || expected.empty())
+        QSKIP("skipped: no ../shared");
+    // Axes in the vectors' order of a state: range, bearing.
+    std::vector<float> y(6 * 24 * 6);
+    for (const auto &row : input)
+        for (std::size_t range = 0; range < 24; ++range)
+            y[static_cast<std::size_t>(row[0]) * 144 + range * 6 + static_cast<std::size_t>(row[1])] = static_cast<float>(row[2 + range]);
+    writeArray(pathOf("pings.npy"), {6, 24, 6}, y);
+    writeBytes(pathOf("parsons.json"), R"({"axes": [{"name": "range", "cells": 24, "rates": [-2, -1, 0, 1, 2], "rateChange": [1], "round": "trunc"},
+        {"name": "bearing", "cells": 6, "cyclic": true, "rates": [-1, 0, 1], "rateChange": [1], "round": "trunc"}],
+        "likelihood": {"kind": "linear"}, "reset": {"law": "mean"}})");
+    const Outcome done =
+        run(m_folder, {"statistic", "--frames", "pings.npy", "--model", "parsons.json", "--out", "LP.npy", "--log", "K.csv"});
+    QCOMPARE(done.err, QByteArray());
+    QCOMPARE(done.code, 0);
+    const NumPyArray L = readNumPy(pathOf("LP.npy"));
+    QCOMPARE(L.shape, (std::vector<Index>{6, 5, 3, 24, 6}));
+    QVERIFY(content("K.csv").startsWith("frame,lnK,reset_fraction,max_statistic\n"));
+    const auto log = numbersOf(content("K.csv"));
+    QCOMPARE(log.size(), std::size_t(6));
+    std::vector<double> largest(6, -INFINITY);
+    for (const auto &row : expected) { // ping, K, reset, r, b, u, v, lnL
+        const auto ping = static_cast<std::size_t>(row[0]);
+        const auto rate = static_cast<std::size_t>((row[5] + 2.0) * 3.0 + row[6] + 1.0);
+        const auto cell = static_cast<std::size_t>(row[3] * 6.0 + row[4]);
+        const auto found = static_cast<double>(L.values[(ping * 15 + rate) * 144 + cell]);
+        QVERIFY2(std::abs(found - row[7]) < 1e-4, qPrintable(QString("ping %1: %2, vector %3").arg(ping).arg(found).arg(row[7])));
+        QVERIFY(std::abs(log[ping][1] - row[1]) < 1e-5);
+        QVERIFY(std::abs(log[ping][2] - row[2]) < 1e-9);
+        largest[ping] = std::max(largest[ping], row[7]);
+    }
+    for (std::size_t ping = 0; ping < 6; ++ping)
+        QVERIFY(std::abs(log[ping][3] - largest[ping]) < 1e-4);
+}
+
+void tst_cli::lnLambdaByEye()
+{
+    // Two cells, nothing moves, λ = y, ln K = -1: L = y + max(L - 1, 0).
+    writeArray(pathOf("eye.npy"), {3, 2}, {0.5f, 3.0f, 1.0f, 0.0f, 0.25f, 2.0f});
+    writeBytes(pathOf("eye.json"), R"({"axes": [{"cells": 2}], "likelihood": {"kind": "linear"}, "reset": {"law": "fixed", "lnK": -1}})");
+    QCOMPARE(run(m_folder, {"statistic", "--frames", "eye.npy", "--model", "eye.json", "--out", "eyeL.npy", "--log", "eye.csv"}).code, 0);
+    QCOMPARE(readNumPy(pathOf("eyeL.npy")).values, (std::vector<float>{0.5f, 3.0f, 1.0f, 2.0f, 0.25f, 3.0f}));
+    QCOMPARE(content("eye.csv"), QByteArray("frame,lnK,reset_fraction,max_statistic\n0,-1,1,3\n1,-1,0.5,2\n2,-1,0.5,3\n"));
+
+    // A cell that nobody can have come from: rate 1 from the lowest cell, and no reset.
+    writeBytes(pathOf("none.json"), R"({"axes": [{"cells": 2, "rates": [1], "rateChange": [1]}], "likelihood": {"kind": "linear"},
+        "reset": {"law": "none"}})");
+    QCOMPARE(run(m_folder, {"statistic", "--frames", "eye.npy", "--model", "none.json", "--out", "noneL.npy"}).code, 0);
+    QCOMPARE(readNumPy(pathOf("noneL.npy")).values, (std::vector<float>{0.5f, 3.0f, -INFINITY, 0.5f, -INFINITY, -INFINITY}));
+
+    // All paths counted: with one state it is the same sum.
+    writeArray(pathOf("one.npy"), {3, 1}, {0.5f, 3.0f, 1.0f});
+    writeBytes(pathOf("sum.json"), R"({"axes": [{"cells": 1}], "likelihood": {"kind": "linear"}, "reset": {"law": "none", "semiring": "sum"}})");
+    QCOMPARE(run(m_folder, {"statistic", "--frames", "one.npy", "--model", "sum.json", "--out", "sumL.npy"}).code, 0);
+    QCOMPARE(readNumPy(pathOf("sumL.npy")).values, (std::vector<float>{0.5f, 3.5f, 4.5f}));
+}
+
+void tst_cli::mistakes_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QString>("message");
+    const auto row = [](const char *name, const QStringList &arguments, const char *message) {
+        QTest::newRow(name) << arguments << QString::fromUtf8(message);
+    };
+    row("nothing asked", {}, "command line: A subcommand is required");
+    row("no such command", {"dtect"}, "command line: ");
+    row("no such option", {"detect", "line.wav", "--summery"}, "command line: The following argument was not expected: --summery");
+    row("no number", {"detect", "line.wav", "--summary", "--from", "soon"}, "command line: Could not convert: --from = soon");
+    row("no threads", {"--threads", "0", "describe"}, "command line: --threads");
+    row("no such file", {"info", "none.wav"}, "none.wav: there is no such file");
+    row("a folder", {"info", "."}, ".: is a folder");
+    row("a text", {"info", "truth.json"}, "");
+    row("unknown setting", {"describe", "smd.k"}, "smd.k: is no setting; the nearest is smd.lnK");
+    row("misspelt setting", {"detect", "line.wav", "--summary", "--set", "smd.thresold=3"}, "smd.thresold: is no setting; the nearest is ");
+    row("no assignment", {"detect", "line.wav", "--summary", "--set", "smd.lnK"}, "--set smd.lnK: must be name=value");
+    row("setting out of range", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=-1"},
+        "spectrogram.windowSeconds = -1: must lie in 0 … 1e+06 s");
+    row("setting that is no number", {"detect", "line.wav", "--summary", "--set", "smd.lnK=nan"}, "smd.lnK = nan: must lie in -100 … 100 nat");
+    row("settings that disagree", {"detect", "line.wav", "--summary", "--set", "model.slopeChange=0.5"}, "model.slopeChange = 0.5: h(0) + 2·");
+    row("slopes upside down", {"detect", "line.wav", "--summary", "--set", "model.lowestSlope=3"}, "model.lowestSlope = 3: must not exceed");
+    row("no output", {"detect", "line.wav"}, "detect: says nothing without at least one of --events");
+    row("no input", {"detect", "--summary"}, "detect: needs a recording, or --frames");
+    row("two inputs", {"detect", "line.wav", "--frames", "y.npy", "--summary"}, "detect: takes a recording or --frames, not both");
+    row("unknown kind of events", {"detect", "line.wav", "--events", "e.xml"}, "e.xml: the kind of file is told by its extension");
+    row("unknown kind of tracks", {"detect", "line.wav", "--tracks", "t.txt"}, "t.txt: the kind of file is told by its extension");
+    row("no such folder", {"detect", "line.wav", "--statistic", "no/D.npy"}, "no/D.npy: cannot be written: No such file or directory");
+    row("channel", {"detect", "line.wav", "--summary", "--channel", "1"}, "selection.channel = 1: the recording has 1 channel(s)");
+    row("negative channel", {"detect", "line.wav", "--summary", "--channel", "-1"}, "command line: --channel");
+    row("one channel as I/Q", {"detect", "line.wav", "--summary", "--iq"}, "line.wav: has 1 channel(s), but I/Q needs them in pairs");
+    row("behind the end", {"detect", "line.wav", "--summary", "--from", "31"}, "selection.fromSeconds = 31: must lie before");
+    row("before the beginning", {"detect", "line.wav", "--summary", "--from", "-1"}, "selection.fromSeconds = -1: must lie in 0");
+    row("band upside down", {"detect", "line.wav", "--summary", "--low", "50", "--high", "20"}, "selection.lowHz = 50: must not lie above");
+    row("band that is no number", {"detect", "line.wav", "--summary", "--low", "nan"}, "selection.lowHz = nan: must lie in");
+    row("longer than the recording", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=31"}, "shorter than one window of 31 s");
+    row("unknown preset", {"detect", "line.wav", "--summary", "--preset", "x"}, "preset x: is not known; there are lines, billon");
+    row("no session", {"detect", "line.wav", "--summary", "--session", "line.wav"}, "line.wav: is not valid JSON");
+    row("time outside", {"explain", "line.wav", "--time", "99", "--frequency", "100"}, "time 99 s: must lie in ");
+    row("frequency that is no number", {"explain", "line.wav", "--time", "9", "--frequency", "nan"}, "frequency nan: must be a number");
+    row("no scene", {"simulate", "line.wav", "--out", "x.wav"}, "line.wav: is not valid JSON");
+    row("no kind of recording", {"simulate", "scene.json", "--out", "x.xyz"}, "x.xyz: has no extension that says what to write");
+    row("negative seed", {"simulate", "scene.json", "--out", "x.wav", "--seed", "-1"}, "command line: --seed");
+    row("no model", {"statistic", "--frames", "none.npy", "--model", "m.json", "--out", "x.npy"}, "none.npy: cannot be opened");
+}
+
+void tst_cli::mistakes()
+{
+    QFETCH(QStringList, arguments);
+    QFETCH(QString, message);
+    const Outcome told = run(m_folder, arguments);
+    QCOMPARE(told.code, 2);
+    QCOMPARE(told.out, QByteArray());
+    QVERIFY2(told.err.startsWith("error: ") && told.err.endsWith('\n') && told.err.count('\n') == 1, told.err.data());
+    QVERIFY2(QString::fromUtf8(told.err).contains(message), told.err.data());
+    QVERIFY2(told.err.size() < 500, told.err.data());
+    for (const char *name : {"e.xml", "t.txt", "x.wav", "x.xyz", "x.npy"})
+        QVERIFY2(!QFile::exists(path(name)), name);
+    QVERIFY(QDir(m_folder.path()).entryList({"*.part"}, QDir::Files | QDir::Hidden).isEmpty());
+}
+
+void tst_cli::mistakesInFrames_data()
+{
+    QTest::addColumn<QByteArray>("model");
+    QTest::addColumn<QString>("message");
+    QTest::newRow("other cells") << QByteArray(R"({"axes": [{"cells": 3}], "likelihood": {"kind": "linear"}})") << "do not fit the frames of two.npy";
+    QTest::newRow("other axes") << QByteArray(R"({"axes": [{"cells": 1}, {"cells": 2}], "likelihood": {"kind": "linear"}})") << "do not fit the frames of two.npy";
+    QTest::newRow("misspelt key") << QByteArray(R"({"axis": []})") << "m.json.axis: is not known";
+    QTest::newRow("no law") << QByteArray(R"({"axes": [{"cells": 2, "rateChange": [0.9]}], "likelihood": {"kind": "linear"}})") << "axes[0].rateChange: h(0)";
+    QTest::newRow("r0 of 0") << QByteArray(R"({"axes": [{"cells": 2}], "likelihood": {"kind": "rice", "r0": 0}})") << "m.json: likelihood.r0 = 0: must be";
+}
+
+void tst_cli::mistakesInFrames()
+{
+    QFETCH(QByteArray, model);
+    QFETCH(QString, message);
+    writeArray(pathOf("two.npy"), {3, 2}, {1, 2, 3, 4, 5, 6});
+    writeBytes(pathOf("m.json"), model);
+    const Outcome told = run(m_folder, {"statistic", "--frames", "two.npy", "--model", "m.json", "--out", "x.npy"});
+    QCOMPARE(told.code, 2);
+    QVERIFY2(told.err.startsWith("error: m.json") && told.err.count('\n') == 1, told.err.data());
+    QVERIFY2(QString::fromUtf8(told.err).contains(message), told.err.data());
+    QVERIFY(!QFile::exists(path("x.npy")));
+}
+
+void tst_cli::fullDiskIsAFailure()
+{
+    // No file may grow beyond 1000 bytes: what a full disk does, the machine's fault and not the user's.
+    for (const QString name : {"full.wav", "full.caf", "full.flac", "full.sigmf-meta"}) {
+        const Outcome told = run(m_folder, {"simulate", "scene.json", "--out", name}, [] {
+            std::signal(SIGXFSZ, SIG_IGN);
+            const rlimit limit{1000, 1000};
+            setrlimit(RLIMIT_FSIZE, &limit);
+        });
+        QVERIFY2(told.code == 1, told.err.data());
+        QVERIFY2(told.err.startsWith("error: full") && told.err.count('\n') == 1, told.err.data());
+    }
+    QVERIFY(QDir(m_folder.path()).entryList({"full*"}, QDir::Files | QDir::Hidden).isEmpty());
+}
+
+void tst_cli::interruptLeavesNothing_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<int>("signal");
+    QTest::newRow("simulate") << QStringList{"simulate", "endless.json", "--out", "endless.w64"} << SIGINT;
+    QTest::newRow("detect") << QStringList{"detect", "endless.json", "--statistic", "endless.npy", "--events", "endless.csv"} << SIGINT;
+    QTest::newRow("terminated") << QStringList{"detect", "endless.json", "--statistic", "endless.npy"} << SIGTERM;
+}
+
+void tst_cli::interruptLeavesNothing()
+{
+    QFETCH(QStringList, arguments);
+    QFETCH(int, signal);
+    // A day of noise: more than any machine makes before it is told to stop.
+    writeBytes(pathOf("endless.json"), R"({"sampleRateHz": 8000, "durationSeconds": 86400})");
+    QProcess process;
+    process.setWorkingDirectory(m_folder.path());
+    process.start(program, arguments);
+    const auto halfWritten = [&] { return QDir(m_folder.path()).entryList({"endless*.part", ".endless*"}, QDir::Files | QDir::Hidden); };
+    QTRY_VERIFY_WITH_TIMEOUT(!halfWritten().isEmpty() || process.state() == QProcess::NotRunning, patience);
+    QVERIFY2(process.state() == QProcess::Running, process.readAllStandardError().data());
+    QCOMPARE(::kill(static_cast<pid_t>(process.processId()), signal), 0);
+    QVERIFY(process.waitForFinished(patience));
+    QCOMPARE(process.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(process.exitCode(), 1);
+    QCOMPARE(process.readAllStandardError(), QByteArray("error: interrupted: nothing half-written is left\n"));
+    QCOMPARE(process.readAllStandardOutput(), QByteArray());
+    QCOMPARE(QDir(m_folder.path()).entryList({"endless*", ".endless*"}, QDir::Files | QDir::Hidden), QStringList{"endless.json"});
+}
+
+void tst_cli::oddRecordings_data()
+{
+    QTest::addColumn<QByteArray>("bytes");
+    QTest::addColumn<bool>("isRefused");
+    std::vector<float> samples = someNoise(8000);
+    const QByteArray sound = wav(1000, 1, samples);
+    QTest::newRow("sound") << sound << false;
+    QTest::newRow("empty") << QByteArray() << true;
+    QTest::newRow("text") << QByteArray("This is no recording.\n").repeated(100) << true;
+    QTest::newRow("only a header") << sound.left(44) << true;
+    QTest::newRow("half a header") << sound.left(30) << true;
+    QTest::newRow("cut off") << sound.left(44 + 4 * 6000 + 3) << false;
+    QTest::newRow("0 Hz") << wav(0, 1, samples) << true;
+    QTest::newRow("4 GHz") << wav(4294967295u, 1, samples) << true;
+    QTest::newRow("no channel") << wav(1000, 0, samples) << true;
+    QTest::newRow("255 channels") << wav(1000, 255, someNoise(255 * 1500)) << false;
+    QTest::newRow("one sample") << wav(1000, 1, {0.5f}) << true;
+    QTest::newRow("less than a window") << wav(1000, 1, someNoise(499)) << true;
+    QTest::newRow("one window") << wav(1000, 1, someNoise(500)) << false;
+    QTest::newRow("constant") << wav(1000, 1, std::vector<float>(8000, 0.5f)) << false;
+    QTest::newRow("silence") << wav(1000, 1, std::vector<float>(8000, 0.0f)) << false;
+    QTest::newRow("hardly anything") << wav(1000, 1, std::vector<float>(8000, 1e-42f)) << false;
+    std::vector<float> loud = samples;
+    for (float &sample : loud)
+        sample *= 1e37f;
+    QTest::newRow("far too loud") << wav(1000, 1, loud) << false;
+    QTest::newRow("no number at all") << wav(1000, 1, std::vector<float>(8000, NAN)) << false;
+}
+
+void tst_cli::oddRecordings()
+{
+    QFETCH(QByteArray, bytes);
+    QFETCH(bool, isRefused);
+    writeBytes(pathOf("odd.wav"), bytes);
+    if (isRefused) {
+        const Outcome told = run(m_folder, QStringList{"detect", "odd.wav", "--events", "odd.csv", "--statistic", "odd.npy"} + settings);
+        QCOMPARE(told.code, 2);
+        QCOMPARE(told.out, QByteArray());
+        QVERIFY2(told.err.startsWith("error: ") && told.err.count('\n') == 1, told.err.data());
+        QVERIFY(QDir(m_folder.path()).entryList({"odd.csv*", "odd.npy*"}, QDir::Files | QDir::Hidden).isEmpty());
+        return;
+    }
+    // The library, which is the program (isTheLibrary): it calibrates once for all of them.
+    std::vector<float> statistic;
+    const auto analysis = inLibrary("odd.wav", statistic);
+    QVERIFY(std::ranges::all_of(statistic, [](float value) { return std::isfinite(value); }));
+    QVERIFY(std::isfinite(analysis->threshold));
+    writeEvents(*analysis, pathOf("odd.csv"));
+    writeTracks(*analysis, pathOf("oddTracks.csv"));
+    for (const char *name : {"odd.csv", "oddTracks.csv"}) {
+        const QByteArray text = content(name);
+        QVERIFY2(text.count('\n') == 1 || !numbersOf(text).empty(), text.data());
+        QVERIFY2(!text.contains("nan") && !text.contains("inf"), text.data());
+        QFile::remove(path(name));
+    }
+}
+
+void tst_cli::samplesThatAreNoNumbers()
+{
+    std::vector<float> samples = someNoise(8000);
+    std::fill_n(samples.begin() + 3000, 400, NAN);
+    samples[5] = INFINITY;
+    writeBytes(pathOf("nan.wav"), wav(1000, 1, samples));
+    const Outcome done = run(m_folder, QStringList{"detect", "nan.wav", "--events", "nan.csv", "--statistic", "nan.npy"} + settings);
+    QCOMPARE(done.err, QByteArray());
+    QCOMPARE(done.code, 0);
+    const QByteArray events = content("nan.csv");
+    QVERIFY2(events.count('\n') == 1 || !numbersOf(events).empty(), events.data());
+    QVERIFY2(!events.contains("nan") && !events.contains("inf"), events.data());
+    QVERIFY(std::ranges::all_of(readNumPy(pathOf("nan.npy")).values, [](float value) { return std::isfinite(value); }));
+}
+
+QTEST_GUILESS_MAIN(tst_cli)
+#include "tst_cli.moc"

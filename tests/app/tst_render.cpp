@@ -1,0 +1,138 @@
+// Runs the program as a person would: `faintline render …`.
+
+#include <QImage>
+#include <QProcess>
+#include <QProcessEnvironment>
+#include <QTemporaryDir>
+#include <QTest>
+
+namespace {
+
+struct Outcome {
+    int exitCode = -1;
+    QByteArray out;
+    QByteArray error;
+};
+
+Outcome run(const QStringList &arguments)
+{
+    QProcess process;
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.remove("QT_QPA_PLATFORM"); // it finds its own
+    process.setProcessEnvironment(environment);
+    process.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), arguments);
+    if (!process.waitForFinished(120000))
+        return {};
+    return {process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
+QByteArray bytesOf(const QString &path)
+{
+    QFile file(path);
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+} // namespace
+
+class tst_render : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+
+    QString path(const QString &name) const { return m_folder.filePath(name); }
+
+private slots:
+    void initTestCase()
+    {
+        QFile file(path("scene.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 40,
+                       "lines": [{"snrDb": 8, "frequencyHz": 200, "driftHzPerSecond": 1}]})");
+        QFile text(path("text.wav"));
+        QVERIFY(text.open(QIODevice::WriteOnly));
+        text.write("This is no sound.");
+    }
+
+    void twiceIsIdentical()
+    {
+        for (const QString &name : {QString("a.png"), QString("b.png")}) {
+            const Outcome outcome = run({"render", path("scene.json"), "--out", path(name), "--size", "1200x800"});
+            QCOMPARE(outcome.error, QByteArray());
+            QCOMPARE(outcome.out, QByteArray());
+            QCOMPARE(outcome.exitCode, 0);
+        }
+        QCOMPARE(QImage(path("a.png")).size(), QSize(1200, 800));
+        QVERIFY(bytesOf(path("a.png")) == bytesOf(path("b.png")));
+    }
+
+    void everyViewBothThemes()
+    {
+        const QStringList views{"window", "input", "output", "threshold", "events", "noise"};
+        for (const QString &theme : {QString("light"), QString("dark")}) {
+            const Outcome outcome = run({"render", path("scene.json"), "--out", path(theme + ".png"), "--view", views.join(','), "--size",
+                                         "1200x700", "--theme", theme, "--time", "20", "--frequency", "220"});
+            QCOMPARE(outcome.error, QByteArray());
+            for (const QString &view : views)
+                QCOMPARE(QImage(path(theme + "-" + view + ".png")).size(), QSize(1200, 700));
+        }
+        QVERIFY(bytesOf(path("light-output.png")) != bytesOf(path("dark-output.png")));
+    }
+
+    void settingsCount()
+    {
+        const QStringList common{"render", path("scene.json"), "--view", "threshold", "--size", "600x400"};
+        QCOMPARE(run(common + QStringList{"--out", path("t1.png")}).exitCode, 0);
+        QCOMPARE(run(common + QStringList{"--out", path("t2.png"), "--set", "decide.thresholdNats=30"}).exitCode, 0);
+        QCOMPARE(run(common + QStringList{"--out", path("t3.png"), "--preset", "steady"}).exitCode, 0);
+        QVERIFY(bytesOf(path("t1.png")) != bytesOf(path("t2.png")));
+        QVERIFY(bytesOf(path("t1.png")) != bytesOf(path("t3.png")));
+    }
+
+    void mistakesAreOneLineAndTwo_data()
+    {
+        QTest::addColumn<QStringList>("arguments");
+        QTest::addColumn<QString>("about");
+        const QString scene = path("scene.json");
+        const QString out = path("never.png");
+        QTest::newRow("no such file") << QStringList{"render", path("none.wav"), "--out", out} << "none.wav";
+        QTest::newRow("no recording") << QStringList{"render", path("text.wav"), "--out", out} << "text.wav";
+        QTest::newRow("no out") << QStringList{"render", scene} << "--out";
+        QTest::newRow("view") << QStringList{"render", scene, "--out", out, "--view", "moon"} << "moon";
+        QTest::newRow("size") << QStringList{"render", scene, "--out", out, "--size", "big"} << "--size";
+        QTest::newRow("small") << QStringList{"render", scene, "--out", out, "--size", "400x300"} << "--size";
+        QTest::newRow("theme") << QStringList{"render", scene, "--out", out, "--theme", "pink"} << "theme";
+        QTest::newRow("setting") << QStringList{"render", scene, "--out", out, "--set", "model.snr=-3"} << "model.snr";
+        QTest::newRow("no setting") << QStringList{"render", scene, "--out", out, "--set", "moon=1"} << "moon";
+        QTest::newRow("preset") << QStringList{"render", scene, "--out", out, "--preset", "moon"} << "moon";
+        QTest::newRow("option") << QStringList{"render", scene, "--out", out, "--moon"} << "--moon";
+        QTest::newRow("folder") << QStringList{"render", scene, "--out", path("no/such/folder.png"), "--size", "1200x700"} << "folder";
+    }
+
+    void mistakesAreOneLineAndTwo()
+    {
+        QFETCH(QStringList, arguments);
+        QFETCH(QString, about);
+        const Outcome outcome = run(arguments);
+        QVERIFY2(outcome.error.startsWith("error: "), outcome.error.constData());
+        QCOMPARE(outcome.error.count('\n'), 1);
+        QVERIFY2(outcome.error.contains(about.toUtf8()), outcome.error.constData());
+        QCOMPARE(outcome.out, QByteArray());
+        QCOMPARE(outcome.exitCode, 2);
+        QVERIFY(!QFile::exists(path("never.png")));
+    }
+
+    void helpAndVersion()
+    {
+        const Outcome help = run({"--help"});
+        QCOMPARE(help.exitCode, 0);
+        QVERIFY(help.out.contains("render"));
+        QVERIFY(run({"render", "--help"}).out.contains("--out"));
+        const Outcome version = run({"--version"});
+        QCOMPARE(version.exitCode, 0);
+        QVERIFY(version.out.startsWith("faintline "));
+    }
+};
+
+QTEST_GUILESS_MAIN(tst_render)
+#include "tst_render.moc"

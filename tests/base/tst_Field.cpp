@@ -1,0 +1,269 @@
+#include "base/Field.h"
+
+#include "base/Error.h"
+#include "base/Random.h"
+
+#include <QtTest>
+
+#include <clocale>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <locale>
+
+using namespace faintline;
+
+/// Settings as text: what is read, what is refused and in which words, and numbers in their shortest form.
+class tst_Field : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void init();
+    void cleanup();
+    void parses_data();
+    void parses();
+    void refuses_data();
+    void refuses();
+    void everythingPrintedReadsBack();
+    void shortestForm_data();
+    void shortestForm();
+    void numbersReadBackBitForBit();
+    void textThatIsNoNumber_data();
+    void textThatIsNoNumber();
+    void tablesReachTheirStruct();
+    void tablesOfWhatIsNotHeld();
+
+private:
+    std::locale m_before;
+};
+
+namespace {
+
+    enum class Colour { Red, Green };
+    constexpr std::array<std::string_view, 2> colourNames{"red", "green"};
+
+    struct Lamp {
+        bool isOn = false;
+        int count = 2;
+        double watts = 40.0;
+        Colour colour = Colour::Red;
+        std::vector<double> hours{1.0, 2.0};
+    };
+
+    const std::vector<Field<Lamp>> &fields()
+    {
+        static const std::vector<Field<Lamp>> table{
+            field(&Lamp::isOn, "on", "Is it?"),
+            field(&Lamp::count, "count", "", -3.0, 9.0, "How many."),
+            field(&Lamp::watts, "watts", "W", 0.0, 100.0, "How bright."),
+            field(&Lamp::colour, "colour", colourNames, "Which."),
+            field(&Lamp::hours, "hours", "h", 0.0, 24.0, "When."),
+        };
+        return table;
+    }
+
+    const Field<Lamp> &fieldOf(const QString &name)
+    {
+        for (const auto &f : fields())
+            if (f.name == name.toStdString())
+                return f;
+        qFatal("the test asks for a field that is not in its table");
+    }
+
+    /// The decimal comma and grouped thousands of half the world.
+    class Comma : public std::numpunct<char>
+    {
+        char do_decimal_point() const override { return ','; }
+        char do_thousands_sep() const override { return '.'; }
+        std::string do_grouping() const override { return "\3"; }
+    };
+
+} // namespace
+
+void tst_Field::init()
+{
+    // Every test here runs in a locale that writes 1.234,5.
+    m_before = std::locale::global(std::locale(std::locale(), new Comma));
+    for (const char *name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"})
+        if (std::setlocale(LC_ALL, name))
+            break;
+}
+
+void tst_Field::cleanup()
+{
+    std::locale::global(m_before);
+    std::setlocale(LC_ALL, "C");
+}
+
+void tst_Field::parses_data()
+{
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("printed");
+    for (const char *yes : {"true", "1", "on", "yes"})
+        QTest::newRow(yes) << "on" << yes << "true";
+    for (const char *no : {"false", "0", "off", "no"})
+        QTest::newRow(no) << "on" << no << "false";
+    QTest::newRow("whole") << "count" << "7" << "7";
+    QTest::newRow("negative") << "count" << "-3" << "-3";
+    QTest::newRow("whole with a point") << "count" << "2.0" << "2";
+    QTest::newRow("number") << "watts" << "0.5" << "0.5";
+    QTest::newRow("exponent") << "watts" << "1e1" << "10";
+    QTest::newRow("sign") << "watts" << "+12" << "12";
+    QTest::newRow("lower end") << "watts" << "0" << "0";
+    QTest::newRow("upper end") << "watts" << "100" << "100";
+    QTest::newRow("choice") << "colour" << "green" << "green";
+    QTest::newRow("list") << "hours" << "1,2.5,3" << "1, 2.5, 3";
+    QTest::newRow("list in brackets") << "hours" << "[1; 2.5]" << "1, 2.5";
+    QTest::newRow("empty list") << "hours" << "[]" << "";
+}
+
+void tst_Field::parses()
+{
+    QFETCH(QString, name);
+    QFETCH(QString, text);
+    QFETCH(QString, printed);
+    QCOMPARE(QString::fromStdString(formatFieldValue(parseFieldValue(fieldOf(name), text.toStdString()))), printed);
+}
+
+void tst_Field::refuses_data()
+{
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("sentence");
+    QTest::newRow("flag") << "on" << "maybe" << "on = maybe: must be true or false";
+    QTest::newRow("below") << "count" << "-4" << "count = -4: must lie in -3 … 9, a whole number";
+    QTest::newRow("fraction") << "count" << "1.5" << "count = 1.5: must lie in -3 … 9, a whole number";
+    QTest::newRow("beyond int") << "count" << "4294967297" << "count = 4294967297: must lie in -3 … 9, a whole number";
+    QTest::newRow("above") << "watts" << "100.5" << "watts = 100.5: must lie in 0 … 100 W";
+    QTest::newRow("not a number") << "watts" << "nan" << "watts = nan: must lie in 0 … 100 W";
+    QTest::newRow("infinite") << "watts" << "inf" << "watts = inf: must lie in 0 … 100 W";
+    QTest::newRow("beyond double") << "watts" << "1e999" << "watts = 1e999: must lie in 0 … 100 W";
+    QTest::newRow("decimal comma") << "watts" << "1,5" << "watts = 1,5: must lie in 0 … 100 W";
+    QTest::newRow("nothing") << "watts" << "" << "watts = : must lie in 0 … 100 W";
+    QTest::newRow("choice") << "colour" << "blue" << "colour = blue: must be one of red, green";
+    QTest::newRow("capital") << "colour" << "Red" << "colour = Red: must be one of red, green";
+    QTest::newRow("list") << "hours" << "1,x" << "hours = 1,x: must be a list of numbers";
+    QTest::newRow("gap in a list") << "hours" << "1,,2" << "hours = 1,,2: must be a list of numbers";
+    QTest::newRow("list's range") << "hours" << "1,25" << "hours = 1, 25: each number must lie in 0 … 24 h";
+}
+
+void tst_Field::refuses()
+{
+    QFETCH(QString, name);
+    QFETCH(QString, text);
+    QFETCH(QString, sentence);
+    try {
+        parseFieldValue(fieldOf(name), text.toStdString());
+    } catch (const Error &error) {
+        QCOMPARE(QString::fromUtf8(error.what()), sentence);
+        QCOMPARE(error.kind(), Error::Kind::Mistake);
+        return;
+    }
+    QFAIL("was taken");
+}
+
+void tst_Field::everythingPrintedReadsBack()
+{
+    const Lamp lamp{true, -3, 1.0 / 3.0, Colour::Green, {0.1, 23.999999999999996, 1e-300}};
+    for (const auto &f : fields()) {
+        const FieldValue value = f.get(lamp).value();
+        QVERIFY2(parseFieldValue(f, formatFieldValue(value)) == value, f.name.c_str());
+    }
+}
+
+void tst_Field::shortestForm_data()
+{
+    QTest::addColumn<double>("value");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("0") << 0.0 << "0";
+    QTest::newRow("-0") << -0.0 << "0";
+    QTest::newRow("whole") << 1000.0 << "1000";
+    QTest::newRow("tenth") << 0.1 << "0.1";
+    QTest::newRow("sum of tenths") << 0.1 + 0.2 << "0.30000000000000004";
+    QTest::newRow("third") << 1.0 / 3.0 << "0.3333333333333333";
+    QTest::newRow("negative") << -2.5 << "-2.5";
+    QTest::newRow("large") << 1e22 << "1e+22";
+    QTest::newRow("thousands") << 1234567.5 << "1234567.5";
+    QTest::newRow("small") << 1e-7 << "1e-07";
+    QTest::newRow("smallest") << 5e-324 << "5e-324";
+    QTest::newRow("largest") << std::numeric_limits<double>::max() << "1.7976931348623157e+308";
+}
+
+void tst_Field::shortestForm()
+{
+    QFETCH(double, value);
+    QFETCH(QString, text);
+    QCOMPARE(QString::fromStdString(formatNumber(value)), text);
+}
+
+void tst_Field::numbersReadBackBitForBit()
+{
+    Random random(1, 2);
+    int tried = 0;
+    while (tried < 20000) {
+        const std::uint64_t bits = static_cast<std::uint64_t>(random.bits()) << 32 | random.bits();
+        double value;
+        std::memcpy(&value, &bits, sizeof value);
+        if (!std::isfinite(value) || value == 0.0)
+            continue;
+        ++tried;
+        const std::string text = formatNumber(value);
+        QVERIFY2(parseNumber(text) == value, text.c_str());
+        // Qt's reader, another one, in the C locale: the same number.
+        QVERIFY2(QByteArray::fromStdString(text).toDouble() == value, text.c_str());
+        // No shorter form would do: with the last digit left out it is another number.
+        const std::size_t end = std::min(text.find('e'), text.size());
+        const std::string shorter = text.substr(0, end - 1) + text.substr(end);
+        if (text.find('.') < end - 2)
+            QVERIFY2(parseNumber(shorter) != value, text.c_str());
+    }
+}
+
+void tst_Field::textThatIsNoNumber_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    for (const char *text : {"", " ", " 1", "1 ", "1,5", "1.5.2", "0x10", "1e", "e5", "+", "-", "--1", "+-1", "++1", "1_000", "1e999", "½"})
+        QTest::newRow(text) << QByteArray(text);
+    QTest::newRow("a zero byte") << QByteArray("1\0", 2);
+}
+
+void tst_Field::textThatIsNoNumber()
+{
+    QFETCH(QByteArray, text);
+    QVERIFY(!parseNumber(text.toStdString()));
+}
+
+void tst_Field::tablesReachTheirStruct()
+{
+    Lamp lamp;
+    for (const auto &[name, text] : std::vector<std::pair<const char *, const char *>>{
+             {"on", "yes"}, {"count", "5"}, {"watts", "60"}, {"colour", "green"}, {"hours", "3"}})
+        fieldOf(name).set(lamp, parseFieldValue(fieldOf(name), text));
+    QCOMPARE(lamp.isOn, true);
+    QCOMPARE(lamp.count, 5);
+    QCOMPARE(lamp.watts, 60.0);
+    QCOMPARE(lamp.colour, Colour::Green);
+    QCOMPARE(lamp.hours, std::vector<double>{3.0});
+}
+
+void tst_Field::tablesOfWhatIsNotHeld()
+{
+    struct House {
+        std::optional<Lamp> lamp;
+    };
+    const auto table = within<House>("lamp", fields(), [](auto &house) { return house.lamp ? &*house.lamp : nullptr; });
+    QCOMPARE(table.at(2).name, std::string("lamp.watts"));
+    QCOMPARE(table.at(2).unit, std::string("W"));
+    House house;
+    QVERIFY(!table.at(2).get(house));
+    table.at(2).set(house, 50.0); // falls on nothing
+    QVERIFY(!house.lamp);
+    house.lamp = Lamp{};
+    table.at(2).set(house, 50.0);
+    QCOMPARE(std::get<double>(table.at(2).get(house).value()), 50.0);
+}
+
+QTEST_APPLESS_MAIN(tst_Field)
+#include "tst_Field.moc"

@@ -1,0 +1,136 @@
+#include "base/json.h"
+
+#include <QtTest>
+
+using namespace faintline;
+
+/// Structs as JSON by their tables of fields.
+class tst_json : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void structsReadBackTheSame();
+    void missingKeysKeepTheirValues();
+    void mistakesAreNamed_data();
+    void mistakesAreNamed();
+    void textThatIsNoJson();
+    void filesThatAreNone();
+};
+
+namespace {
+
+enum class Colour { Red, Green };
+constexpr std::array<std::string_view, 2> colourNames{"red", "green"};
+
+struct Thing {
+    bool isLarge = false;
+    int count = 3;
+    double size = 1.5;
+    Colour colour = Colour::Red;
+    std::vector<double> weights{1.0};
+
+    bool operator==(const Thing &) const = default;
+};
+
+const std::vector<Field<Thing>> &fields()
+{
+    static const std::vector<Field<Thing>> table{
+        field(&Thing::isLarge, "large", "Is it?"),
+        field(&Thing::count, "count", "", 0.0, 9.0, "How many."),
+        field(&Thing::size, "size", "m", 0.0, 10.0, "How large."),
+        field(&Thing::colour, "colour", colourNames, "Which."),
+        field(&Thing::weights, "weights", "kg", 0.0, 10.0, "How heavy."),
+    };
+    return table;
+}
+
+std::string errorOf(const char *text)
+{
+    try {
+        Thing thing;
+        readFields(parseJson(text, "here"), fields(), thing, "thing", {"other"});
+    } catch (const Error &error) {
+        return error.what();
+    }
+    return {};
+}
+
+} // namespace
+
+void tst_json::structsReadBackTheSame()
+{
+    const Thing thing{true, 7, 0.1, Colour::Green, {0.0, 1.0 / 3.0, 1e-300}};
+    const Json json = writeFields(thing, fields());
+    QCOMPARE(json.dump(),
+             std::string(
+                 R"({"large":true,"count":7,"size":0.1,"colour":"green","weights":[0.0,0.3333333333333333,1e-300]})"));
+    Thing copy;
+    readFields(parseJson(json.dump(), "here"), fields(), copy);
+    QVERIFY(copy == thing);
+}
+
+void tst_json::missingKeysKeepTheirValues()
+{
+    Thing thing{true, 7, 0.1, Colour::Green, {}};
+    readFields(parseJson("\xEF\xBB\xBF{\"count\": 5.0, \"size\": 2, \"other\": {}}", "here"), fields(), thing, {},
+               {"other"});
+    QVERIFY((thing == Thing{true, 5, 2.0, Colour::Green, {}}));
+}
+
+void tst_json::mistakesAreNamed_data()
+{
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("message");
+    QTest::newRow("key") << R"({"siz": 1})"
+                         << "thing.siz: is not known; known are other, large, count, size, colour, weights";
+    QTest::newRow("range") << R"({"size": 11})"
+                           << "thing.size = 11: must lie in 0 … 10 m";
+    QTest::newRow("kind") << R"({"size": "11"})"
+                          << "thing.size = 11: must lie in 0 … 10 m";
+    QTest::newRow("null") << R"({"size": null})"
+                          << "thing.size = null: must lie in 0 … 10 m";
+    QTest::newRow("fraction") << R"({"count": 1.5})"
+                              << "thing.count = 1.5: must lie in 0 … 9, a whole number";
+    QTest::newRow("huge integer") << R"({"count": 123456789012345678901234567890})"
+                                  << "must lie in 0 … 9, a whole number";
+    QTest::newRow("flag") << R"({"large": 1})"
+                          << "thing.large = 1: must be true or false";
+    QTest::newRow("choice") << R"({"colour": "blue"})"
+                            << "thing.colour = blue: must be one of red, green";
+    QTest::newRow("list") << R"({"weights": [1, "2"]})"
+                          << "thing.weights = […]: must be a list of numbers";
+    QTest::newRow("list's range") << R"({"weights": [1, 11]})"
+                                  << "each number must lie in 0 … 10 kg";
+    QTest::newRow("no object") << "[]"
+                               << "thing: must be an object";
+}
+
+void tst_json::mistakesAreNamed()
+{
+    QFETCH(QString, text);
+    QFETCH(QString, message);
+    const std::string said = errorOf(qPrintable(text));
+    QVERIFY2(QString::fromStdString(said).contains(message), said.c_str());
+}
+
+void tst_json::textThatIsNoJson()
+{
+    QCOMPARE(errorOf("{\"a\": 1,\n  \"b\" 2}"), std::string("here: is not valid JSON at line 2, column 7"));
+    QCOMPARE(errorOf(""), std::string("here: is not valid JSON at line 1, column 1"));
+    QVERIFY(!errorOf("{\"size\": NaN}").empty());
+    QVERIFY(!errorOf("{\"size\": 1e999}").empty());
+    QVERIFY(!errorOf("{\"\xff\": 1}").empty());
+    QVERIFY(errorOf(("{\"size\": " + std::string(500000, '[') + std::string(500000, ']') + "}").c_str())
+                .ends_with("0 … 10 m"));
+}
+
+void tst_json::filesThatAreNone()
+{
+    QVERIFY_THROWS_EXCEPTION(Error, readJsonFile("/no/such/file"));
+    QVERIFY_THROWS_EXCEPTION(Error, readJsonFile("/"));
+    QVERIFY_THROWS_EXCEPTION(Error, readJsonFile("/dev/zero"));
+}
+
+QTEST_APPLESS_MAIN(tst_json)
+#include "tst_json.moc"

@@ -1,0 +1,303 @@
+#include "base/Random.h"
+#include "detect/PathTrace.h"
+#include "detect/Smd.h"
+#include "detect/SumDetector.h"
+#include "support/paths.h"
+
+#include <QtTest>
+
+using namespace faintline;
+using namespace faintline::test;
+
+namespace {
+
+constexpr double minus = -std::numeric_limits<double>::infinity();
+
+struct Lattice {
+    const char *name;
+    std::vector<KinematicAxis> axes;
+};
+
+KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std::vector<double> h, Rounding rounding = Rounding::HalfDown)
+{
+    return {"a", cells, cyclic, firstRate, rateCount, std::move(h), {}, rounding};
+}
+
+KinematicAxis walk(Index cells, bool cyclic, std::vector<double> q)
+{
+    return {"w", cells, cyclic, 0, 1, {1.0}, std::move(q), Rounding::HalfDown};
+}
+
+/// Small enough to list every path, different enough to hold every kind of axis.
+std::vector<Lattice> lattices()
+{
+    const double third = 1.0 / 3.0;
+    return {
+        {"one cell, nothing moves", {rated(1, false, 0, 1, {1.0})}},
+        {"stable", {rated(4, false, 0, 1, {1.0})}},
+        {"three slopes, bounded", {rated(4, false, -1, 3, {third, third})}},
+        {"three slopes, cyclic", {rated(5, true, -1, 3, {0.5, 0.25})}},
+        {"rates of one sign", {rated(5, false, 1, 2, {0.6, 0.2})}},
+        {"truncated rates", {rated(5, false, -2, 5, {0.4, 0.3}, Rounding::Trunc)}},
+        {"random walk, bounded", {walk(5, false, {0.5, 0.25})}},
+        {"random walk, cyclic", {walk(5, true, {0.2, 0.3, 0.1})}},
+        {"range and cyclic bearing", {rated(3, false, -1, 3, {1.0}), rated(3, true, 0, 2, {0.5, 0.25}, Rounding::Trunc)}},
+        {"rates times random walk", {rated(3, false, 0, 2, {0.5, 0.25}), walk(3, true, {0.6, 0.2})}},
+        {"three axes", {walk(2, false, {0.5, 0.25}), rated(2, false, 0, 1, {1.0}), rated(2, true, -1, 2, {0.5, 0.25})}},
+    };
+}
+
+/// As many frames as keep the number of paths in bounds.
+Index framesFor(const StateSpace &space)
+{
+    Index frames = 1;
+    for (double paths = 1.0; frames < 5 && paths * static_cast<double>(space.stateCount()) < 3e4; ++frames)
+        paths *= static_cast<double>(space.stateCount());
+    return std::max<Index>(frames, 3);
+}
+
+std::vector<std::vector<float>> randomFrames(Index cells, Index frames, std::uint64_t stream)
+{
+    Random random(77, stream);
+    std::vector<std::vector<float>> y(static_cast<std::size_t>(frames), std::vector<float>(static_cast<std::size_t>(cells)));
+    for (auto &frame : y)
+        for (float &value : frame)
+            value = static_cast<float>(random.exponential());
+    return y;
+}
+
+} // namespace
+
+/// The one recursion against enumeration of all paths, in every semiring and with every kind of axis.
+class tst_Recursion : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void movesSumToOne();
+    void predecessorsAreTheDefinition_data() { rows(); }
+    void predecessorsAreTheDefinition();
+    void bestPathWithReset_data() { rows(); }
+    void bestPathWithReset();
+    void bestPathWithoutReset_data() { rows(); }
+    void bestPathWithoutReset();
+    void sumOverPaths_data() { rows(); }
+    void sumOverPaths();
+    void sumWithReset();
+    void tracedTermsAddUp_data() { rows(); }
+    void tracedTermsAddUp();
+    void aThousandFramesStayFinite();
+    void shiftByACellShiftsTheAnswer();
+
+private:
+    void rows()
+    {
+        QTest::addColumn<int>("index");
+        for (std::size_t i = 0; i < lattices().size(); ++i)
+            QTest::newRow(lattices()[i].name) << static_cast<int>(i);
+    }
+    MarkovModel model() const
+    {
+        QFETCH(int, index);
+        return {StateSpace(lattices()[static_cast<std::size_t>(index)].axes), Likelihood(LikelihoodKind::Rice, 0.8), 1.0};
+    }
+};
+
+void tst_Recursion::movesSumToOne()
+{
+    // Away from the edges of the rate set every state goes somewhere with probability 1.
+    const KinematicAxis axis = rated(9, false, -3, 7, {0.4, 0.2, 0.1});
+    double sum = 0.0;
+    for (const KinematicAxis::Move &move : axis.moves())
+        if (move.fromRate == 3)
+            sum += std::exp(move.lnProbability);
+    QVERIFY(std::abs(sum - 1.0) < 1e-12);
+}
+
+void tst_Recursion::predecessorsAreTheDefinition()
+{
+    const MarkovModel m = model();
+    for (Index to = 0; to < m.space.stateCount(); ++to) {
+        std::vector<double> expected(static_cast<std::size_t>(m.space.stateCount()), 0.0);
+        for (const StateSpace::Predecessor &p : m.space.predecessors(to))
+            expected[static_cast<std::size_t>(p.state)] = std::max(expected[static_cast<std::size_t>(p.state)], std::exp(p.lnProbability));
+        for (Index from = 0; from < m.space.stateCount(); ++from)
+            QVERIFY(std::abs(expected[static_cast<std::size_t>(from)] - transitionProbability(m.space, from, to)) < 1e-12);
+    }
+}
+
+void tst_Recursion::bestPathWithReset()
+{
+    const MarkovModel m = model();
+    const Index states = m.space.stateCount();
+    const Index frames = framesFor(m.space);
+    const double lnK = 0.35;
+    const auto y = randomFrames(m.space.cellCount(), frames, 1);
+    Smd detector(m, {ResetLaw::Fixed, lnK});
+    std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
+    for (const auto &frame : y)
+        detector.update(frame, statistic);
+
+    // ln(N Λ): the best over all paths and all starting times of Σ λ + Σ (ln P + ln K).
+    for (Index last = 0; last < states; ++last) {
+        double best = minus;
+        for (Index length = 1; length <= frames; ++length) {
+            forEachPath(states, length, last, [&](const std::vector<Index> &path) {
+                double score = 0.0;
+                for (std::size_t i = 0; i < path.size(); ++i) {
+                    const auto t = static_cast<std::size_t>(frames - length) + i;
+                    score += m.likelihood.at(static_cast<double>(y[t][static_cast<std::size_t>(m.space.cellOf(path[i]))]));
+                    if (i > 0)
+                        score += lnK + std::log(transitionProbability(m.space, path[i - 1], path[i]));
+                }
+                best = std::max(best, score);
+            });
+        }
+        const auto found = static_cast<double>(detector.scores()[static_cast<std::size_t>(last)]);
+        QVERIFY2(std::abs(found - best) < 2e-5, qPrintable(QString("state %1: %2, enumeration %3").arg(last).arg(found).arg(best)));
+    }
+    for (Index cell = 0; cell < m.space.cellCount(); ++cell) {
+        float best = -1e30f;
+        for (Index plane = 0; plane < m.space.planeCount(); ++plane)
+            best = std::max(best, detector.scores()[static_cast<std::size_t>(plane * m.space.cellCount() + cell)]);
+        QCOMPARE(statistic[static_cast<std::size_t>(cell)], best);
+    }
+}
+
+void tst_Recursion::bestPathWithoutReset()
+{
+    const MarkovModel m = model();
+    const Index states = m.space.stateCount();
+    const Index frames = framesFor(m.space);
+    const auto y = randomFrames(m.space.cellCount(), frames, 2);
+    Smd detector(m, {ResetLaw::None});
+    std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
+    for (const auto &frame : y)
+        detector.update(frame, statistic);
+    for (Index last = 0; last < states; ++last) {
+        double best = minus;
+        forEachPath(states, frames, last, [&](const std::vector<Index> &path) {
+            double score = 0.0;
+            for (std::size_t i = 0; i < path.size(); ++i) {
+                score += m.likelihood.at(static_cast<double>(y[i][static_cast<std::size_t>(m.space.cellOf(path[i]))]));
+                if (i > 0)
+                    score += std::log(transitionProbability(m.space, path[i - 1], path[i]));
+            }
+            best = std::max(best, score);
+        });
+        const auto found = static_cast<double>(detector.scores()[static_cast<std::size_t>(last)]);
+        if (best == minus)
+            QCOMPARE(found, minus); // nobody reaches this state
+        else
+            QVERIFY(std::abs(found - best) < 2e-5);
+    }
+}
+
+void tst_Recursion::sumOverPaths()
+{
+    const MarkovModel m = model();
+    const Index states = m.space.stateCount();
+    const Index frames = framesFor(m.space);
+    const auto y = randomFrames(m.space.cellCount(), frames, 3);
+    SumDetector detector(m, {ResetLaw::None});
+    std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
+    for (const auto &frame : y)
+        detector.update(frame, statistic);
+    double total = 0.0; // in the linear domain, uniform initial law
+    for (Index last = 0; last < states; ++last)
+        forEachPath(states, frames, last, [&](const std::vector<Index> &path) {
+            double product = 1.0 / static_cast<double>(states);
+            for (std::size_t i = 0; i < path.size(); ++i) {
+                product *= std::exp(m.likelihood.at(static_cast<double>(y[i][static_cast<std::size_t>(m.space.cellOf(path[i]))])));
+                if (i > 0)
+                    product *= transitionProbability(m.space, path[i - 1], path[i]);
+            }
+            total += product;
+        });
+    QVERIFY2(std::abs(detector.lnMean() - std::log(total)) < 1e-9 * std::max(1.0, std::abs(std::log(total))),
+             qPrintable(QString("%1, enumeration %2").arg(detector.lnMean(), 0, 'g', 15).arg(std::log(total), 0, 'g', 15)));
+}
+
+void tst_Recursion::sumWithReset()
+{
+    // Shiryaev-Roberts on one state: A(t) = e^λ (K A(t-1) + 1), by hand.
+    const MarkovModel m{StateSpace({rated(1, false, 0, 1, {1.0})}), Likelihood(LikelihoodKind::Linear), 1.0};
+    SumDetector detector(m, {ResetLaw::Fixed, std::log(0.5)});
+    std::vector<float> statistic(1);
+    double expected = 0.0;
+    for (float y : {0.5f, 1.25f, 0.0f, 2.0f}) {
+        detector.update(std::vector<float>{y}, statistic);
+        expected = std::exp(static_cast<double>(y)) * (expected == 0.0 ? 1.0 : 0.5 * expected + 1.0);
+        QVERIFY(std::abs(static_cast<double>(statistic[0]) - std::log(expected)) < 1e-6);
+    }
+}
+
+void tst_Recursion::tracedTermsAddUp()
+{
+    const MarkovModel m = model();
+    Grid grid;
+    for (const KinematicAxis &axis : m.space.axes())
+        grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
+    const Index frames = 40;
+    const double lnK = 0.2;
+    const auto y = randomFrames(m.space.cellCount(), frames, 4);
+    Smd detector(m, {ResetLaw::Fixed, lnK});
+    std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
+    for (const auto &frame : y)
+        detector.update(frame, statistic);
+    RecursionRecord record;
+    record.frame = [&](Index t) { return std::span<const float>(y[static_cast<std::size_t>(t)]); };
+    record.lnK = [&](Index) { return lnK; };
+    record.forgotten = [](Index) { return std::span<const CellBox>(); };
+    for (Index state = 0; state < m.space.stateCount(); ++state) {
+        const std::vector<PathStep> path = tracePath(m, grid, record, frames - 1, state,
+                                                      static_cast<double>(detector.scores()[static_cast<std::size_t>(state)]));
+        QCOMPARE(path.back().state, state);
+        QCOMPARE(path.back().frame, frames - 1);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            if (i > 0) {
+                QCOMPARE(path[i].frame, path[i - 1].frame + 1);
+                QVERIFY(std::abs(std::exp(path[i].lnTransition) - transitionProbability(m.space, path[i - 1].state, path[i].state)) < 1e-12);
+                QVERIFY(path[i - 1].score + path[i].lnTransition + path[i].lnK > 0.0); // else it would have been reset
+            }
+            sum += path[i].logLikelihoodRatio + path[i].lnTransition + path[i].lnK;
+        }
+        QVERIFY(std::abs(sum - static_cast<double>(detector.scores()[static_cast<std::size_t>(state)])) < 1e-4);
+    }
+}
+
+void tst_Recursion::aThousandFramesStayFinite()
+{
+    const MarkovModel m{StateSpace({rated(6, true, -1, 3, {0.5, 0.25})}), Likelihood(LikelihoodKind::Exponential, 4.0), 1.0};
+    SumDetector sum(m, {ResetLaw::None});
+    Smd best(m, {ResetLaw::None});
+    std::vector<float> statistic(6);
+    for (const auto &frame : randomFrames(6, 1000, 5)) {
+        sum.update(frame, statistic);
+        best.update(frame, statistic);
+    }
+    QVERIFY(std::isfinite(sum.lnMean()));
+    // The sum holds the best path and less than all of them at the best's score.
+    const double score = static_cast<double>(*std::max_element(statistic.begin(), statistic.end()));
+    QVERIFY(sum.lnMean() > score - std::log(18.0) - 1e-3);
+}
+
+void tst_Recursion::shiftByACellShiftsTheAnswer()
+{
+    const MarkovModel m{StateSpace({rated(32, true, -2, 5, {1.0 / 3.0, 1.0 / 3.0})}), Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
+    Smd straight(m, {ResetLaw::Fixed, 0.69});
+    Smd shifted(m, {ResetLaw::Fixed, 0.69});
+    std::vector<float> a(32);
+    std::vector<float> b(32);
+    for (auto frame : randomFrames(32, 50, 6)) {
+        straight.update(frame, a);
+        std::rotate(frame.begin(), frame.end() - 5, frame.end());
+        shifted.update(frame, b);
+    }
+    std::rotate(b.begin(), b.begin() + 5, b.end());
+    QCOMPARE(a, b);
+}
+
+QTEST_APPLESS_MAIN(tst_Recursion)
+#include "tst_Recursion.moc"

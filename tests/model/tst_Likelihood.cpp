@@ -1,0 +1,92 @@
+#include "model/Likelihood.h"
+
+#include "base/Error.h"
+
+#include <boost/math/special_functions/bessel.hpp>
+
+#include <QtTest>
+
+#include <cmath>
+#include <limits>
+
+using namespace faintline;
+
+/// Log-likelihood ratios against Boost's Bessel function and the plain formulas.
+class tst_Likelihood : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void rice_data();
+    void rice();
+    void affine();
+    void badValuesAreNoEvidence();
+    void refusals();
+};
+
+void tst_Likelihood::rice_data()
+{
+    QTest::addColumn<double>("snr");
+    for (double snr : {0.05, 0.5, 1.0, 2.0, 10.0, 300.0})
+        QTest::newRow(qPrintable(QString::number(snr))) << snr;
+}
+
+void tst_Likelihood::rice()
+{
+    QFETCH(double, snr);
+    const Likelihood likelihood(LikelihoodKind::Rice, snr);
+    std::vector<float> y{0.0f};
+    for (double value = 1e-6; value <= 1e4; value *= 1.003)
+        y.push_back(static_cast<float>(value));
+    std::vector<float> lambda(y.size());
+    likelihood.apply(y, lambda);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+        // I0 overflows beyond 700: e^{-x} I0(x) from its asymptotic series there, to a part in 10¹⁰.
+        const double x = 2.0 * std::sqrt(snr * static_cast<double>(y[i]));
+        const double lnI0 = x < 600.0 ? std::log(boost::math::cyl_bessel_i(0, x))
+                                      : x - 0.5 * std::log(2.0 * M_PI * x) + std::log1p(1.0 / (8.0 * x) + 9.0 / (128.0 * x * x));
+        const double expected = -snr + lnI0;
+        worst = std::max(worst, std::abs(static_cast<double>(lambda[i]) - expected) / std::max(1.0, std::abs(expected)));
+        QVERIFY(std::abs(likelihood.at(static_cast<double>(y[i])) - expected) < 1e-9 * std::max(1.0, std::abs(expected)));
+    }
+    QVERIFY2(worst < 1e-6, qPrintable(QString::number(worst)));
+}
+
+void tst_Likelihood::affine()
+{
+    const Likelihood exponential(LikelihoodKind::Exponential, 3.0);
+    const Likelihood linear(LikelihoodKind::Linear);
+    const std::vector<float> y{0.0f, 1.0f, 4.0f};
+    std::vector<float> lambda(3);
+    exponential.apply(y, lambda);
+    for (std::size_t i = 0; i < 3; ++i) // ln of the two densities' ratio
+        QVERIFY(std::abs(static_cast<double>(lambda[i]) - std::log(0.25 * std::exp(-static_cast<double>(y[i]) / 4.0) / std::exp(-static_cast<double>(y[i])))) < 1e-6);
+    linear.apply(y, lambda);
+    QCOMPARE(lambda, y);
+}
+
+void tst_Likelihood::badValuesAreNoEvidence()
+{
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const std::vector<float> y{-1.0f, nan, infinity, 1e30f};
+    for (LikelihoodKind kind : {LikelihoodKind::Rice, LikelihoodKind::Exponential, LikelihoodKind::Linear}) {
+        const Likelihood likelihood(kind, 0.5);
+        std::vector<float> lambda(y.size());
+        likelihood.apply(y, lambda);
+        for (std::size_t i = 0; i < 3; ++i)
+            QCOMPARE(lambda[i], static_cast<float>(likelihood.at(0.0)));
+        QVERIFY(std::isfinite(lambda[3]) && lambda[3] > 1e10f);
+    }
+}
+
+void tst_Likelihood::refusals()
+{
+    QVERIFY_EXCEPTION_THROWN(Likelihood(LikelihoodKind::Rice, 0.0), Error);
+    QVERIFY_EXCEPTION_THROWN(Likelihood(LikelihoodKind::Exponential, -1.0), Error);
+    QVERIFY_EXCEPTION_THROWN(Likelihood(LikelihoodKind::Rice, std::nan("")), Error);
+}
+
+QTEST_APPLESS_MAIN(tst_Likelihood)
+#include "tst_Likelihood.moc"

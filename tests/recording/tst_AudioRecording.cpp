@@ -1,0 +1,363 @@
+#include "recording/AudioRecording.h"
+
+#include "support/recordings.h"
+
+#include <QtTest>
+
+#include <thread>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// Reading through libsndfile: every container, random access, I/Q, start times, and headers that lie.
+class tst_AudioRecording : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void randomAccessEqualsWhole_data();
+    void randomAccessEqualsWhole();
+    void fullScaleIsOne();
+    void twoChannelsAsIq();
+    void manyChannels();
+    void zerosOutside();
+    void notFiniteReadsAsZero();
+    void sampleCountOfHeadersThatLie_data();
+    void sampleCountOfHeadersThatLie();
+    void truncatedFilesGiveWhatIsThere_data();
+    void truncatedFilesGiveWhatIsThere();
+    void streamOfUnknownLength();
+    void shrinkingWhileOpen();
+    void startTimeFromBext();
+    void startTimeAndCentreFromAuxi();
+    void threadsReadTheSame_data();
+    void threadsReadTheSame();
+    void sharedRecordings();
+
+private:
+    std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
+
+    QTemporaryDir m_folder;
+};
+
+namespace {
+
+QByteArray littleEndian(std::uint64_t value, int bytes)
+{
+    QByteArray text;
+    for (int i = 0; i < bytes; ++i)
+        text.append(static_cast<char>(value >> (8 * i)));
+    return text;
+}
+
+/// A canonical WAV file: 16-bit, with the length fields as given.
+QByteArray wave(int channels, int rate, const std::vector<int> &samples, std::uint32_t dataLength,
+                const QByteArray &chunkBeforeData = {})
+{
+    QByteArray data;
+    for (const int sample : samples)
+        data += littleEndian(static_cast<std::uint16_t>(sample), 2);
+    const QByteArray format = "fmt " + littleEndian(16, 4) + littleEndian(1, 2)
+                              + littleEndian(std::uint64_t(channels), 2) + littleEndian(std::uint64_t(rate), 4)
+                              + littleEndian(std::uint64_t(rate * channels * 2), 4)
+                              + littleEndian(std::uint64_t(channels * 2), 2) + littleEndian(16, 2);
+    const QByteArray body = "WAVE" + format + chunkBeforeData + "data" + littleEndian(dataLength, 4) + data;
+    return "RIFF" + littleEndian(std::uint64_t(body.size()), 4) + body;
+}
+
+const std::vector<int> fiveSamples{-32768, 32767, 16384, 0, -1};
+
+} // namespace
+
+void tst_AudioRecording::randomAccessEqualsWhole_data()
+{
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<int>("format");
+    QTest::addColumn<int>("channels");
+    QTest::addColumn<int>("samples");
+    QTest::addColumn<QString>("container");
+    QTest::addColumn<QString>("sampleType");
+    QTest::addColumn<double>("tolerance"); // against decoding from the beginning
+    const auto row = [](const char *name, int format, int channels, const char *container, const char *type,
+                        double tolerance = 0.0, int samples = 30011) {
+        QTest::newRow(name) << QString(name) << format << channels << samples << QString(container) << QString(type)
+                            << tolerance;
+    };
+    row("a.u8.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_U8, 1, "WAV", "uint8");
+    row("a.16.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1, "WAV", "int16");
+    row("a.24.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_24, 3, "WAV", "int24");
+    row("a.32.wav", SF_FORMAT_WAVEX | SF_FORMAT_PCM_32, 2, "WAV", "int32");
+    row("a.f32.wav", SF_FORMAT_WAV | SF_FORMAT_FLOAT, 2, "WAV", "float32");
+    row("a.f64.wav", SF_FORMAT_WAV | SF_FORMAT_DOUBLE, 1, "WAV", "float64");
+    row("a.ulaw.wav", SF_FORMAT_WAV | SF_FORMAT_ULAW, 1, "WAV", "µ-law");
+    row("a.ima.wav", SF_FORMAT_WAV | SF_FORMAT_IMA_ADPCM, 2, "WAV", "IMA ADPCM");
+    row("a.gsm.wav", SF_FORMAT_WAV | SF_FORMAT_GSM610, 1, "WAV", "GSM 6.10"); // cannot seek
+    row("a.rf64", SF_FORMAT_RF64 | SF_FORMAT_PCM_16, 2, "RF64", "int16");
+    row("a.w64", SF_FORMAT_W64 | SF_FORMAT_FLOAT, 1, "W64", "float32");
+    row("a.aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16, 2, "AIFF", "int16");
+    row("a.caf", SF_FORMAT_CAF | SF_FORMAT_FLOAT, 2, "CAF", "float32");
+    row("a.alac.caf", SF_FORMAT_CAF | SF_FORMAT_ALAC_16, 1, "CAF", "16 bit ALAC");
+    row("a.au", SF_FORMAT_AU | SF_FORMAT_PCM_16, 1, "AU", "int16");
+    row("a.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_24, 2, "FLAC", "int24", 0.0, 400001);
+    row("a.ogg", SF_FORMAT_OGG | SF_FORMAT_VORBIS, 1, "OGG", "Vorbis", 1e-6, 800001);
+    row("a.mp3", SF_FORMAT_MPEG | SF_FORMAT_MPEG_LAYER_III, 1, "MP3", "MPEG Layer III", 1e-6, 800001);
+    row("a.opus", SF_FORMAT_OGG | SF_FORMAT_OPUS, 1, "OGG", "Opus", 1e-4, 800001);
+}
+
+void tst_AudioRecording::randomAccessEqualsWhole()
+{
+    QFETCH(QString, name);
+    QFETCH(int, format);
+    QFETCH(int, channels);
+    QFETCH(int, samples);
+    QFETCH(QString, container);
+    QFETCH(QString, sampleType);
+    QFETCH(double, tolerance);
+    const std::string file = path(qPrintable(name));
+    const SF_INFO wanted = {0, 16000, channels, format, 0, 0};
+    if (!sf_format_check(&wanted))
+        QSKIP("skipped: this libsndfile does not write it");
+    writeAudio(file, format, channels, 16000, someNoise(Index(samples) * channels));
+    const std::vector<float> oracle = decodeAudio(file);
+    QVERIFY(std::ssize(oracle) >= Index(samples) * channels);
+
+    const AudioRecording recording(file, false);
+    QCOMPARE(QString::fromStdString(recording.info().container), container);
+    QCOMPARE(QString::fromStdString(recording.info().sampleType), sampleType);
+    QCOMPARE(recording.info().sampleRateHz, 16000.0);
+    QCOMPARE(recording.info().channelCount, channels);
+    QCOMPARE(recording.info().sampleCount, std::ssize(oracle) / channels);
+    QVERIFY(!recording.info().isComplex);
+    QVERIFY(recording.info().notes.empty());
+    for (int channel = 0; channel < channels; ++channel) {
+        const std::vector<float> whole = readAll(recording, channel);
+        QVERIFY(largestDifference(whole, every(oracle, std::size_t(channels), std::size_t(channel))) <= tolerance);
+        const AudioRecording other(file, false);
+        QVERIFY(readInPieces(other, samples / 40, channel) == whole); // to the last bit, lossy or not
+    }
+}
+
+void tst_AudioRecording::fullScaleIsOne()
+{
+    writeBytes(path("scale.wav"), wave(1, 8000, fiveSamples, 10));
+    const std::vector<float> expected{-1.0f, 32767.0f / 32768.0f, 0.5f, 0.0f, -1.0f / 32768.0f};
+    QVERIFY(readAll(AudioRecording(path("scale.wav"), false)) == expected);
+}
+
+void tst_AudioRecording::twoChannelsAsIq()
+{
+    const std::vector<float> samples = someNoise(4 * 1000);
+    writeAudio(path("iq.wav"), SF_FORMAT_WAV | SF_FORMAT_FLOAT, 4, 8000, samples);
+    const AudioRecording recording(path("iq.wav"), true);
+    QVERIFY(recording.info().isComplex);
+    QCOMPARE(recording.info().channelCount, 2);
+    QCOMPARE(recording.info().sampleCount, Index(1000));
+    const std::vector<float> second = readInPieces(recording, 77, 1);
+    for (std::size_t i = 0; i < 1000; ++i) {
+        QCOMPARE(second[2 * i], samples[4 * i + 2]);
+        QCOMPARE(second[2 * i + 1], samples[4 * i + 3]);
+    }
+
+    writeAudio(path("three.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 3, 8000, someNoise(300));
+    QVERIFY(contains(errorOf([&] { AudioRecording(path("three.wav"), true); }),
+                     "three.wav: has 3 channel(s), but I/Q needs"));
+}
+
+void tst_AudioRecording::manyChannels()
+{
+    const std::vector<float> samples = someNoise(255 * 400);
+    writeAudio(path("many.wav"), SF_FORMAT_WAV | SF_FORMAT_FLOAT, 255, 8000, samples);
+    const AudioRecording recording(path("many.wav"), false);
+    QCOMPARE(recording.info().channelCount, 255);
+    QVERIFY(readInPieces(recording, 90, 200) == every(samples, 255, 200));
+}
+
+void tst_AudioRecording::zerosOutside()
+{
+    writeBytes(path("edge.wav"), wave(1, 8000, fiveSamples, 10));
+    const AudioRecording recording(path("edge.wav"), false);
+    std::vector<float> out(9, 7.0f);
+    recording.read(0, -2, 9, out);
+    QVERIFY((out == std::vector<float>{0, 0, -1.0f, 32767.0f / 32768.0f, 0.5f, 0, -1.0f / 32768.0f, 0, 0}));
+    for (const Index far : {Index(5), Index(1) << 60, std::numeric_limits<Index>::max(), -(Index(1) << 60)}) {
+        std::fill(out.begin(), out.end(), 7.0f);
+        recording.read(0, far, 9, out);
+        QVERIFY(out == std::vector<float>(9, 0.0f));
+    }
+    recording.read(0, 2, 0, {});
+}
+
+void tst_AudioRecording::notFiniteReadsAsZero()
+{
+    writeAudio(path("nan.wav"), SF_FORMAT_WAV | SF_FORMAT_FLOAT, 1, 8000,
+               {1.0f, NAN, INFINITY, -INFINITY, 0.5f, 1e30f});
+    const AudioRecording recording(path("nan.wav"), false);
+    QCOMPARE(recording.nonFiniteCount(), Index(0));
+    QVERIFY((readAll(recording) == std::vector<float>{1.0f, 0, 0, 0, 0.5f, 1e30f}));
+    QCOMPARE(recording.nonFiniteCount(), Index(3));
+}
+
+void tst_AudioRecording::sampleCountOfHeadersThatLie_data()
+{
+    QTest::addColumn<quint32>("dataLength");
+    QTest::addColumn<bool>("noted");
+    QTest::newRow("the truth") << 10u << false;
+    QTest::newRow("never closed") << 0u << true;
+    QTest::newRow("stream") << 0xffffffffu << true;
+    QTest::newRow("stream, even") << 0xfffffffeu << true;
+    QTest::newRow("stream, signed") << 0x7fffffffu << true;
+    QTest::newRow("twice as long") << 20u << true;
+}
+
+void tst_AudioRecording::sampleCountOfHeadersThatLie()
+{
+    QFETCH(quint32, dataLength);
+    QFETCH(bool, noted);
+    writeBytes(path("lie.wav"), wave(1, 8000, fiveSamples, dataLength));
+    const AudioRecording recording(path("lie.wav"), false);
+    QCOMPARE(recording.info().sampleCount, Index(5));
+    QCOMPARE(readAll(recording)[2], 0.5f);
+    QCOMPARE(recording.info().notes.size(), std::size_t(noted ? 1 : 0));
+}
+
+void tst_AudioRecording::truncatedFilesGiveWhatIsThere_data()
+{
+    QTest::addColumn<int>("format");
+    QTest::addColumn<double>("tolerance");
+    QTest::newRow("wav") << (SF_FORMAT_WAV | SF_FORMAT_PCM_16) << 0.0;
+    QTest::newRow("rf64") << (SF_FORMAT_RF64 | SF_FORMAT_FLOAT) << 0.0;
+    QTest::newRow("w64") << (SF_FORMAT_W64 | SF_FORMAT_FLOAT) << 0.0;
+    QTest::newRow("aiff") << (SF_FORMAT_AIFF | SF_FORMAT_PCM_24) << 0.0;
+    QTest::newRow("au") << (SF_FORMAT_AU | SF_FORMAT_PCM_16) << 0.0;
+    QTest::newRow("flac") << (SF_FORMAT_FLAC | SF_FORMAT_PCM_16) << 0.0;
+    QTest::newRow("ogg") << (SF_FORMAT_OGG | SF_FORMAT_VORBIS) << 1e-6;
+}
+
+void tst_AudioRecording::truncatedFilesGiveWhatIsThere()
+{
+    QFETCH(int, format);
+    QFETCH(double, tolerance);
+    constexpr Index samples = 400001;
+    writeAudio(path("whole"), format, 1, 16000, someNoise(samples));
+    const std::vector<float> whole = decodeAudio(path("whole"));
+    const QByteArray bytes = readBytes(path("whole"));
+    writeBytes(path("part"), bytes.left(bytes.size() * 6 / 10 + 1));
+
+    const AudioRecording recording(path("part"), false);
+    const Index count = recording.info().sampleCount;
+    QVERIFY2(count > samples / 2 && count < samples * 62 / 100, qPrintable(QString::number(count)));
+    QCOMPARE(recording.info().notes.size(), std::size_t(1));
+    const std::vector<float> part = readAll(recording);
+    QVERIFY(largestDifference(part, {whole.begin(), whole.begin() + count}) <= tolerance);
+    QVERIFY(readInPieces(AudioRecording(path("part"), false), 50000) == part);
+}
+
+void tst_AudioRecording::streamOfUnknownLength()
+{
+    writeAudio(path("a.flac"), SF_FORMAT_FLAC | SF_FORMAT_PCM_16, 1, 16000, someNoise(300001));
+    QByteArray bytes = readBytes(path("a.flac"));
+    bytes[21] = static_cast<char>(bytes[21] & 0xf0); // the stream header's sample count, 36 bits
+    writeBytes(path("stream.flac"), bytes.replace(22, 4, QByteArray(4, '\0')));
+    const AudioRecording recording(path("stream.flac"), false);
+    QCOMPARE(recording.info().sampleCount, Index(300001));
+    QVERIFY(contains(recording.info().notes.at(0), "does not say where the file ends"));
+    QVERIFY(readAll(recording) == readAll(AudioRecording(path("a.flac"), false)));
+}
+
+void tst_AudioRecording::shrinkingWhileOpen()
+{
+    writeAudio(path("shrinks.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1, 16000, someNoise(100000));
+    const AudioRecording recording(path("shrinks.wav"), false);
+    QVERIFY(QFile::resize(QString::fromStdString(path("shrinks.wav")), 1000));
+    QVERIFY(contains(errorOf([&] { readAll(recording); }), "became shorter while it was open"));
+    std::vector<float> start(100);
+    recording.read(0, 0, 100, start); // what is left can still be read
+}
+
+void tst_AudioRecording::startTimeFromBext()
+{
+    QByteArray bext(602, '\0');
+    bext.replace(320, 10, "2024-07-26");
+    bext.replace(330, 8, "12-34-56");
+    QByteArray chunk = "bext" + littleEndian(602, 4) + bext;
+    writeBytes(path("bext.wav"), wave(1, 8000, fiveSamples, 10, chunk));
+    QCOMPARE(AudioRecording(path("bext.wav"), false).info().startUnixSeconds, std::optional(1721997296.0));
+
+    // The time reference, in samples from midnight, is finer than the clock.
+    bext.replace(338, 8, littleEndian(8000u * 3600u + 4u, 8));
+    chunk = "bext" + littleEndian(602, 4) + bext;
+    writeBytes(path("bext.wav"), wave(1, 8000, fiveSamples, 10, chunk));
+    QCOMPARE(AudioRecording(path("bext.wav"), false).info().startUnixSeconds, std::optional(1721955600.0005));
+
+    bext.replace(320, 10, "2024-99-26");
+    chunk = "bext" + littleEndian(602, 4) + bext;
+    writeBytes(path("bext.wav"), wave(1, 8000, fiveSamples, 10, chunk));
+    QVERIFY(!AudioRecording(path("bext.wav"), false).info().startUnixSeconds);
+}
+
+void tst_AudioRecording::startTimeAndCentreFromAuxi()
+{
+    QByteArray auxi;
+    for (const int word : {2024, 7, 5, 26, 12, 34, 56, 250}) // year, month, day of week, day, hour, minute, second, ms
+        auxi += littleEndian(std::uint64_t(word), 2);
+    auxi += QByteArray(16, '\0') + littleEndian(77500, 4) + QByteArray(32, '\0');
+    writeBytes(path("auxi.wav"),
+               wave(2, 8000, {1, 2, 3, 4}, 8, "auxi" + littleEndian(std::uint64_t(auxi.size()), 4) + auxi));
+    const AudioRecording iq(path("auxi.wav"), true);
+    QCOMPARE(iq.info().startUnixSeconds, std::optional(1721997296.25));
+    QCOMPARE(iq.info().centreHz, 77500.0);
+    const AudioRecording real(path("auxi.wav"), false);
+    QCOMPARE(real.info().centreHz, 0.0);
+    QVERIFY(contains(real.info().notes.back(), "may be I and Q"));
+}
+
+void tst_AudioRecording::threadsReadTheSame_data()
+{
+    QTest::addColumn<int>("format");
+    QTest::newRow("wav") << (SF_FORMAT_WAV | SF_FORMAT_PCM_16);
+    QTest::newRow("flac") << (SF_FORMAT_FLAC | SF_FORMAT_PCM_16);
+    QTest::newRow("ogg") << (SF_FORMAT_OGG | SF_FORMAT_VORBIS);
+}
+
+void tst_AudioRecording::threadsReadTheSame()
+{
+    QFETCH(int, format);
+    writeAudio(path("threads"), format, 1, 16000, someNoise(600000));
+    const AudioRecording recording(path("threads"), false);
+    const std::vector<float> whole = readAll(AudioRecording(path("threads"), false));
+    std::vector<std::vector<float>> results(4);
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = 0; i < results.size(); ++i)
+            threads.emplace_back([&, i] { results[i] = readInPieces(recording, 70000, 0, i); });
+    }
+    for (const std::vector<float> &result : results)
+        QVERIFY(result == whole);
+}
+
+void tst_AudioRecording::sharedRecordings()
+{
+    if (sharedRecording("s6_dcf77_iq.wav").empty())
+        QSKIP("skipped: no ../shared");
+    const AudioRecording iq(sharedRecording("s6_dcf77_iq.wav"), true);
+    QCOMPARE(iq.info().sampleRateHz, 12001.0);
+    QVERIFY(std::abs(iq.info().durationSeconds() - 29.7) < 0.1);
+    // DCF77's carrier stands at 0.0 Hz: far more there than 3 kHz away.
+    const std::vector<float> samples = readAll(iq);
+    QVERIFY(std::norm(fourier(samples.data(), 12001, true, 0.0))
+            > 1e3 * std::norm(fourier(samples.data(), 12001, true, 0.25)));
+
+    const AudioRecording mains(sharedRecording("s2_mains_interharmonics.wav"), false);
+    QCOMPARE(mains.info().sampleRateHz, 400.0);
+    QVERIFY(std::abs(mains.info().durationSeconds() - 861.0) < 1.0);
+    for (const char *name : {"s1_ft8_band.wav", "s3_ligo_h1_scaled_f32.wav", "s4a_blue_whale_f32.wav",
+                             "s4b_minke_whale.wav", "s4c_dolphin_whistle.wav"}) {
+        const AudioRecording recording(sharedRecording(name), false);
+        QVERIFY(readInPieces(recording, 9999) == readAll(recording));
+        QVERIFY(readAll(recording) == decodeAudio(sharedRecording(name)));
+        QCOMPARE(recording.nonFiniteCount(), Index(0));
+    }
+}
+
+QTEST_APPLESS_MAIN(tst_AudioRecording)
+#include "tst_AudioRecording.moc"

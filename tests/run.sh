@@ -1,0 +1,15 @@
+#!/bin/sh
+# Sets the machine up, builds everything and runs every test. Arguments go to ctest: `sh tests/run.sh -R tst_Axis`.
+set -eu
+
+cd "$(dirname "$0")/.."
+
+fail() {
+    echo "error: tests/run.sh: $1 failed" >&2
+    exit 1
+}
+
+sh cmake/setup.sh || exit 1
+[ -f build/build.ninja ] || cmake --preset release || fail "configuring"
+cmake --build build || fail "the build"
+ctest --test-dir build --output-on-failure -j2 "$@"

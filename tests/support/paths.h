@@ -1,0 +1,68 @@
+#pragma once
+
+#include "model/KinematicAxis.h"
+#include "model/StateSpace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace faintline::test {
+
+/// The transition law straight from its definition, for one axis: P(p', r' | p, r). Shares no code with the recursion.
+inline double axisProbability(const KinematicAxis &axis, Index p, int rateIndex, Index pNext, int rateIndexNext)
+{
+    const auto displaced = [&](Index displacement) {
+        if (!axis.cyclic)
+            return pNext - p == displacement;
+        const Index difference = pNext - p - displacement;
+        return difference % axis.cells == 0;
+    };
+    if (!axis.step.empty()) {
+        double sum = 0.0;
+        for (Index delta = -(std::ssize(axis.step) - 1); delta < std::ssize(axis.step); ++delta)
+            if (displaced(delta))
+                sum = std::max(sum, axis.step[static_cast<std::size_t>(std::abs(delta))]);
+        return sum;
+    }
+    const int change = std::abs(rateIndexNext - rateIndex);
+    if (change >= static_cast<int>(axis.rateChange.size()))
+        return 0.0;
+    const double mean = 0.5 * (axis.firstRate + rateIndex + axis.firstRate + rateIndexNext);
+    // Half-open interval: -1/2 <= displacement - mean < 1/2; or the part toward zero.
+    const double displacement = axis.rounding == Rounding::Trunc ? std::trunc(mean) : std::ceil(mean - 0.5);
+    return displaced(static_cast<Index>(displacement)) ? axis.rateChange[static_cast<std::size_t>(change)] : 0.0;
+}
+
+/// P(n | m) of two states: the product over the axes.
+inline double transitionProbability(const StateSpace &space, Index from, Index to)
+{
+    const StateSpace::Coordinates a = space.coordinates(from);
+    const StateSpace::Coordinates b = space.coordinates(to);
+    double product = 1.0;
+    for (std::size_t i = 0; i < space.axes().size(); ++i)
+        product *= axisProbability(space.axes()[i], a.cells[i], a.rates[i], b.cells[i], b.rates[i]);
+    return product;
+}
+
+/// Calls visit(path) for every sequence of states of the given length that ends in `last`, whatever its probability.
+inline void forEachPath(Index stateCount, Index length, Index last, const std::function<void(const std::vector<Index> &)> &visit)
+{
+    std::vector<Index> path(static_cast<std::size_t>(length), 0);
+    path.back() = last;
+    const std::function<void(std::size_t)> descend = [&](std::size_t position) {
+        if (position + 1 == path.size()) {
+            visit(path);
+            return;
+        }
+        for (Index state = 0; state < stateCount; ++state) {
+            path[position] = state;
+            descend(position + 1);
+        }
+    };
+    descend(0);
+}
+
+} // namespace faintline::test

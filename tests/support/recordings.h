@@ -1,0 +1,190 @@
+#pragma once
+
+#include "base/Error.h"
+#include "base/Random.h"
+#include "recording/Recording.h"
+
+#include <sndfile.h>
+
+#include <QByteArray>
+#include <QDir>
+#include <QFile>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace faintline::test {
+
+/// The message of the Error a call throws; empty where it throws none.
+template <class Call>
+std::string errorOf(Call call)
+{
+    try {
+        call();
+    } catch (const Error &error) {
+        return error.what();
+    }
+    return {};
+}
+
+inline bool contains(const std::string &text, const std::string &part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+/// A file of ../shared/recordings; empty where there is none.
+inline std::string sharedRecording(const char *name)
+{
+    const QString path = QStringLiteral(FAINTLINE_SOURCE_DIR "/../shared/recordings/") + QString::fromUtf8(name);
+    return QFile::exists(path) ? path.toStdString() : std::string();
+}
+
+inline void writeBytes(const std::string &path, const QByteArray &bytes)
+{
+    QFile file(QString::fromStdString(path));
+    file.remove(); // some file systems write at once what replaces a file, which takes milliseconds
+    if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size())
+        qFatal("cannot write a test file");
+}
+
+inline QByteArray readBytes(const std::string &path)
+{
+    QFile file(QString::fromStdString(path));
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+/// Normals of deviation 0.2: in ±1 but for one in a million.
+inline std::vector<float> someNoise(Index count, std::uint64_t stream = 1)
+{
+    std::vector<float> values(static_cast<std::size_t>(count));
+    Random(20, stream).normals(values, 0.2f);
+    for (float &value : values)
+        value = std::clamp(value, -1.0f, 1.0f);
+    return values;
+}
+
+/// Interleaved samples to a file by libsndfile.
+inline void writeAudio(const std::string &path, int format, int channels, int rate, const std::vector<float> &samples)
+{
+    SF_INFO info = {};
+    info.format = format;
+    info.channels = channels;
+    info.samplerate = rate;
+    SNDFILE *file = sf_open(path.c_str(), SFM_WRITE, &info);
+    if (!file)
+        qFatal("libsndfile cannot write a test file");
+    const auto frames = static_cast<sf_count_t>(samples.size()) / channels;
+    constexpr sf_count_t piece = 100000; // Vorbis puts what it is given on the stack
+    for (sf_count_t done = 0; done < frames; done += piece)
+        sf_writef_float(file, samples.data() + done * channels, std::min(piece, frames - done));
+    sf_close(file);
+}
+
+/// A whole file as libsndfile decodes it from its beginning, interleaved: the oracle for random access.
+inline std::vector<float> decodeAudio(const std::string &path)
+{
+    SF_INFO info = {};
+    SNDFILE *file = sf_open(path.c_str(), SFM_READ, &info);
+    std::vector<float> all(file ? static_cast<std::size_t>(info.frames * info.channels) : 0);
+    const sf_count_t got = file ? sf_readf_float(file, all.data(), info.frames) : 0;
+    sf_close(file);
+    all.resize(static_cast<std::size_t>(got * info.channels));
+    return all;
+}
+
+inline std::vector<float> readAll(const Recording &recording, int channel = 0)
+{
+    std::vector<float> all(static_cast<std::size_t>(recording.info().sampleCount * recording.info().floatsPerSample()));
+    recording.read(channel, 0, recording.info().sampleCount, all);
+    return all;
+}
+
+/// The whole recording read in pieces of odd lengths, in a random order.
+inline std::vector<float> readInPieces(const Recording &recording, Index longestPiece, int channel = 0,
+                                       std::uint64_t seed = 3)
+{
+    const Index floats = recording.info().floatsPerSample();
+    const Index count = recording.info().sampleCount;
+    Random random(seed, 0);
+    std::vector<std::pair<Index, Index>> pieces;
+    for (Index first = 0; first < count;) {
+        const Index length =
+            std::min(count - first, 1 + static_cast<Index>(random.uniform() * static_cast<double>(longestPiece)));
+        pieces.emplace_back(first, length);
+        first += length;
+    }
+    for (std::size_t i = pieces.size(); i > 1; --i)
+        std::swap(pieces[i - 1], pieces[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+    std::vector<float> all(static_cast<std::size_t>(count * floats));
+    for (const auto &[first, length] : pieces)
+        recording.read(channel, first, length,
+                       std::span(all).subspan(static_cast<std::size_t>(first * floats),
+                                              static_cast<std::size_t>(length * floats)));
+    return all;
+}
+
+/// Every `stride`-th value from `offset` on.
+inline std::vector<float> every(const std::vector<float> &values, std::size_t stride, std::size_t offset)
+{
+    std::vector<float> result;
+    for (std::size_t i = offset; i < values.size(); i += stride)
+        result.push_back(values[i]);
+    return result;
+}
+
+inline double largestDifference(const std::vector<float> &a, const std::vector<float> &b)
+{
+    if (a.size() != b.size())
+        return INFINITY;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+    return largest;
+}
+
+/// Direct discrete Fourier transform of n samples at one frequency in cycles per sample.
+inline std::complex<double> fourier(const float *samples, Index n, bool isComplex, double turnsPerSample)
+{
+    const std::complex<double> step = std::polar(1.0, -2.0 * std::numbers::pi * turnsPerSample);
+    std::complex<double> phasor = 1.0;
+    std::complex<double> sum = 0.0;
+    for (Index i = 0; i < n; ++i, phasor *= step)
+        sum += phasor * (isComplex ? std::complex<double>(samples[2 * i], samples[2 * i + 1]) : samples[i]);
+    return sum;
+}
+
+/// Samples held in memory, one channel.
+class MemoryRecording final : public Recording
+{
+public:
+    MemoryRecording(std::vector<float> samples, double rateHz, bool isComplex = false, double centreHz = 0.0)
+        : m_samples(std::move(samples))
+    {
+        m_info.path = "memory";
+        m_info.container = "memory";
+        m_info.sampleType = isComplex ? "cf32" : "rf32";
+        m_info.sampleRateHz = rateHz;
+        m_info.isComplex = isComplex;
+        m_info.centreHz = centreHz;
+        m_info.channelCount = 1;
+        m_info.sampleCount = std::ssize(m_samples) / m_info.floatsPerSample();
+    }
+
+    RecordingInfo &mutableInfo() { return m_info; }
+
+    void read(int, Index first, Index count, std::span<float> out) const override
+    {
+        fill(first, count, out, [&](Index from, std::span<float> inside) {
+            std::copy_n(m_samples.begin() + from * m_info.floatsPerSample(), inside.size(), inside.begin());
+        });
+    }
+
+private:
+    std::vector<float> m_samples;
+};
+
+} // namespace faintline::test

@@ -1,0 +1,208 @@
+#include "base/Random.h"
+#include "detect/Smd.h"
+#include "track/Cluster.h"
+#include "track/DetectionChain.h"
+
+#include <QtTest>
+
+#include <cmath>
+
+using namespace faintline;
+
+namespace {
+
+const Grid line64{{{"frequency", "Hz", 0.0, 1.0, 64, false}}};
+
+MarkovModel model(Index cells, int slopes = 5)
+{
+    return {StateSpace({{"f", cells, false, -(slopes / 2), slopes, slopes > 1 ? std::vector<double>{1.0 / 3.0, 1.0 / 3.0} : std::vector<double>{1.0},
+                         {}, Rounding::HalfDown}}),
+            Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
+}
+
+ChainSettings settings(const Grid &grid, double threshold)
+{
+    ChainSettings chain;
+    chain.threshold = threshold;
+    chain.shoulder = threshold - 8.0;
+    chain.linkCells.assign(grid.axes.size(), 3);
+    chain.inhibitCells.assign(grid.axes.size(), 2);
+    return chain;
+}
+
+/// Noise of mean 1 with constant-power lines laid over it: cell as a function of the frame, -1 where there is none.
+struct Scene {
+    Index cells;
+    Index frames;
+    std::vector<std::function<Index(Index)>> lines;
+    double power = 12.0;
+
+    std::vector<float> frame(Index t, Random &random) const
+    {
+        std::vector<float> y(static_cast<std::size_t>(cells));
+        for (float &value : y)
+            value = static_cast<float>(random.exponential());
+        for (const auto &line : lines)
+            if (const Index cell = line(t); cell >= 0)
+                y[static_cast<std::size_t>(cell)] += static_cast<float>(power);
+        return y;
+    }
+};
+
+std::vector<Track> run(const Scene &scene, const ChainSettings &chainSettings, const Grid &grid, std::vector<std::vector<float>> *shown = nullptr)
+{
+    const MarkovModel m = model(scene.cells);
+    DetectionChain chain(m, grid, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, 0.69}), chainSettings);
+    Random random(11, 1);
+    std::vector<float> statistic(static_cast<std::size_t>(scene.cells));
+    for (Index t = 0; t < scene.frames; ++t) {
+        chain.update(t, scene.frame(t, random), statistic);
+        if (shown)
+            shown->push_back(statistic);
+    }
+    chain.finish();
+    return chain.tracks();
+}
+
+} // namespace
+
+/// Clustering, tracks from onset to end, inhibition, and the edges.
+class tst_DetectionChain : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void clustersLinkNeighbours();
+    void clustersKeepFlanks();
+    void clustersWrap();
+    void followsALineFromOnsetToEnd();
+    void oneTrackForOneStrongLine();
+    void twoLinesTwoTracks();
+    void aStrongNeighbourIsNotStolen();
+    void noTrackWithoutFeedback();
+    void statisticIsAboveThresholdWhileTracked();
+    void lineOffTheGridEnds();
+    void noiseSeldomCrosses();
+};
+
+void tst_DetectionChain::clustersLinkNeighbours()
+{
+    std::vector<float> d(64, 0.0f);
+    d[10] = 12.0f;
+    d[13] = 15.0f; // 3 away: linked
+    d[17] = 11.0f; // 4 away: its own
+    const auto clusters = findClusters(line64, d, 10.0, 10.0, {3});
+    QCOMPARE(clusters.size(), std::size_t(2));
+    QCOMPARE(clusters[0].peakCell, Index(13));
+    QCOMPARE(clusters[0].cells, (std::vector<Index>{10, 13}));
+    QCOMPARE(clusters[1].cells, (std::vector<Index>{17}));
+    QVERIFY(findClusters(line64, d, 15.0, 15.0, {3}).empty()); // strictly greater
+}
+
+void tst_DetectionChain::clustersKeepFlanks()
+{
+    std::vector<float> d(64, 0.0f);
+    for (int i = 0; i < 9; ++i)
+        d[static_cast<std::size_t>(20 + i)] = static_cast<float>(12 - 2 * std::abs(i - 4));
+    const auto clusters = findClusters(line64, d, 10.0, 5.0, {1});
+    QCOMPARE(clusters.size(), std::size_t(1));
+    QCOMPARE(clusters[0].cells, (std::vector<Index>{21, 22, 23, 24, 25, 26, 27}));
+}
+
+void tst_DetectionChain::clustersWrap()
+{
+    Grid ring = line64;
+    ring.axes[0].cyclic = true;
+    std::vector<float> d(64, 0.0f);
+    d[0] = d[63] = 20.0f;
+    QCOMPARE(findClusters(ring, d, 10.0, 10.0, {1}).size(), std::size_t(1));
+    QCOMPARE(findClusters(line64, d, 10.0, 10.0, {1}).size(), std::size_t(2));
+}
+
+void tst_DetectionChain::followsALineFromOnsetToEnd()
+{
+    const auto line = [](Index t) { return t >= 50 && t < 150 ? Index(20 + (t - 50) / 5) : Index(-1); };
+    const auto tracks = run({64, 300, {line}}, settings(line64, 15.0), line64);
+    QCOMPARE(tracks.size(), std::size_t(1));
+    const Track &track = tracks[0];
+    QVERIFY2(std::abs(track.onsetFrame - 50) <= 1, qPrintable(QString::number(track.onsetFrame)));
+    QVERIFY2(std::abs(track.endFrame - 149) <= 3, qPrintable(QString::number(track.endFrame)));
+    QVERIFY(track.detectFrame >= 50 && track.detectFrame < 60);
+    QVERIFY(!track.isOpen);
+    int onLine = 0;
+    for (std::size_t i = 0; i < track.points.size(); ++i) {
+        QCOMPARE(track.points[i].frame, track.onsetFrame + static_cast<Index>(i)); // one point a frame
+        onLine += std::abs(track.points[i].cell - line(std::clamp<Index>(track.points[i].frame, 50, 149))) <= 1 ? 1 : 0;
+    }
+    QVERIFY(onLine >= static_cast<int>(track.points.size()) - 2);
+}
+
+void tst_DetectionChain::oneTrackForOneStrongLine()
+{
+    Scene scene{64, 400, {[](Index t) { return t >= 20 ? Index(30) : Index(-1); }}, 1e5};
+    const auto tracks = run(scene, settings(line64, 15.0), line64);
+    QCOMPARE(tracks.size(), std::size_t(1));
+    QVERIFY(tracks[0].isOpen);
+    QCOMPARE(tracks[0].endFrame, Index(399));
+    QVERIFY(tracks[0].peakStatistic > 1e4);
+}
+
+void tst_DetectionChain::twoLinesTwoTracks()
+{
+    Scene scene{64, 200, {[](Index) { return Index(20); }, [](Index) { return Index(32); }}};
+    const auto tracks = run(scene, settings(line64, 15.0), line64);
+    QCOMPARE(tracks.size(), std::size_t(2));
+    QVERIFY(std::abs(tracks[0].points.back().cell - tracks[1].points.back().cell) >= 10);
+}
+
+void tst_DetectionChain::aStrongNeighbourIsNotStolen()
+{
+    // Two lines within one tracker's window: the younger, weaker one must keep to its own.
+    Scene scene{64, 400, {[](Index) { return Index(30); }, [](Index) { return Index(37); }}};
+    scene.lines.push_back(scene.lines[0]); // twice the power at 30
+    const auto tracks = run(scene, settings(line64, 15.0), line64);
+    QCOMPARE(tracks.size(), std::size_t(2));
+    std::vector<Index> last{tracks[0].points.back().cell, tracks[1].points.back().cell};
+    std::sort(last.begin(), last.end());
+    QVERIFY(std::abs(last[0] - 30) <= 1 && std::abs(last[1] - 37) <= 1);
+}
+
+void tst_DetectionChain::noTrackWithoutFeedback()
+{
+    ChainSettings chain = settings(line64, 15.0);
+    chain.feedback = false;
+    std::vector<std::vector<float>> shown;
+    QVERIFY(run({64, 100, {[](Index) { return Index(20); }}}, chain, line64, &shown).empty());
+    // The detector alone lets the peak grow and spread over the whole band.
+    QVERIFY(*std::min_element(shown.back().begin(), shown.back().end()) > 15.0f);
+}
+
+void tst_DetectionChain::statisticIsAboveThresholdWhileTracked()
+{
+    std::vector<std::vector<float>> shown;
+    const auto tracks = run({64, 200, {[](Index t) { return t < 120 ? Index(20) : Index(-1); }}}, settings(line64, 15.0), line64, &shown);
+    QCOMPARE(tracks.size(), std::size_t(1));
+    for (const TrackPoint &point : tracks[0].points)
+        if (point.frame > tracks[0].detectFrame + 1)
+            QVERIFY(shown[static_cast<std::size_t>(point.frame)][static_cast<std::size_t>(point.cell)] > 15.0f);
+    // Away from the track there is nothing but noise: the peak does not spread.
+    QVERIFY(shown[100][50] < 15.0f);
+}
+
+void tst_DetectionChain::lineOffTheGridEnds()
+{
+    const auto tracks = run({64, 200, {[](Index t) { return t < 63 ? Index(t) : Index(-1); }}}, settings(line64, 15.0), line64);
+    QCOMPARE(tracks.size(), std::size_t(1));
+    QVERIFY(tracks[0].endFrame >= 58 && tracks[0].endFrame <= 70);
+    for (const TrackPoint &point : tracks[0].points)
+        QVERIFY(point.cell >= 0 && point.cell < 64);
+}
+
+void tst_DetectionChain::noiseSeldomCrosses()
+{
+    QVERIFY(run({64, 2000, {}}, settings(line64, 25.0), line64).empty());
+    QVERIFY(run({64, 2000, {}}, settings(line64, 4.0), line64).size() > 3); // and does where it should
+}
+
+QTEST_APPLESS_MAIN(tst_DetectionChain)
+#include "tst_DetectionChain.moc"

@@ -1,0 +1,153 @@
+#include "widgets/EventTable.h"
+
+#include "pictures.h"
+#include "widgets/EventFilter.h"
+#include "widgets/EventModel.h"
+#include "widgets/ReadOut.h"
+#include "widgets/Theme.h"
+
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QTableView>
+#include <QtTest>
+
+using namespace faintline;
+
+/// Events as a table, and the line of figures.
+class tst_EventTable : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { Theme::apply(Theme::Kind::Light); }
+    void init();
+
+    void sortsByValueNotByText();
+    void filters();
+    void nextAndPreviousGoRound();
+    void selectionSurvivesNewEvents();
+    void selectingFromOutsideIsSilent();
+    void clickAndEnterActivate();
+    void textsOfAnEvent();
+    void readOutLine();
+
+private:
+    std::unique_ptr<EventTable> m_table;
+    std::vector<int> m_activated;
+};
+
+void tst_EventTable::init()
+{
+    m_activated.clear();
+    m_table = std::make_unique<EventTable>();
+    std::vector<Event> events{test::event(1, 5.0, 20.0, 950.0, 31.0), test::event(2, 100.0, 120.0, 1200.0, 9.5),
+                              test::event(3, 40.0, 90.0, 300.0, 101.0)};
+    events[1].isConfirmed = false;
+    events[2].isOpen = true;
+    m_table->setEvents(events);
+    connect(m_table.get(), &EventTable::eventActivated, this, [this](int id) { m_activated.push_back(id); });
+    m_table->resize(700, 250);
+    m_table->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_table.get()));
+}
+
+void tst_EventTable::sortsByValueNotByText()
+{
+    QCOMPARE(m_table->shownIds(), (std::vector<int>{1, 3, 2})); // by onset
+    m_table->table()->sortByColumn(EventModel::Statistic, Qt::AscendingOrder);
+    QCOMPARE(m_table->shownIds(), (std::vector<int>{2, 1, 3})); // 9.5, 31, 101
+    m_table->table()->sortByColumn(EventModel::Frequency, Qt::DescendingOrder);
+    QCOMPARE(m_table->shownIds(), (std::vector<int>{2, 1, 3}));
+}
+
+void tst_EventTable::filters()
+{
+    const auto shown = [&](const QString &text) {
+        m_table->filter()->setText(text);
+        return m_table->shownIds();
+    };
+    QCOMPARE(shown("f>500"), (std::vector<int>{1, 2}));
+    QCOMPARE(shown("f>500 stat>=31"), (std::vector<int>{1}));
+    QCOMPARE(shown("open"), (std::vector<int>{3}));
+    QCOMPARE(shown("tent"), (std::vector<int>{2}));
+    QCOMPARE(shown("dur≤20"), (std::vector<int>{1, 2}));
+    QCOMPARE(shown(""), (std::vector<int>{1, 3, 2}));
+    QCOMPARE(shown("stat>"), (std::vector<int>{1, 3, 2})); // still being typed
+    QCOMPARE(EventFilter("f>500 what").misunderstood(), QString("what"));
+    QCOMPARE(EventFilter("id=3").misunderstood(), QString());
+}
+
+void tst_EventTable::nextAndPreviousGoRound()
+{
+    for (int i = 0; i < 4; ++i)
+        QTest::keyClick(m_table.get(), Qt::Key_N);
+    QTest::keyClick(m_table->table(), Qt::Key_N, Qt::ShiftModifier);
+    QCOMPARE(m_activated, (std::vector<int>{1, 3, 2, 1, 2}));
+    m_table->filter()->setText("f<1000");
+    m_activated.clear();
+    m_table->selectNext();
+    m_table->selectNext();
+    m_table->selectNext();
+    QCOMPARE(m_activated, (std::vector<int>{1, 3, 1}));
+}
+
+void tst_EventTable::selectionSurvivesNewEvents()
+{
+    m_table->setSelectedEvent(3);
+    m_table->setEvents({test::event(3, 40.0, 90.0, 300.0), test::event(4, 1.0, 2.0, 100.0)});
+    QCOMPARE(m_table->selectedEvent(), 3);
+    m_table->setEvents({test::event(4, 1.0, 2.0, 100.0)});
+    QCOMPARE(m_table->selectedEvent(), 0);
+    m_table->setEvents({});
+    m_table->selectNext();
+    QVERIFY(m_activated.empty());
+}
+
+void tst_EventTable::selectingFromOutsideIsSilent()
+{
+    m_table->setSelectedEvent(2);
+    QCOMPARE(m_table->selectedEvent(), 2);
+    m_table->setSelectedEvent(99);
+    QCOMPARE(m_table->selectedEvent(), 0);
+    QVERIFY(m_activated.empty());
+}
+
+void tst_EventTable::clickAndEnterActivate()
+{
+    const QTableView *table = m_table->table();
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, table->visualRect(table->model()->index(1, 2)).center());
+    QCOMPARE(m_activated, (std::vector<int>{3}));
+    QTest::keyClick(m_table->table(), Qt::Key_Return);
+    QCOMPARE(m_activated, (std::vector<int>{3, 3}));
+}
+
+void tst_EventTable::textsOfAnEvent()
+{
+    EventModel model;
+    Event event = test::event(12, 3600.0, 3700.25, 14095.6);
+    event.driftPerSecond = -0.0125;
+    event.isOpen = true;
+    model.setEvents({event});
+    const auto text = [&](int column) { return model.data(model.index(0, column)).toString(); };
+    QCOMPARE(text(EventModel::Onset), QString("1:00:00.0"));
+    QCOMPARE(text(EventModel::Frequency), QString("14095.60"));
+    QCOMPARE(text(EventModel::Drift), QString("−0.0125"));
+    QCOMPARE(text(EventModel::State), QString("confirmed, open"));
+    for (int column = 0; column < EventModel::ColumnCount; ++column)
+        QVERIFY(!model.headerData(column, Qt::Horizontal).toString().isEmpty());
+}
+
+void tst_EventTable::readOutLine()
+{
+    ReadOut readOut;
+    readOut.setResolution(0.5, 0.5);
+    readOut.setReading({83.5, 1065.5, -1.5, 14.0, {}});
+    QCOMPARE(readOut.text(), QString("83.5 s · 1065.5 Hz · −1.5 dB · 14.0 nat"));
+    readOut.setStartUnixSeconds(1721952000.0);
+    QCOMPARE(readOut.text(), QString("83.5 s · 2024-07-26 00:01:23.5 · 1065.5 Hz · −1.5 dB · 14.0 nat"));
+    readOut.clear();
+    QCOMPARE(readOut.text(), QString());
+}
+
+QTEST_MAIN(tst_EventTable)
+#include "tst_EventTable.moc"

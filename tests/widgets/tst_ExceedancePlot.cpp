@@ -1,0 +1,138 @@
+#include "widgets/ExceedancePlot.h"
+
+#include "widgets/Theme.h"
+
+#include <qwt_scale_div.h>
+
+#include <QtTest>
+
+#include <cmath>
+#include <memory>
+
+using namespace faintline;
+
+/// Tuning the threshold: dragging asks, releasing commits, the words are those of the chosen unit.
+class tst_ExceedancePlot : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { Theme::apply(Theme::Kind::Dark); }
+    void init();
+    void cleanup() { m_plot.reset(); }
+
+    void draggingRequestsLiveAndCommitsOnce();
+    void keysStepByAQuarterNat();
+    void wordsOfEachUnit();
+    void thresholdFromOutsideIsSilent();
+    void withoutCalibrationNothingHappens();
+    void samePixelsTwice();
+
+private:
+    /// P(D > T) = 0.3 e^{-T/2} of a cell, 1e-3 events per cell and frame at 5 nat.
+    static std::shared_ptr<const Calibration> calibration()
+    {
+        auto result = std::make_shared<Calibration>();
+        result->anchorNats = 5.0;
+        result->eventRate = 1e-3;
+        result->tailSlope = 0.5;
+        for (int i = 0; i <= 100; ++i) {
+            result->levels.push_back(-2.0 + 0.25 * i);
+            result->exceedance.push_back(std::min(1.0, 0.3 * std::exp(-0.5 * result->levels.back())));
+        }
+        return result;
+    }
+
+    std::unique_ptr<ExceedancePlot> m_plot;
+};
+
+void tst_ExceedancePlot::init()
+{
+    m_plot = std::make_unique<ExceedancePlot>();
+    m_plot->setCalibration(calibration(), 1e6);
+    m_plot->setHistogram({0, 0, 10, 100, 500, 1000, 800, 400, 100, 20, 5, 1});
+    m_plot->setThreshold(12.0);
+    m_plot->resize(420, 300);
+    m_plot->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_plot.get()));
+}
+
+void tst_ExceedancePlot::draggingRequestsLiveAndCommitsOnce()
+{
+    QSignalSpy requested(m_plot.get(), &ExceedancePlot::thresholdRequested),
+        committed(m_plot.get(), &ExceedancePlot::thresholdCommitted);
+    QWidget *canvas = m_plot->canvas();
+    const auto at = [&](double nats) { return QPoint(qRound(m_plot->transform(QwtAxis::XBottom, nats)), 60); };
+    const QPoint start = at(12.0), middle = at(15.0), end = at(18.0);
+    QTest::mousePress(canvas, Qt::LeftButton, {}, start);
+    for (const QPoint &position : {middle, end}) {
+        QMouseEvent move(QEvent::MouseMove, position, canvas->mapToGlobal(position), Qt::NoButton, Qt::LeftButton, {});
+        QCoreApplication::sendEvent(canvas, &move);
+    }
+    QCOMPARE(requested.count(), 3);
+    QCOMPARE(committed.count(), 0);
+    QTest::mouseRelease(canvas, Qt::LeftButton, {}, end);
+    QCOMPARE(committed.count(), 1);
+    QVERIFY(std::abs(requested[1][0].toDouble() - 15.0) < 0.2);
+    QVERIFY(std::abs(committed[0][0].toDouble() - 18.0) < 0.2);
+    QCOMPARE(committed[0][0].toDouble(), m_plot->threshold());
+}
+
+void tst_ExceedancePlot::keysStepByAQuarterNat()
+{
+    QSignalSpy requested(m_plot.get(), &ExceedancePlot::thresholdRequested),
+        committed(m_plot.get(), &ExceedancePlot::thresholdCommitted);
+    QTest::keyClick(m_plot.get(), Qt::Key_Period);
+    QCOMPARE(m_plot->threshold(), 12.25);
+    QTest::keyClick(m_plot.get(), Qt::Key_Comma);
+    QTest::keyClick(m_plot.get(), Qt::Key_Comma);
+    QCOMPARE(m_plot->threshold(), 11.75);
+    QCOMPARE(requested.count(), 3);
+    QCOMPARE(committed.count(), 3);
+}
+
+void tst_ExceedancePlot::wordsOfEachUnit()
+{
+    QSignalSpy changed(m_plot.get(), &ExceedancePlot::unitChanged);
+    m_plot->setThreshold(5.0);
+    m_plot->setUnit(ExceedancePlot::Unit::Nats);
+    QCOMPARE(m_plot->thresholdText(), QString("5.00 nat"));
+    m_plot->setUnit(ExceedancePlot::Unit::PfaPerCell);
+    QCOMPARE(m_plot->thresholdText(), QString("Pfa 0.025 per cell")); // 0.3 e^{-2.5}
+    m_plot->setUnit(ExceedancePlot::Unit::FalseAlarmsPerHour);
+    QCOMPARE(m_plot->thresholdText(),
+             QString("1000 false alarms/h")); // 1e-3 events per cell and frame, 1e6 of these in an hour
+    QCOMPARE(changed.count(), 3);
+}
+
+void tst_ExceedancePlot::thresholdFromOutsideIsSilent()
+{
+    QSignalSpy requested(m_plot.get(), &ExceedancePlot::thresholdRequested),
+        committed(m_plot.get(), &ExceedancePlot::thresholdCommitted);
+    m_plot->setThreshold(200.0); // beyond the scale, which makes room
+    QVERIFY(m_plot->axisScaleDiv(QwtAxis::XBottom).contains(200.0));
+    QCOMPARE(requested.count() + committed.count(), 0);
+}
+
+void tst_ExceedancePlot::withoutCalibrationNothingHappens()
+{
+    m_plot->setCalibration(nullptr, 0.0);
+    QSignalSpy requested(m_plot.get(), &ExceedancePlot::thresholdRequested);
+    QTest::mouseClick(m_plot->canvas(), Qt::LeftButton);
+    QTest::keyClick(m_plot.get(), Qt::Key_Period);
+    QCOMPARE(requested.count(), 0);
+    m_plot->grab();
+}
+
+void tst_ExceedancePlot::samePixelsTwice()
+{
+    const QImage first = m_plot->grab().toImage();
+    m_plot->setThreshold(3.0);
+    m_plot->setUnit(ExceedancePlot::Unit::Nats);
+    m_plot->setUnit(ExceedancePlot::Unit::FalseAlarmsPerHour);
+    m_plot->setThreshold(12.0);
+    QCOMPARE(m_plot->grab().toImage(), first);
+}
+
+QTEST_MAIN(tst_ExceedancePlot)
+#include "tst_ExceedancePlot.moc"

@@ -1,0 +1,197 @@
+#include "widgets/SettingsForm.h"
+
+#include "widgets/SettingRow.h"
+#include "widgets/Theme.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSpinBox>
+#include <QToolButton>
+#include <QtTest>
+
+using namespace faintline;
+
+/// A form that nobody wrote: every setting is in it, edits are asked for, mistakes are answered.
+class tst_SettingsForm : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { Theme::apply(Theme::Kind::Light); }
+    void init();
+
+    void everySettingHasAnEditor();
+    void editsAreEmittedOnce();
+    void mistakesAreAnsweredAndNotEmitted();
+    void showingValuesEmitsNothing();
+    void backToTheDefault();
+    void errorsFromOutside();
+    void theWheelChangesNothingInPassing();
+    void labelsAreWords();
+    void flagsAreCheckBoxes();
+
+private:
+    template <class Editor>
+    Editor *editor(const QString &name) const
+    {
+        return qobject_cast<Editor *>(m_form->editor(name));
+    }
+    void type(QLineEdit *edit, const QString &text)
+    {
+        edit->setFocus();
+        edit->selectAll();
+        QTest::keyClicks(edit, text);
+        QTest::keyClick(edit, Qt::Key_Return);
+    }
+    /// Every visible sentence in an error's colour.
+    QStringList errors() const
+    {
+        QStringList texts;
+        for (const QLabel *label : m_form->findChildren<QLabel *>())
+            if (!label->isHidden() && !label->text().isEmpty()
+                && label->palette().color(QPalette::WindowText) == Theme::colours(Theme::Kind::Light).error)
+                texts << label->text();
+        return texts;
+    }
+
+    std::unique_ptr<SettingsForm> m_form;
+    std::vector<std::pair<QString, FieldValue>> m_edits;
+};
+
+void tst_SettingsForm::init()
+{
+    m_edits.clear();
+    m_form = std::make_unique<SettingsForm>();
+    connect(m_form.get(), &SettingsForm::settingEdited, this,
+            [this](const QString &name, const FieldValue &value) { m_edits.emplace_back(name, value); });
+    m_form->resize(320, 900);
+    m_form->show();
+    QVERIFY(QTest::qWaitForWindowActive(m_form.get()));
+}
+
+void tst_SettingsForm::everySettingHasAnEditor()
+{
+    const AnalysisSettings defaults;
+    for (const auto &field : AnalysisSettings::fields()) {
+        if (!field.get(defaults))
+            continue;
+        const QWidget *widget = m_form->editor(QString::fromStdString(field.name));
+        QVERIFY2(widget, field.name.c_str());
+        QVERIFY2(!widget->accessibleName().isEmpty(), field.name.c_str());
+        QVERIFY2(widget->toolTip().contains(QString::fromStdString(field.sentence).toHtmlEscaped()),
+                 field.name.c_str());
+    }
+}
+
+void tst_SettingsForm::editsAreEmittedOnce()
+{
+    type(editor<QLineEdit>("decide.falseAlarmsPerHour"), "0.5");
+    type(editor<QLineEdit>("model.snr"), "1e-1");
+    editor<QSpinBox>("model.highestSlope")->setValue(4);
+    auto *window = editor<QComboBox>("spectrogram.window");
+    window->setFocus();
+    QTest::keyClick(window, Qt::Key_Home);
+    m_form->reveal("model.slopeChange");
+    type(editor<QLineEdit>("model.slopeChange"), "0.5, 0.25");
+
+    QCOMPARE(m_edits.size(), std::size_t(5));
+    QCOMPARE(m_edits[0], (std::pair<QString, FieldValue>("decide.falseAlarmsPerHour", 0.5)));
+    QCOMPARE(m_edits[1], (std::pair<QString, FieldValue>("model.snr", 0.1)));
+    QCOMPARE(m_edits[2], (std::pair<QString, FieldValue>("model.highestSlope", 4)));
+    QCOMPARE(m_edits[3], (std::pair<QString, FieldValue>("spectrogram.window", std::string("rectangular"))));
+    QCOMPARE(m_edits[4], (std::pair<QString, FieldValue>("model.slopeChange", std::vector<double>{0.5, 0.25})));
+}
+
+void tst_SettingsForm::mistakesAreAnsweredAndNotEmitted()
+{
+    type(editor<QLineEdit>("model.snr"), "loud");
+    QCOMPARE(m_edits.size(), std::size_t(0));
+    QCOMPARE(errors().size(), 1);
+    type(editor<QLineEdit>("model.snr"), "-3");
+    QCOMPARE(m_edits.size(), std::size_t(0));
+    QCOMPARE(errors().size(), 1);
+    type(editor<QLineEdit>("model.snr"), "0,25"); // as a German types it
+    QCOMPARE(m_edits.size(), std::size_t(1));
+    QCOMPARE(m_edits[0].second, FieldValue(0.25));
+    QVERIFY(errors().isEmpty());
+}
+
+void tst_SettingsForm::showingValuesEmitsNothing()
+{
+    AnalysisSettings settings;
+    settings.model.snr = 0.125;
+    settings.model.highestSlope = 7;
+    settings.spectrogram.window = WindowShape::BlackmanHarris;
+    m_form->setSettings(settings);
+    QCOMPARE(m_edits.size(), std::size_t(0));
+    QCOMPARE(editor<QLineEdit>("model.snr")->text(), QString("0.125"));
+    QCOMPARE(editor<QSpinBox>("model.highestSlope")->value(), 7);
+    QCOMPARE(editor<QComboBox>("spectrogram.window")->currentText(), QString("Blackman–Harris"));
+}
+
+void tst_SettingsForm::backToTheDefault()
+{
+    AnalysisSettings settings;
+    settings.model.snr = 0.125;
+    m_form->setSettings(settings);
+    const auto *row = qobject_cast<SettingRow *>(m_form->editor("model.snr")->parentWidget());
+    QVERIFY(row);
+    auto *reset = row->findChild<QToolButton *>();
+    QVERIFY(reset->isVisible());
+    reset->click();
+    QCOMPARE(m_edits.size(), std::size_t(1));
+    QCOMPARE(m_edits[0].second, FieldValue(AnalysisSettings().model.snr));
+    QVERIFY(!reset->isVisible());
+}
+
+void tst_SettingsForm::errorsFromOutside()
+{
+    m_form->setError("model.slopeChange", "must sum to 1");
+    QCOMPARE(errors(), QStringList{"must sum to 1"});
+    QVERIFY(m_form->editor("model.slopeChange")->isVisible()); // unfolded, or nobody would see it
+    m_form->setError("no.such.field", "something else");
+    QCOMPARE(errors().size(), 2);
+    m_form->setSettings({});
+    QVERIFY(errors().isEmpty());
+}
+
+void tst_SettingsForm::theWheelChangesNothingInPassing()
+{
+    auto *slope = editor<QSpinBox>("model.highestSlope");
+    m_form->editor("model.snr")->setFocus();
+    const QPointF centre = slope->rect().center();
+    QWheelEvent wheel(centre, slope->mapToGlobal(centre), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(slope, &wheel);
+    QCOMPARE(slope->value(), AnalysisSettings().model.highestSlope);
+    QCOMPARE(m_edits.size(), std::size_t(0));
+}
+
+void tst_SettingsForm::labelsAreWords()
+{
+    QCOMPARE(SettingsForm::label("spectrogram.windowSeconds"), QString("Window length"));
+    QCOMPARE(SettingsForm::label("some.newThingHere"), QString("New thing here"));
+    QCOMPARE(SettingsForm::sectionLabel("smd"), QString("Detector"));
+    QCOMPARE(SettingsForm::sectionLabel("pOfN"), QString("P of n"));
+}
+
+void tst_SettingsForm::flagsAreCheckBoxes()
+{
+    FieldInfo info;
+    info.name = "stage.isOn";
+    info.sentence = "Whether it is on.";
+    info.kind = FieldKind::Flag;
+    SettingRow row(info, "Is on", true);
+    QSignalSpy edited(&row, &SettingRow::edited);
+    auto *box = qobject_cast<QCheckBox *>(row.editor());
+    QVERIFY(box && box->isChecked());
+    box->click();
+    QCOMPARE(edited.count(), 1);
+    QCOMPARE(edited[0][0].value<FieldValue>(), FieldValue(false));
+    row.setValue(true);
+    QCOMPARE(edited.count(), 1);
+}
+
+QTEST_MAIN(tst_SettingsForm)
+#include "tst_SettingsForm.moc"

@@ -1,0 +1,141 @@
+#include "widgets/Viewport.h"
+
+#include <QtTest>
+
+using namespace faintline;
+
+/// What linked views look at.
+class tst_Viewport : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void init() { m_view.setExtents({0.0, 100.0}, {1000.0, 2000.0}, 0.5, 5.0); }
+
+    void startsWithAll();
+    void zoomKeepsThePointInPlace();
+    void everythingStaysInside();
+    void zoomsInToTheSmallest();
+    void backspaceGoesBack();
+    void aRunOfWheelNotchesIsOneStep();
+    void revealMovesNoFurtherThanNeeded();
+    void cursorIsClamped();
+    void signalsOnlyChanges();
+    void emptyIsHarmless();
+
+private:
+    Viewport m_view;
+};
+
+void tst_Viewport::startsWithAll()
+{
+    QVERIFY(m_view.showsAll());
+    QVERIFY(!m_view.cursor());
+    QVERIFY(!m_view.canZoomBack());
+    QCOMPARE(m_view.time().high, 100.0);
+}
+
+void tst_Viewport::zoomKeepsThePointInPlace()
+{
+    m_view.zoomAt(2.0, {25.0, 1500.0});
+    QCOMPARE(m_view.time().low, 12.5);
+    QCOMPARE(m_view.time().high, 62.5);
+    QCOMPARE(m_view.frequency().low, 1250.0);
+    QCOMPARE(m_view.frequency().high, 1750.0);
+    m_view.zoomAt(2.0, {25.0, 1500.0}, Viewport::Axes::Time);
+    QCOMPARE(m_view.time().width(), 25.0);
+    QCOMPARE(m_view.frequency().width(), 500.0);
+}
+
+void tst_Viewport::everythingStaysInside()
+{
+    m_view.zoomTo({-50.0, 20.0}, {1900.0, 2300.0});
+    QCOMPARE(m_view.time().low, 0.0);
+    QCOMPARE(m_view.time().high, 70.0);
+    QCOMPARE(m_view.frequency().high, 2000.0);
+    m_view.pan(1000.0, -5000.0);
+    QCOMPARE(m_view.time().high, 100.0);
+    QCOMPARE(m_view.time().width(), 70.0);
+    QCOMPARE(m_view.frequency().low, 1000.0);
+    m_view.zoomAt(0.001, {50.0, 1500.0});
+    QVERIFY(m_view.showsAll());
+}
+
+void tst_Viewport::zoomsInToTheSmallest()
+{
+    m_view.zoomAt(1e9, {50.0, 1500.0});
+    QCOMPARE(m_view.time().width(), 0.5);
+    QCOMPARE(m_view.frequency().width(), 5.0);
+    QVERIFY(m_view.time().contains(50.0));
+}
+
+void tst_Viewport::backspaceGoesBack()
+{
+    m_view.zoomTo({10.0, 20.0}, {1100.0, 1200.0});
+    m_view.zoomTo({12.0, 14.0}, {1110.0, 1120.0});
+    m_view.zoomBack();
+    QCOMPARE(m_view.time().low, 10.0);
+    m_view.zoomBack();
+    QVERIFY(m_view.showsAll());
+    m_view.zoomBack();
+    QVERIFY(m_view.showsAll());
+}
+
+void tst_Viewport::aRunOfWheelNotchesIsOneStep()
+{
+    for (int notch = 0; notch < 5; ++notch)
+        m_view.zoomAt(1.25, {50.0, 1500.0});
+    m_view.zoomBack();
+    QVERIFY(m_view.showsAll());
+    QVERIFY(!m_view.canZoomBack());
+}
+
+void tst_Viewport::revealMovesNoFurtherThanNeeded()
+{
+    m_view.zoomTo({10.0, 30.0}, {1100.0, 1300.0});
+    m_view.reveal({{15.0, 18.0}, {1150.0, 1160.0}});
+    QCOMPARE(m_view.time().low, 10.0);
+    m_view.reveal({{40.0, 42.0}, {1150.0, 1160.0}});
+    QVERIFY(m_view.time().contains(40.0) && m_view.time().contains(42.0));
+    QCOMPARE(m_view.time().width(), 20.0);
+    QCOMPARE(m_view.frequency().low, 1100.0);
+    m_view.reveal({{20.0, 90.0}, {1150.0, 1160.0}});
+    QVERIFY(m_view.time().contains(20.0) && m_view.time().contains(90.0));
+}
+
+void tst_Viewport::cursorIsClamped()
+{
+    m_view.setCursor({-5.0, 9999.0});
+    QCOMPARE(m_view.cursor()->seconds, 0.0);
+    QCOMPARE(m_view.cursor()->hz, 2000.0);
+    m_view.setExtents({0.0, 10.0}, {0.0, 1.0});
+    QVERIFY(!m_view.cursor());
+}
+
+void tst_Viewport::signalsOnlyChanges()
+{
+    QSignalSpy spans(&m_view, &Viewport::spanChanged), cursors(&m_view, &Viewport::cursorChanged);
+    m_view.showAll();
+    m_view.pan(-10.0, 0.0);
+    QCOMPARE(spans.count(), 0);
+    m_view.zoomTo({0.0, 50.0}, {1000.0, 2000.0});
+    QCOMPARE(spans.count(), 1);
+    m_view.setCursor({5.0, 1500.0});
+    m_view.setCursor({5.0, 1500.0});
+    QCOMPARE(cursors.count(), 1);
+}
+
+void tst_Viewport::emptyIsHarmless()
+{
+    Viewport view;
+    QVERIFY(view.isEmpty());
+    view.zoomAt(2.0, {0.0, 0.0});
+    view.pan(1.0, 1.0);
+    view.setCursor({1.0, 1.0});
+    view.showAll();
+    view.zoomBack();
+    QVERIFY(!view.cursor());
+}
+
+QTEST_MAIN(tst_Viewport)
+#include "tst_Viewport.moc"

@@ -1,0 +1,330 @@
+#include "widgets/WaterfallView.h"
+
+#include "pictures.h"
+#include "widgets/Theme.h"
+
+#include <QMenu>
+#include <QtTest>
+
+#include <cmath>
+
+using namespace faintline;
+
+/// The gestures of a waterfall, and that its picture depends on nothing but what it is told.
+class tst_WaterfallView : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { Theme::apply(Theme::Kind::Light); }
+    void init();
+    void cleanup();
+
+    void wheelScrollsAndZooms();
+    void wheelOverAnAxisZoomsThatAxis();
+    void dragPans();
+    void shiftDragZoomsToABox();
+    void clickPlacesTheCursor();
+    void arrowsMoveTheCursorFromCellToCell();
+    void keys();
+    void hoverReadsOut();
+    void doubleClickActivatesAnEvent();
+    void measuring();
+    void levelsAndAutomaticRange();
+    void valueAtEveryCell();
+    void emptyAndBack();
+    void everyOrientationShowsTheSameCell();
+    void contextMenuOffersAndAsks();
+    void samePixelsTwice();
+
+private:
+    void wheel(const QPointF &position, int notches, Qt::KeyboardModifiers modifiers = {});
+    void drag(const QPoint &from, const QPoint &to, Qt::KeyboardModifiers modifiers = {});
+    QPoint pixel(double seconds, double hz) const { return m_view->positionOf({seconds, hz}).toPoint(); }
+
+    Viewport m_viewport;
+    std::unique_ptr<WaterfallView> m_view;
+};
+
+void tst_WaterfallView::init()
+{
+    const auto picture = test::picture(100, 200, [](Index f, Index c) { return f == 40 && c == 50 ? 30.0f : 1.0f; });
+    const Axis hz = test::hzAxis(200);
+    const Viewport::Box box = WaterfallView::extents(*picture, hz);
+    m_viewport.setExtents(box.time, box.frequency, 2.0, 4.0);
+    m_view = std::make_unique<WaterfallView>("Statistic");
+    m_view->setViewport(&m_viewport);
+    m_view->setPicture(picture, hz);
+    m_view->resize(500, 400);
+    m_view->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
+}
+
+void tst_WaterfallView::cleanup()
+{
+    m_view.reset();
+}
+
+void tst_WaterfallView::wheel(const QPointF &position, int notches, Qt::KeyboardModifiers modifiers)
+{
+    const QPointF global = m_view->mapToGlobal(position);
+    QWheelEvent event(position, global, {}, {0, 120 * notches}, Qt::NoButton, modifiers, Qt::NoScrollPhase, false);
+    QCoreApplication::sendEvent(m_view.get(), &event);
+}
+
+void tst_WaterfallView::drag(const QPoint &from, const QPoint &to, Qt::KeyboardModifiers modifiers)
+{
+    QWidget *canvas = m_view->canvas();
+    QTest::mousePress(canvas, Qt::LeftButton, modifiers, from);
+    for (const double share : {0.3, 0.7, 1.0}) {
+        const QPointF position = from + share * QPointF(to - from);
+        QMouseEvent move(QEvent::MouseMove, position, canvas->mapToGlobal(position), Qt::NoButton, Qt::LeftButton,
+                         modifiers);
+        QCoreApplication::sendEvent(canvas, &move);
+    }
+    QTest::mouseRelease(canvas, Qt::LeftButton, modifiers, to);
+}
+
+void tst_WaterfallView::wheelScrollsAndZooms()
+{
+    m_viewport.zoomTo({40.0, 60.0}, {200.0, 300.0});
+    const QPointF centre = m_view->canvas()->geometry().center();
+    wheel(centre, 1);
+    QCOMPARE(m_viewport.time().low, 42.0); // newest on top: upwards is later
+    wheel(centre, -1);
+    QCOMPARE(m_viewport.time().low, 40.0);
+    wheel(centre, -1, Qt::ShiftModifier);
+    QCOMPARE(m_viewport.frequency().low, 210.0);
+    QCOMPARE(m_viewport.time().low, 40.0);
+
+    const Viewport::Point before = m_view->pointAt(m_view->canvas()->mapFrom(m_view.get(), centre));
+    wheel(centre, 2, Qt::ControlModifier);
+    const Viewport::Point after = m_view->pointAt(m_view->canvas()->mapFrom(m_view.get(), centre));
+    QVERIFY(std::abs(m_viewport.time().width() - 20.0 / 1.5625) < 1e-9);
+    QVERIFY(std::abs(before.seconds - after.seconds) < 1e-6);
+    QVERIFY(std::abs(before.hz - after.hz) < 1e-6);
+}
+
+void tst_WaterfallView::wheelOverAnAxisZoomsThatAxis()
+{
+    const QRect canvas = m_view->canvas()->geometry();
+    wheel(QPointF(canvas.left() - 12, canvas.center().y()), 1);
+    QVERIFY(std::abs(m_viewport.time().width() - 80.0) < 1e-9);
+    QCOMPARE(m_viewport.frequency().width(), 400.0);
+    wheel(QPointF(canvas.center().x(), canvas.bottom() + 12), 1);
+    QVERIFY(std::abs(m_viewport.frequency().width() - 320.0) < 1e-9);
+    QVERIFY(std::abs(m_viewport.time().width() - 80.0) < 1e-9);
+}
+
+void tst_WaterfallView::dragPans()
+{
+    m_viewport.zoomTo({40.0, 60.0}, {200.0, 300.0});
+    const QPoint from = pixel(50.0, 250.0), to = pixel(45.0, 240.0);
+    drag(from, to);
+    const Viewport::Point held = m_view->pointAt(to); // what was under the pointer still is
+    QVERIFY(std::abs(held.seconds - 50.0) < 0.1);
+    QVERIFY(std::abs(held.hz - 250.0) < 0.5);
+    QVERIFY(!m_viewport.cursor());
+    QCOMPARE(m_viewport.time().width(), 20.0);
+}
+
+void tst_WaterfallView::shiftDragZoomsToABox()
+{
+    drag(pixel(20.0, 200.0), pixel(60.0, 300.0), Qt::ShiftModifier);
+    QVERIFY(std::abs(m_viewport.time().low - 20.0) < 0.3);
+    QVERIFY(std::abs(m_viewport.time().high - 60.0) < 0.3);
+    QVERIFY(std::abs(m_viewport.frequency().low - 200.0) < 1.0);
+    QVERIFY(std::abs(m_viewport.frequency().high - 300.0) < 1.0);
+    QTest::keyClick(m_view.get(), Qt::Key_Backspace);
+    QVERIFY(m_viewport.showsAll());
+}
+
+void tst_WaterfallView::clickPlacesTheCursor()
+{
+    QTest::mouseClick(m_view->canvas(), Qt::LeftButton, {}, pixel(30.0, 222.0));
+    QVERIFY(m_viewport.cursor());
+    QVERIFY(std::abs(m_viewport.cursor()->seconds - 30.0) < 0.2);
+    QVERIFY(std::abs(m_viewport.cursor()->hz - 222.0) < 0.6);
+    QVERIFY(m_viewport.showsAll());
+}
+
+void tst_WaterfallView::arrowsMoveTheCursorFromCellToCell()
+{
+    m_viewport.setCursor({30.4, 201.0});
+    QTest::keyClick(m_view.get(), Qt::Key_Right);
+    QCOMPARE(m_viewport.cursor()->hz, 204.0); // from the cell at 202 Hz to the next
+    QCOMPARE(m_viewport.cursor()->seconds, 30.5);
+    QTest::keyClick(m_view.get(), Qt::Key_Up);
+    QCOMPARE(m_viewport.cursor()->seconds, 31.5);
+    QTest::keyClick(m_view.get(), Qt::Key_Down, Qt::ControlModifier);
+    QCOMPARE(m_viewport.cursor()->seconds, 21.5);
+    m_view->setOrientation(WaterfallView::Orientation::LeftToRight);
+    QTest::keyClick(m_view.get(), Qt::Key_Right);
+    QCOMPARE(m_viewport.cursor()->seconds, 22.5);
+
+    m_viewport.zoomTo({20.0, 24.0}, {200.0, 208.0});
+    for (int i = 0; i < 5; ++i)
+        QTest::keyClick(m_view.get(), Qt::Key_Right);
+    QVERIFY(m_viewport.time().contains(m_viewport.cursor()->seconds)); // the view goes along
+}
+
+void tst_WaterfallView::keys()
+{
+    QSignalSpy threshold(m_view.get(), &WaterfallView::thresholdStepRequested);
+    QTest::keyClick(m_view.get(), Qt::Key_Comma);
+    QTest::keyClick(m_view.get(), Qt::Key_Period);
+    QCOMPARE(threshold.count(), 2);
+    QCOMPARE(threshold[0][0].toInt(), -1);
+    QCOMPARE(threshold[1][0].toInt(), 1);
+
+    QSignalSpy orientation(m_view.get(), &WaterfallView::orientationChanged);
+    for (int i = 0; i < 3; ++i)
+        QTest::keyClick(m_view.get(), Qt::Key_O);
+    QCOMPARE(orientation.count(), 3);
+    QCOMPARE(m_view->orientation(), WaterfallView::Orientation::NewestOnTop);
+
+    QTest::keyClick(m_view.get(), Qt::Key_C);
+    QCOMPARE(m_view->colourMap().name(), ColourMap::names()[1]);
+
+    m_viewport.zoomTo({40.0, 60.0}, {200.0, 300.0});
+    QTest::keyClick(m_view.get(), Qt::Key_0);
+    QVERIFY(m_viewport.showsAll());
+
+    m_viewport.setCursor({30.0, 200.0});
+    QTest::keyClick(m_view.get(), Qt::Key_Escape);
+    QVERIFY(!m_viewport.cursor());
+}
+
+void tst_WaterfallView::hoverReadsOut()
+{
+    QSignalSpy hovered(m_view.get(), &WaterfallView::hovered), ended(m_view.get(), &WaterfallView::hoverEnded);
+    QTest::mouseMove(m_view->canvas(), pixel(40.5, 200.0));
+    QCOMPARE(hovered.count(), 1);
+    QVERIFY(std::abs(hovered[0][0].toDouble() - 40.5) < 0.2);
+    QCOMPARE(hovered[0][2].toDouble(), 30.0);
+    QEvent leave(QEvent::Leave);
+    QCoreApplication::sendEvent(m_view->canvas(), &leave);
+    QCOMPARE(ended.count(), 1);
+}
+
+void tst_WaterfallView::doubleClickActivatesAnEvent()
+{
+    m_view->setEvents({test::event(7, 30.0, 50.0, 220.0), test::event(8, 60.0, 70.0, 400.0)});
+    QSignalSpy activated(m_view.get(), &WaterfallView::eventActivated);
+    QTest::mouseDClick(m_view->canvas(), Qt::LeftButton, {}, pixel(40.0, 220.0));
+    QCOMPARE(activated.count(), 1);
+    QCOMPARE(activated[0][0].toInt(), 7);
+    QTest::mouseDClick(m_view->canvas(), Qt::LeftButton, {}, pixel(90.0, 150.0));
+    QCOMPARE(activated.count(), 1);
+}
+
+void tst_WaterfallView::measuring()
+{
+    QTest::keyClick(m_view.get(), Qt::Key_M);
+    QVERIFY(m_view->isMeasuring());
+    drag(pixel(20.0, 200.0), pixel(60.0, 300.0));
+    QVERIFY(m_viewport.selection());
+    QVERIFY(std::abs(m_viewport.selection()->time.width() - 40.0) < 0.5);
+    QVERIFY(m_viewport.showsAll());
+    QTest::keyClick(m_view.get(), Qt::Key_M);
+    QVERIFY(!m_viewport.selection());
+}
+
+void tst_WaterfallView::levelsAndAutomaticRange()
+{
+    const Span automatic = m_view->range();
+    QVERIFY(m_view->isRangeAutomatic());
+    QTest::keyClick(m_view.get(), Qt::Key_BracketRight);
+    QCOMPARE(m_view->range().low, automatic.low + 0.5);
+    QTest::keyClick(m_view.get(), Qt::Key_BracketLeft);
+    QTest::keyClick(m_view.get(), Qt::Key_BraceRight);
+    QCOMPARE(m_view->range().low, automatic.low);
+    QCOMPARE(m_view->range().high, automatic.high + 0.5);
+    QTest::keyClick(m_view.get(), Qt::Key_BraceLeft);
+    QVERIFY(!m_view->isRangeAutomatic());
+    m_view->setRange(3.0, 3.0);
+    QVERIFY(m_view->range().width() > 0.0);
+    QTest::keyClick(m_view.get(), Qt::Key_A);
+    QCOMPARE(m_view->range(), automatic);
+}
+
+void tst_WaterfallView::valueAtEveryCell()
+{
+    QCOMPARE(m_view->valueAt(40.01, 199.1).value(), 30.0);
+    QCOMPARE(m_view->valueAt(40.99, 200.9).value(), 30.0);
+    QCOMPARE(m_view->valueAt(41.01, 200.0).value(), 1.0);
+    QCOMPARE(m_view->valueAt(40.5, 201.1).value(), 1.0);
+    QVERIFY(!m_view->valueAt(-0.1, 200.0));
+    QVERIFY(!m_view->valueAt(40.0, 99.9 - 1.0));
+    QVERIFY(!m_view->valueAt(101.0, 200.0));
+}
+
+void tst_WaterfallView::emptyAndBack()
+{
+    const auto picture = m_view->picture();
+    m_view->setEmptySentence("Nothing here.");
+    m_view->setPicture(nullptr, {});
+    m_view->grab();
+    QTest::keyClick(m_view.get(), Qt::Key_O);
+    wheel(m_view->canvas()->geometry().center(), 1);
+    QTest::mouseClick(m_view->canvas(), Qt::LeftButton);
+    QVERIFY(!m_viewport.cursor());
+    m_view->setPicture(picture, test::hzAxis(200));
+    QCOMPARE(m_view->valueAt(40.5, 200.0).value(), 30.0);
+}
+
+void tst_WaterfallView::everyOrientationShowsTheSameCell()
+{
+    m_viewport.zoomTo({38.0, 44.0}, {190.0, 210.0});
+    m_view->setColourMap("grey");
+    m_view->setRange(0.0, 30.0);
+    m_view->setLayer(WaterfallView::CursorLayer, false);
+    for (const auto orientation : {WaterfallView::Orientation::NewestOnTop, WaterfallView::Orientation::OldestOnTop,
+                                   WaterfallView::Orientation::LeftToRight}) {
+        m_view->setOrientation(orientation);
+        QCoreApplication::processEvents();
+        const QImage image = m_view->canvas()->grab().toImage();
+        QCOMPARE(qGreen(image.pixel(pixel(40.5, 200.0))), 255);
+        QCOMPARE(qGreen(image.pixel(pixel(42.5, 200.0))), 9);
+        QCOMPARE(qGreen(image.pixel(pixel(40.5, 204.0))), 9);
+    }
+}
+
+void tst_WaterfallView::contextMenuOffersAndAsks()
+{
+    QStringList texts;
+    bool isAsked = false;
+    connect(m_view.get(), &WaterfallView::contextMenuRequested, this, [&](QMenu *menu, double seconds, double hz) {
+        isAsked = std::abs(seconds - 50.0) < 0.5 && std::abs(hz - 300.0) < 1.5;
+        for (const QAction *action : menu->actions())
+            texts << action->text();
+        QTimer::singleShot(0, menu, &QMenu::close);
+    });
+    const QPoint position = m_view->canvas()->mapTo(m_view.get(), pixel(50.0, 300.0));
+    QContextMenuEvent event(QContextMenuEvent::Mouse, position, m_view->mapToGlobal(position));
+    QCoreApplication::sendEvent(m_view.get(), &event);
+    QVERIFY(isAsked);
+    QVERIFY(texts.contains("Show all\t0"));
+}
+
+void tst_WaterfallView::samePixelsTwice()
+{
+    const auto draw = [&] {
+        WaterfallView view("Statistic");
+        Viewport viewport;
+        const Viewport::Box &full = m_viewport.full();
+        viewport.setExtents(full.time, full.frequency, 2.0, 4.0);
+        view.setViewport(&viewport);
+        view.setPicture(m_view->picture(), test::hzAxis(200));
+        view.setEvents({test::event(1, 30.0, 50.0, 220.0)});
+        view.setThreshold(12.0);
+        viewport.setCursor({35.0, 250.0});
+        viewport.zoomTo({10.0, 80.0}, {150.0, 400.0});
+        view.resize(440, 330);
+        return view.grab().toImage();
+    };
+    QCOMPARE(draw(), draw());
+}
+
+QTEST_MAIN(tst_WaterfallView)
+#include "tst_WaterfallView.moc"

@@ -1,0 +1,136 @@
+#include "widgets/rasterise.h"
+
+#include "pictures.h"
+
+#include <QtTest>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace faintline;
+
+/// Pixels from cells: rectangles when zoomed in, maxima when zoomed out.
+class tst_rasterise : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void zoomedInEveryCellIsARectangle();
+    void zoomedOutAgainstTheDefinition();
+    void aHotCellSurvivesAnyZoom();
+    void aOneBinLineSurvivesLongRecordings();
+    void theLastFrameIsShown();
+    void emptyPicture();
+    void rangeOfNoise();
+
+private:
+    static std::vector<std::uint8_t> raster(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells)
+    {
+        std::vector<std::uint8_t> out(static_cast<std::size_t>(time.count * cells.count));
+        rasterise(picture, time, cells, out);
+        return out;
+    }
+};
+
+void tst_rasterise::zoomedInEveryCellIsARectangle()
+{
+    const auto picture = test::countingPicture(2, 3);
+    const auto out = raster(*picture, {0.0, 0.5, 4}, {0.0, 1.0 / 3.0, 9});
+    for (int t = 0; t < 4; ++t)
+        for (int c = 0; c < 9; ++c)
+            QCOMPARE(picture->scale().value(out[static_cast<std::size_t>(9 * t + c)]), double(10 * (t / 2) + c / 3));
+}
+
+void tst_rasterise::zoomedOutAgainstTheDefinition()
+{
+    const Index frames = 60, cells = 70;
+    const auto picture = test::picture(frames, cells, [](Index f, Index c) { return float((f * 37 + c * 91) % 43); });
+    const PixelRow time{0.0, 1.7, 35}, hz{0.0, 2.3, 30};
+    const auto out = raster(*picture, time, hz);
+    // max over ⌈step⌉ cells from the first one whose centre the pixel covers
+    const auto first = [](const PixelRow &row, int pixel) {
+        return static_cast<Index>(std::ceil(row.first + pixel * row.step - 0.5));
+    };
+    for (int t = 0; t < time.count; ++t)
+        for (int c = 0; c < hz.count; ++c) {
+            double highest = -100.0;
+            for (Index f = first(time, t); f < std::min<Index>(first(time, t) + 2, frames); ++f)
+                for (Index cell = first(hz, c); cell < std::min<Index>(first(hz, c) + 3, cells); ++cell)
+                    highest =
+                        std::max(highest, picture->scale().value(picture->row(0, f)[static_cast<std::size_t>(cell)]));
+            QCOMPARE(picture->scale().value(out[static_cast<std::size_t>(t * hz.count + c)]), highest);
+        }
+}
+
+void tst_rasterise::aHotCellSurvivesAnyZoom()
+{
+    const Index frames = 500, cells = 300;
+    for (const auto &[frame, cell] :
+         {std::pair<Index, Index>{0, 0}, {499, 299}, {17, 250}, {256, 128}, {333, 1}, {498, 77}}) {
+        const auto picture =
+            test::picture(frames, cells, [=](Index f, Index c) { return f == frame && c == cell ? 40.0f : 0.0f; });
+        const auto hot = picture->scale().byte(40.0);
+        for (const int pixels : {7, 31, 100, 299, 640}) {
+            const double perTime = double(frames) / pixels, perHz = double(cells) / pixels;
+            const auto out = raster(*picture, {0.0, perTime, pixels}, {0.0, perHz, pixels});
+            const auto found = std::find(out.begin(), out.end(), hot);
+            QVERIFY2(found != out.end(),
+                     qPrintable(QString("frame %1 cell %2 at %3 pixels").arg(frame).arg(cell).arg(pixels)));
+            const auto index = static_cast<int>(found - out.begin());
+            QVERIFY(std::abs(index / pixels - (double(frame) + 0.5) / perTime) <= std::max(2.0, 1.0 / perTime));
+            QVERIFY(std::abs(index % pixels - (double(cell) + 0.5) / perHz) <= std::max(2.0, 1.0 / perHz));
+        }
+    }
+}
+
+void tst_rasterise::aOneBinLineSurvivesLongRecordings()
+{
+    const Index frames = 20000, cells = 64;
+    const auto picture = test::picture(frames, cells, [](Index, Index c) { return c == 41 ? 30.0f : 1.0f; });
+    const auto out = raster(*picture, {0.0, double(frames) / 50.0, 50}, {0.0, 8.0, 8});
+    for (int t = 0; t < 50; ++t)
+        for (int c = 0; c < 8; ++c)
+            QCOMPARE(picture->scale().value(out[static_cast<std::size_t>(8 * t + c)]), c == 5 ? 30.0 : 1.0);
+}
+
+void tst_rasterise::theLastFrameIsShown()
+{
+    // 1027 frames: the last rows of the coarser levels stand for fewer frames than the others.
+    const Index frames = 1027;
+    const auto picture = test::picture(frames, 4, [=](Index f, Index) { return f == frames - 1 ? 20.0f : 0.0f; });
+    for (const int pixels : {3, 10, 60, 250}) {
+        const auto out = raster(*picture, {0.0, double(frames) / pixels, pixels}, {0.0, 1.0, 4});
+        QCOMPARE(picture->scale().value(out.back()), 20.0);
+    }
+}
+
+void tst_rasterise::emptyPicture()
+{
+    PeakPyramid picture(test::timeAxis(0), 5, ByteScale());
+    picture.finish();
+    const auto out = raster(picture, {0.0, 1.0, 3}, {0.0, 1.0, 5});
+    QVERIFY(std::all_of(out.begin(), out.end(), [](std::uint8_t byte) { return byte == 0; }));
+    QCOMPARE(automaticRange(picture.scale(), countPixels(picture, 1.0, 1.0)).low, -6.0);
+}
+
+void tst_rasterise::rangeOfNoise()
+{
+    // Exponential noise of mean 1: its median is -1.6 dB, and the range must not depend on the few lines there are.
+    const auto value = [](Index f, Index c, double line) {
+        const double u = (double((f * 7919 + c * 104729) % 99991) + 0.5) / 99991.0;
+        return float(-std::log(u) + (c == 10 ? line : 0.0));
+    };
+    const auto rangeWith = [&](double line) {
+        const auto picture = test::picture(
+            400, 300, [&](Index f, Index c) { return value(f, c, line); }, ByteScale::Kind::PowerDb);
+        return automaticRange(picture->scale(), countPixels(*picture, 1.0, 1.0));
+    };
+    const Span quiet = rangeWith(0.0), loud = rangeWith(1e5);
+    QVERIFY(quiet.low > -7.0 && quiet.low < -2.0);
+    QVERIFY(quiet.high > 8.0 && quiet.high < 15.0);
+    QVERIFY(std::abs(quiet.low - loud.low) <= 0.5);
+    QVERIFY(loud.high <= 15.0);
+}
+
+QTEST_MAIN(tst_rasterise)
+#include "tst_rasterise.moc"

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <QList>
+#include <QRgb>
+#include <QString>
+#include <QStringList>
+
+#include <array>
+
+namespace faintline {
+
+/// 256 colours from low to high, of even perceptual steps and readable without colour vision.
+class ColourMap
+{
+public:
+    /// "inferno", "magma", "viridis", "cividis", "grey", "paper" (grey reversed) and "blue-red" (diverging).
+    static const QStringList &names();
+    static const QString &defaultName();
+
+    /// The map of that name; the default one where the name is unknown.
+    static const ColourMap &named(const QString &name);
+
+    /// The name after `name` in `names()`, round and round.
+    static QString next(const QString &name);
+
+    const QString &name() const { return m_name; }
+    const std::array<QRgb, 256> &entries() const { return m_entries; }
+
+    /// The colour at 0 … 1, clamped.
+    QRgb at(double position) const;
+
+    /// Whether noise, in the lower part of the map, comes out dark: lines drawn over it should then be light.
+    bool isDarkAtLow() const;
+
+    /// `stops`: sRGB colours at equal distances, interpolated linearly.
+    ColourMap(QString name, const QList<QRgb> &stops);
+
+private:
+    QString m_name;
+    std::array<QRgb, 256> m_entries;
+};
+
+} // namespace faintline

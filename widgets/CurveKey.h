@@ -1,0 +1,35 @@
+#pragma once
+
+#include <qwt_plot_item.h>
+
+#include <QPen>
+#include <QString>
+
+#include <vector>
+
+namespace faintline {
+
+/// The key to a plot's curves, in a corner of the canvas: a piece of each line and its name.
+class CurveKey : public QwtPlotItem
+{
+public:
+    struct Entry {
+        QString name;
+        QPen pen;
+        bool isArea = false;
+    };
+
+    explicit CurveKey(Qt::Alignment corner);
+
+    std::vector<Entry> entries;
+    QColor textColour;
+    QColor plate; ///< behind the key
+
+    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+              const QRectF &canvasRect) const override;
+
+private:
+    Qt::Alignment m_corner;
+};
+
+} // namespace faintline

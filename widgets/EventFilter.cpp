@@ -1,0 +1,88 @@
+#include "widgets/EventFilter.h"
+
+#include <QHash>
+#include <QRegularExpression>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    using Quantity = std::function<double(const Event &)>;
+    using Condition = std::function<bool(const Event &)>;
+
+    const QHash<QString, Quantity> &quantities()
+    {
+        static const QHash<QString, Quantity> table{
+            {"id", [](const Event &e) { return double(e.id); }},
+            {"t", [](const Event &e) { return e.onsetSeconds; }},
+            {"onset", [](const Event &e) { return e.onsetSeconds; }},
+            {"end", [](const Event &e) { return e.endSeconds; }},
+            {"dur", [](const Event &e) { return e.endSeconds - e.onsetSeconds; }},
+            {"f", [](const Event &e) { return e.position.empty() ? 0.0 : e.position.back(); }},
+            {"drift", [](const Event &e) { return e.driftPerSecond; }},
+            {"stat", [](const Event &e) { return e.statistic; }},
+            {"d", [](const Event &e) { return e.statistic; }},
+        };
+        return table;
+    }
+
+    Condition comparison(const QString &term)
+    {
+        static const QRegularExpression pattern(QStringLiteral("^([a-z]+)(<=|>=|<|>|=|≤|≥)([-+.0-9e]+)$"));
+        const auto match = pattern.match(term);
+        bool isNumber = false;
+        const double limit = match.captured(3).toDouble(&isNumber);
+        const Quantity of = quantities().value(match.captured(1));
+        if (!match.hasMatch() || !isNumber || !of)
+            return {};
+        const QString sign = match.captured(2);
+        if (sign == QLatin1String("<"))
+            return [=](const Event &e) { return of(e) < limit; };
+        if (sign == QLatin1String(">"))
+            return [=](const Event &e) { return of(e) > limit; };
+        if (sign == QLatin1String("="))
+            return [=](const Event &e) { return std::abs(of(e) - limit) < 1e-9; };
+        if (sign == QLatin1String("<=") || sign == QStringLiteral("≤"))
+            return [=](const Event &e) { return of(e) <= limit; };
+        return [=](const Event &e) { return of(e) >= limit; };
+    }
+
+    Condition state(const QString &term)
+    {
+        if (term.isEmpty())
+            return {};
+        if (QStringLiteral("open").startsWith(term))
+            return [](const Event &e) { return e.isOpen; };
+        if (QStringLiteral("confirmed").startsWith(term))
+            return [](const Event &e) { return e.isConfirmed; };
+        if (QStringLiteral("tentative").startsWith(term))
+            return [](const Event &e) { return !e.isConfirmed; };
+        return {};
+    }
+
+} // namespace
+
+EventFilter::EventFilter(const QString &text)
+{
+    const QStringList terms =
+        text.toLower().replace(QChar(0x2212), QLatin1Char('-')).split(QLatin1Char(' '), Qt::SkipEmptyParts);
+    for (const QString &term : terms) {
+        Condition condition = comparison(term);
+        if (!condition)
+            condition = state(term);
+        if (condition)
+            m_terms.push_back(std::move(condition));
+        else if (m_misunderstood.isEmpty())
+            m_misunderstood = term;
+    }
+}
+
+bool EventFilter::accepts(const Event &event) const
+{
+    return std::all_of(m_terms.begin(), m_terms.end(), [&](const Condition &condition) { return condition(event); });
+}
+
+} // namespace faintline

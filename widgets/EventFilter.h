@@ -1,0 +1,31 @@
+#pragma once
+
+#include "analysis/analyse.h"
+
+#include <QString>
+
+#include <functional>
+#include <vector>
+
+namespace faintline {
+
+/// What a line of text lets through: words of the state and comparisons, all of which must hold.
+///
+///     f>1000 drift<0 stat>=25 t<60 dur>5 id=3 open confirmed tentative
+///
+/// A term that is not understood is reported, and lets everything through.
+class EventFilter
+{
+public:
+    EventFilter() = default;
+    explicit EventFilter(const QString &text);
+
+    bool accepts(const Event &event) const;
+    const QString &misunderstood() const { return m_misunderstood; } ///< the first such term, or empty
+
+private:
+    std::vector<std::function<bool(const Event &)>> m_terms;
+    QString m_misunderstood;
+};
+
+} // namespace faintline

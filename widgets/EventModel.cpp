@@ -1,0 +1,130 @@
+#include "widgets/EventModel.h"
+
+#include "widgets/quantities.h"
+
+namespace faintline {
+
+namespace {
+
+    double sortValue(const Event &event, int column)
+    {
+        switch (column) {
+        case EventModel::Id:
+            return event.id;
+        case EventModel::Onset:
+            return event.onsetSeconds;
+        case EventModel::Detection:
+            return event.detectSeconds;
+        case EventModel::End:
+            return event.endSeconds;
+        case EventModel::Frequency:
+            return event.position.empty() ? 0.0 : event.position.back();
+        case EventModel::Drift:
+            return event.driftPerSecond;
+        case EventModel::Statistic:
+            return event.statistic;
+        default:
+            return (event.isConfirmed ? 0.0 : 2.0) + (event.isOpen ? 1.0 : 0.0);
+        }
+    }
+
+} // namespace
+
+void EventModel::setEvents(std::vector<Event> events)
+{
+    beginResetModel();
+    m_events = std::move(events);
+    endResetModel();
+}
+
+int EventModel::rowOf(int id) const
+{
+    for (std::size_t row = 0; row < m_events.size(); ++row)
+        if (m_events[row].id == id)
+            return static_cast<int>(row);
+    return -1;
+}
+
+QString EventModel::stateText(const Event &event)
+{
+    const QString state = event.isConfirmed ? tr("confirmed") : tr("tentative");
+    return event.isOpen ? tr("%1, open").arg(state) : state;
+}
+
+int EventModel::rowCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : static_cast<int>(m_events.size());
+}
+
+int EventModel::columnCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : ColumnCount;
+}
+
+QString EventModel::text(const Event &event, int column) const
+{
+    switch (column) {
+    case Id:
+        return QString::number(event.id);
+    case Onset:
+        return secondsText(event.onsetSeconds, 0.1);
+    case Detection:
+        return secondsText(event.detectSeconds, 0.1);
+    case End:
+        return secondsText(event.endSeconds, 0.1);
+    case Frequency:
+        return event.position.empty() ? QStringLiteral("–") : numberText(event.position.back(), 2);
+    case Drift:
+        return powerText(event.driftPerSecond, 3);
+    case Statistic:
+        return numberText(event.statistic, 1);
+    default:
+        return stateText(event);
+    }
+}
+
+QVariant EventModel::data(const QModelIndex &index, int role) const
+{
+    if (!index.isValid() || index.row() >= rowCount())
+        return {};
+    const Event &event = m_events[static_cast<std::size_t>(index.row())];
+    switch (role) {
+    case Qt::DisplayRole:
+        return text(event, index.column());
+    case SortRole:
+        return sortValue(event, index.column());
+    case Qt::TextAlignmentRole:
+        return QVariant::fromValue(
+            Qt::Alignment((index.column() == State ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter));
+    case Qt::AccessibleTextRole:
+        return tr("%1: %2").arg(headerData(index.column(), Qt::Horizontal).toString(), text(event, index.column()));
+    default:
+        return {};
+    }
+}
+
+QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const
+{
+    if (orientation != Qt::Horizontal)
+        return {};
+    if (role == Qt::TextAlignmentRole)
+        return QVariant::fromValue(
+            Qt::Alignment((section == State ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter));
+    const QString names[] = {tr("№"),      tr("Onset"),        tr("Detected"), tr("End"),
+                             tr("f (Hz)"), tr("Drift (Hz/s)"), tr("D (nat)"),  tr("State")};
+    const QString tips[] = {tr("Number, in order of detection"),
+                            tr("Where the detecting path was last reset, from the first sample"),
+                            tr("Where the statistic first exceeded the threshold"),
+                            tr("Last frame with evidence"),
+                            tr("Frequency at detection"),
+                            tr("Straight-line slope of the track"),
+                            tr("Largest statistic, nats above background"),
+                            tr("Confirmed or tentative; open where the data ended first")};
+    if (section < 0 || section >= ColumnCount)
+        return {};
+    if (role == Qt::DisplayRole)
+        return names[section];
+    return role == Qt::ToolTipRole ? tips[section] : QVariant();
+}
+
+} // namespace faintline

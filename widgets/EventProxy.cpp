@@ -1,0 +1,24 @@
+#include "widgets/EventProxy.h"
+
+#include "widgets/EventModel.h"
+
+namespace faintline {
+
+EventProxy::EventProxy(QObject *parent) : QSortFilterProxyModel(parent)
+{
+    setSortRole(EventModel::SortRole);
+}
+
+void EventProxy::setFilter(const EventFilter &filter)
+{
+    m_filter = filter;
+    invalidateFilter();
+}
+
+bool EventProxy::filterAcceptsRow(int row, const QModelIndex &) const
+{
+    const auto *model = static_cast<const EventModel *>(sourceModel());
+    return m_filter.accepts(model->events()[static_cast<std::size_t>(row)]);
+}
+
+} // namespace faintline

@@ -1,0 +1,192 @@
+#include "widgets/EventTable.h"
+
+#include "widgets/EventModel.h"
+#include "widgets/EventProxy.h"
+#include "widgets/Theme.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QStackedLayout>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace faintline {
+
+EventTable::EventTable(QWidget *parent)
+    : QWidget(parent), m_model(new EventModel(this)), m_proxy(new EventProxy(this)), m_filter(new QLineEdit),
+      m_table(new QTableView), m_count(new QLabel),
+      m_empty(new QLabel(tr("Events appear here when a recording has been analysed.")))
+{
+    m_proxy->setSourceModel(m_model);
+    m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 open"));
+    m_filter->setToolTip(
+        tr("Words and comparisons that must all hold: open, confirmed, tentative; id, t, end, dur, f, drift, stat with "
+           "<, >, =, <=, >="));
+    m_filter->setClearButtonEnabled(true);
+    m_filter->setAccessibleName(tr("Filter events"));
+    connect(m_filter, &QLineEdit::textChanged, this, &EventTable::applyFilter);
+
+    m_table->setModel(m_proxy);
+    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
+    m_table->setSelectionMode(QAbstractItemView::SingleSelection);
+    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_table->setShowGrid(false);
+    m_table->setAlternatingRowColors(true);
+    m_table->setWordWrap(false);
+    m_table->setTabKeyNavigation(false);
+    m_table->setSortingEnabled(true);
+    m_table->sortByColumn(EventModel::Onset, Qt::AscendingOrder);
+    m_table->verticalHeader()->hide();
+    m_table->verticalHeader()->setDefaultSectionSize(22);
+    m_table->horizontalHeader()->setHighlightSections(false);
+    m_table->horizontalHeader()->setStretchLastSection(true);
+    m_table->horizontalHeader()->setMinimumSectionSize(34);
+    m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    m_table->setAccessibleName(tr("Events"));
+    m_table->installEventFilter(this);
+    connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) { activate(index.row()); });
+
+    m_empty->setAlignment(Qt::AlignCenter);
+    m_empty->setWordWrap(true);
+    m_empty->setForegroundRole(QPalette::PlaceholderText);
+    m_empty->setMargin(16);
+    auto *stack = new QStackedLayout;
+    stack->addWidget(m_empty);
+    stack->addWidget(m_table);
+    m_count->setForegroundRole(QPalette::PlaceholderText);
+
+    auto *top = new QHBoxLayout;
+    top->addWidget(m_filter, 1);
+    top->addWidget(m_count);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(4, 4, 4, 4);
+    layout->setSpacing(4);
+    layout->addLayout(top);
+    layout->addLayout(stack, 1);
+    updateCount();
+}
+
+void EventTable::setEvents(const std::vector<Event> &events)
+{
+    const int selected = selectedEvent();
+    const bool isFirst = m_model->events().empty();
+    m_model->setEvents(events);
+    if (isFirst && !events.empty())
+        m_table->resizeColumnsToContents();
+    setSelectedEvent(selected);
+    updateCount();
+}
+
+void EventTable::setEmptySentence(const QString &sentence)
+{
+    m_empty->setText(sentence);
+}
+
+int EventTable::selectedEvent() const
+{
+    const QModelIndex index = m_table->currentIndex();
+    if (!index.isValid() || !m_table->selectionModel()->isRowSelected(index.row()))
+        return 0;
+    return m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(index).row())].id;
+}
+
+std::vector<int> EventTable::shownIds() const
+{
+    std::vector<int> ids;
+    for (int row = 0; row < m_proxy->rowCount(); ++row)
+        ids.push_back(
+            m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(m_proxy->index(row, 0)).row())].id);
+    return ids;
+}
+
+void EventTable::setSelectedEvent(int id)
+{
+    const int row = m_model->rowOf(id);
+    const QModelIndex index = row < 0 ? QModelIndex() : m_proxy->mapFromSource(m_model->index(row, 0));
+    if (!index.isValid()) {
+        m_table->clearSelection();
+        m_table->setCurrentIndex({});
+        return;
+    }
+    m_table->selectRow(index.row());
+    m_table->scrollTo(index);
+}
+
+void EventTable::activate(int proxyRow)
+{
+    if (proxyRow < 0 || proxyRow >= m_proxy->rowCount())
+        return;
+    m_table->selectRow(proxyRow);
+    emit eventActivated(selectedEvent());
+}
+
+void EventTable::step(int by)
+{
+    const int rows = m_proxy->rowCount();
+    if (rows == 0)
+        return;
+    const int row = selectedEvent() == 0 ? (by > 0 ? -1 : rows) : m_table->currentIndex().row();
+    activate((row + by + rows) % rows);
+}
+
+void EventTable::selectNext()
+{
+    step(1);
+}
+
+void EventTable::selectPrevious()
+{
+    step(-1);
+}
+
+void EventTable::applyFilter(const QString &text)
+{
+    const EventFilter filter(text);
+    m_proxy->setFilter(filter);
+    updateCount();
+}
+
+void EventTable::updateCount()
+{
+    const auto all = static_cast<int>(m_model->events().size());
+    const int shown = m_proxy->rowCount();
+    const QString &unknown = m_proxy->filter().misunderstood();
+    if (!unknown.isEmpty())
+        m_count->setText(tr("“%1”?").arg(unknown));
+    else if (shown < all)
+        m_count->setText(tr("%1 of %2 events").arg(shown).arg(all));
+    else
+        m_count->setText(all == 1 ? tr("1 event") : tr("%1 events").arg(all));
+    static_cast<QStackedLayout *>(layout()->itemAt(1)->layout())->setCurrentIndex(all > 0 ? 1 : 0);
+}
+
+void EventTable::keyPressEvent(QKeyEvent *event)
+{
+    if (event->key() == Qt::Key_N && !(event->modifiers() & (Qt::ControlModifier | Qt::AltModifier)))
+        step(event->modifiers().testFlag(Qt::ShiftModifier) ? -1 : 1);
+    else
+        QWidget::keyPressEvent(event);
+}
+
+bool EventTable::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == m_table && event->type() == QEvent::KeyPress) {
+        auto *key = static_cast<QKeyEvent *>(event);
+        if (key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter) {
+            activate(m_table->currentIndex().row());
+            return true;
+        }
+        if (key->key() == Qt::Key_N) { // otherwise the table's search for what begins with n
+            keyPressEvent(key);
+            return true;
+        }
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+} // namespace faintline

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "analysis/analyse.h"
+
+#include <QString>
+#include <QWidget>
+
+#include <vector>
+
+class QLabel;
+class QLineEdit;
+class QTableView;
+
+namespace faintline {
+
+class EventModel;
+class EventProxy;
+
+/// The events of an analysis: sorted by any column, filtered by a line of text, and followed with N and Shift+N.
+///
+/// The filter is an EventFilter: words ("open", "tentative") and comparisons ("f>1000", "stat>=25"), all of which must hold.
+class EventTable : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit EventTable(QWidget *parent = nullptr);
+
+    /// Keeps the selection where the event of that id still exists. Emits nothing.
+    void setEvents(const std::vector<Event> &events);
+    void setEmptySentence(const QString &sentence);
+
+    int selectedEvent() const;         ///< 0: none
+    std::vector<int> shownIds() const; ///< in the order shown
+    QTableView *table() const { return m_table; }
+    QLineEdit *filter() const { return m_filter; }
+
+    QSize sizeHint() const override { return {420, 220}; }
+
+public slots:
+    /// Selects a row without emitting: the event was chosen elsewhere.
+    void setSelectedEvent(int id);
+    void selectNext();
+    void selectPrevious();
+
+signals:
+    /// Chosen by click, Enter, N or Shift+N: views should go there.
+    void eventActivated(int id);
+
+protected:
+    void keyPressEvent(QKeyEvent *event) override;
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
+private:
+    void step(int by);
+    void activate(int proxyRow);
+    void applyFilter(const QString &text);
+    void updateCount();
+
+    EventModel *m_model;
+    EventProxy *m_proxy;
+    QLineEdit *m_filter;
+    QTableView *m_table;
+    QLabel *m_count;
+    QLabel *m_empty;
+};
+
+} // namespace faintline

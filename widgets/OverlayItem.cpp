@@ -1,0 +1,313 @@
+#include "widgets/OverlayItem.h"
+
+#include "widgets/quantities.h"
+
+#include <qwt_scale_map.h>
+
+#include <QFontMetricsF>
+#include <QPainter>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t labelLimit = 40;   ///< more numbers than this at once say nothing
+    constexpr std::size_t bracketLimit = 80; ///< nor do more brackets
+    const QColor seam(0, 0, 0, 150);
+
+    QPen linePen(const QColor &colour, double width, Qt::PenStyle style = Qt::SolidLine)
+    {
+        QPen pen(colour, width, style, Qt::FlatCap, Qt::RoundJoin);
+        if (style == Qt::CustomDashLine || style == Qt::DashLine)
+            pen.setDashPattern({5.0, 4.0});
+        return pen;
+    }
+
+    /// Four corners of a frame, which hide less of the picture than its sides.
+    QList<QLineF> corners(const QRectF &rect)
+    {
+        const double x = std::min(7.0, 0.4 * rect.width()), y = std::min(7.0, 0.4 * rect.height());
+        const QPointF a = rect.topLeft(), b = rect.topRight(), c = rect.bottomRight(), d = rect.bottomLeft();
+        return {{a, a + QPointF(x, 0)}, {a, a + QPointF(0, y)}, {b, b - QPointF(x, 0)}, {b, b + QPointF(0, y)},
+                {c, c - QPointF(x, 0)}, {c, c - QPointF(0, y)}, {d, d + QPointF(x, 0)}, {d, d - QPointF(0, y)}};
+    }
+
+} // namespace
+
+/// Where and how to draw.
+struct OverlayItem::Canvas {
+    QPainter &painter;
+    const QwtScaleMap &x;
+    const QwtScaleMap &y;
+    QRectF rect;
+    bool isTimeVertical;
+
+    double time(double seconds) const { return isTimeVertical ? y.transform(seconds) : x.transform(seconds); }
+    double frequency(double hz) const { return isTimeVertical ? x.transform(hz) : y.transform(hz); }
+    Span visibleTime() const
+    {
+        const QwtScaleMap &map = isTimeVertical ? y : x;
+        return {std::min(map.s1(), map.s2()), std::max(map.s1(), map.s2())};
+    }
+    QPointF point(double seconds, double hz) const
+    {
+        return isTimeVertical ? QPointF(frequency(hz), time(seconds)) : QPointF(time(seconds), frequency(hz));
+    }
+    QLineF across(double seconds) const
+    {
+        const double t = std::round(time(seconds)) + 0.5;
+        return isTimeVertical ? QLineF(rect.left(), t, rect.right(), t) : QLineF(t, rect.top(), t, rect.bottom());
+    }
+    QLineF along(double hz) const
+    {
+        const double f = std::round(frequency(hz)) + 0.5;
+        return isTimeVertical ? QLineF(f, rect.top(), f, rect.bottom()) : QLineF(rect.left(), f, rect.right(), f);
+    }
+
+    /// A line with its seam.
+    void stroke(const QList<QLineF> &lines, const QPen &pen) const
+    {
+        painter.setPen(QPen(seam, pen.widthF() + 2.0, Qt::SolidLine, Qt::SquareCap));
+        painter.drawLines(lines);
+        painter.setPen(pen);
+        painter.drawLines(lines);
+    }
+
+    /// Small text on a dark plate, kept on the canvas.
+    void label(const QPointF &corner, const QString &text, const QColor &colour,
+               const QColor &plate = QColor(0, 0, 0, 165)) const
+    {
+        painter.setFont(Theme::font(11));
+        const QFontMetricsF metrics(painter.font());
+        QRectF box(corner, QSizeF(std::ceil(metrics.horizontalAdvance(text)) + 8.0, std::ceil(metrics.height()) + 1.0));
+        box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
+        box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(plate);
+        painter.drawRoundedRect(box, 3.0, 3.0);
+        painter.setBrush(Qt::NoBrush);
+        painter.setPen(colour);
+        painter.drawText(box, Qt::AlignCenter, text);
+    }
+};
+
+OverlayItem::OverlayItem() : colours(Theme::colours(Theme::Kind::Light))
+{
+    setZ(10.0);
+}
+
+std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<Track> &followed, const Axis &time,
+                                                    const Axis &frequency)
+{
+    std::vector<Line> lines;
+    lines.reserve(followed.size());
+    for (const Track &track : followed) {
+        Line line{track.id, {}};
+        line.points.reserve(static_cast<qsizetype>(track.points.size()));
+        for (const TrackPoint &point : track.points)
+            line.points << QPointF(
+                time.value(static_cast<double>(point.frame)),
+                frequency.value(static_cast<double>(frequency.count > 0 ? point.cell % frequency.count : point.cell)));
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<TruthLine> &known)
+{
+    std::vector<Line> lines;
+    for (const TruthLine &one : known) {
+        if (one.frequencyHz.empty())
+            continue;
+        Line line;
+        for (std::size_t i = 0; i < one.frequencyHz.size(); ++i) {
+            const double seconds = one.startSeconds + static_cast<double>(i) * one.stepSeconds;
+            line.points << QPointF(std::min(seconds, one.endSeconds), one.frequencyHz[i]);
+        }
+        if (line.points.back().x() < one.endSeconds)
+            line.points << QPointF(one.endSeconds, one.frequencyHz.back());
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::vector<OverlayItem::Mark> OverlayItem::marksOf(const std::vector<Event> &events, const std::vector<Line> &lines,
+                                                    double frameSeconds, double binHz)
+{
+    std::vector<Mark> marks;
+    for (const Event &event : events) {
+        if (event.position.empty())
+            continue;
+        const auto track =
+            std::find_if(lines.begin(), lines.end(), [&](const Line &line) { return line.id == event.id; });
+        const auto hzAt = [&](double seconds) {
+            return event.position.back() + event.driftPerSecond * (seconds - event.detectSeconds);
+        };
+        QPolygonF points{{event.onsetSeconds, hzAt(event.onsetSeconds)}, {event.endSeconds, hzAt(event.endSeconds)}};
+        if (track != lines.end() && !track->points.isEmpty())
+            points = track->points;
+        Mark mark{
+            event.id, {{event.onsetSeconds, event.endSeconds}, {points[0].y(), points[0].y()}}, event.isConfirmed};
+        for (const QPointF &point : points) {
+            mark.box.frequency.low = std::min(mark.box.frequency.low, point.y());
+            mark.box.frequency.high = std::max(mark.box.frequency.high, point.y());
+        }
+        mark.box.time = {mark.box.time.low - 0.5 * frameSeconds, mark.box.time.high + 0.5 * frameSeconds};
+        mark.box.frequency = {mark.box.frequency.low - 0.5 * binHz, mark.box.frequency.high + 0.5 * binHz};
+        marks.push_back(mark);
+    }
+    return marks;
+}
+
+QRectF OverlayItem::rectOf(const Viewport::Box &box, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                           bool isTimeVertical)
+{
+    const Span &x = isTimeVertical ? box.frequency : box.time;
+    const Span &y = isTimeVertical ? box.time : box.frequency;
+    return QRectF(QPointF(xMap.transform(x.low), yMap.transform(y.low)),
+                  QPointF(xMap.transform(x.high), yMap.transform(y.high)))
+        .normalized();
+}
+
+QRectF OverlayItem::frameOf(const QRectF &rect)
+{
+    constexpr double room = 4.0, smallest = 13.0;
+    QRectF frame = rect.adjusted(-room, -room, room, room);
+    const double x = std::max(smallest - frame.width(), 0.0) / 2.0, y = std::max(smallest - frame.height(), 0.0) / 2.0;
+    return frame.adjusted(-x, -y, x, y);
+}
+
+void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                       const QRectF &canvasRect) const
+{
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    const Canvas canvas{*painter, xMap, yMap, canvasRect, isTimeVertical};
+    if (hasTruth)
+        drawLines(canvas, truth, linePen(colours.truth, 1.0, Qt::DashLine));
+    if (hasTracks)
+        drawLines(canvas, tracks, linePen(colours.track, 1.0));
+    drawHarmonics(canvas);
+    drawSelection(canvas);
+    drawCursor(canvas);
+    if (hasEvents)
+        drawEvents(canvas);
+    painter->restore();
+}
+
+void OverlayItem::drawLines(const Canvas &canvas, const std::vector<Line> &lines, const QPen &pen) const
+{
+    const Span visible = canvas.visibleTime();
+    for (const Line &line : lines) {
+        // The visible part with one point more at either end; a point a pixel is enough.
+        const auto isBefore = [](const QPointF &point, double seconds) { return point.x() < seconds; };
+        auto first = std::lower_bound(line.points.begin(), line.points.end(), visible.low, isBefore);
+        auto last = std::lower_bound(first, line.points.end(), visible.high, isBefore);
+        if (first != line.points.begin())
+            --first;
+        if (last != line.points.end())
+            ++last;
+        QPolygonF polygon;
+        for (auto point = first; point != last; ++point) {
+            const QPointF position = canvas.point(point->x(), point->y());
+            if (polygon.isEmpty() || point + 1 == last || (position - polygon.back()).manhattanLength() >= 2.5)
+                polygon << position;
+        }
+        if (!polygon.boundingRect().adjusted(-4, -4, 4, 4).intersects(canvas.rect))
+            continue;
+        canvas.painter.setPen(QPen(seam, pen.widthF() + 1.6, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin));
+        canvas.painter.drawPolyline(polygon);
+        canvas.painter.setPen(pen);
+        canvas.painter.drawPolyline(polygon);
+    }
+}
+
+void OverlayItem::drawEvents(const Canvas &canvas) const
+{
+    // Where there are many in sight their brackets would hide what they mark: the tracks alone are clearer.
+    const auto rectOfMark = [&](const Mark &mark) {
+        return frameOf(rectOf(mark.box, canvas.x, canvas.y, isTimeVertical));
+    };
+    const auto inSight = static_cast<std::size_t>(std::count_if(
+        marks.begin(), marks.end(), [&](const Mark &mark) { return rectOfMark(mark).intersects(canvas.rect); }));
+    const bool areLabelled = inSight <= labelLimit;
+    const auto drawOne = [&](const Mark &mark) {
+        const bool isSelected = mark.id == selectedEvent;
+        const QRectF rect = rectOfMark(mark);
+        if (!rect.intersects(canvas.rect) || (inSight > bracketLimit && hasTracks && !isSelected))
+            return;
+        QColor colour = isSelected ? colours.selectedEvent : colours.event;
+        if (!mark.isConfirmed && !isSelected)
+            colour.setAlpha(150);
+        canvas.stroke(corners(rect), linePen(colour, isSelected ? 2.0 : 1.4));
+        if (!areLabelled && !isSelected)
+            return;
+        const QPointF corner(rect.right() + 3.0, std::max(rect.top() - 1.0, canvas.rect.top() + 2.0));
+        if (isSelected)
+            canvas.label(corner, QString::number(mark.id), QColor(0x10141a), colours.selectedEvent);
+        else
+            canvas.label(corner, QString::number(mark.id), colour);
+    };
+    for (const Mark &mark : marks)
+        if (mark.id != selectedEvent)
+            drawOne(mark);
+    for (const Mark &mark : marks)
+        if (mark.id == selectedEvent)
+            drawOne(mark);
+}
+
+void OverlayItem::drawHarmonics(const Canvas &canvas) const
+{
+    for (std::size_t i = 0; i < harmonicsHz.size(); ++i) {
+        const QLineF line = canvas.along(harmonicsHz[i]);
+        if (!canvas.rect.contains(line.center()))
+            continue;
+        canvas.stroke({line}, linePen(colours.cursor, 1.0, Qt::DashLine));
+        canvas.label(line.p1() + QPointF(4.0, 4.0), QString::number(i + 1) + QStringLiteral("×"), colours.cursor);
+    }
+}
+
+void OverlayItem::drawCursor(const Canvas &canvas) const
+{
+    if (!cursor)
+        return;
+    QColor colour = colours.cursor;
+    colour.setAlpha(210);
+    // The crossing itself stays free: that is the cell one wants to see.
+    constexpr double gap = 9.0;
+    const QLineF across = canvas.across(cursor->seconds), along = canvas.along(cursor->hz);
+    const QPointF centre = isTimeVertical ? QPointF(along.x1(), across.y1()) : QPointF(across.x1(), along.y1());
+    canvas.stroke({{canvas.rect.left(), centre.y(), centre.x() - gap, centre.y()},
+                   {centre.x() + gap, centre.y(), canvas.rect.right(), centre.y()},
+                   {centre.x(), canvas.rect.top(), centre.x(), centre.y() - gap},
+                   {centre.x(), centre.y() + gap, centre.x(), canvas.rect.bottom()}},
+                  linePen(colour, 1.0));
+}
+
+void OverlayItem::drawSelection(const Canvas &canvas) const
+{
+    const auto drawBox = [&](const Viewport::Box &box) {
+        const QRectF rect = rectOf(box, canvas.x, canvas.y, isTimeVertical);
+        QColor fill = colours.cursor;
+        fill.setAlpha(36);
+        canvas.painter.fillRect(rect, fill);
+        canvas.stroke({{rect.topLeft(), rect.topRight()},
+                       {rect.topRight(), rect.bottomRight()},
+                       {rect.bottomRight(), rect.bottomLeft()},
+                       {rect.bottomLeft(), rect.topLeft()}},
+                      linePen(colours.cursor, 1.0, Qt::DashLine));
+        return rect;
+    };
+    if (selection) {
+        const QRectF rect = drawBox(*selection);
+        if (rect.intersects(canvas.rect))
+            canvas.label(rect.bottomLeft() + QPointF(0.0, 4.0), selectionText, colours.cursor);
+    }
+    if (rubber)
+        drawBox(*rubber);
+}
+
+} // namespace faintline

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <QWidget>
+
+#include <optional>
+
+class QLabel;
+
+namespace faintline {
+
+/// One line of figures about the cell under the pointer. Every figure keeps its place, so the eye need not search.
+class ReadOut : public QWidget
+{
+    Q_OBJECT
+
+public:
+    /// What is unknown shows as a dash.
+    struct Reading {
+        std::optional<double> seconds; ///< from the first sample
+        std::optional<double> hz;
+        std::optional<double> levelDb; ///< over the noise's mean
+        std::optional<double> statisticNats;
+        std::optional<double> slopeHzPerSecond; ///< of the best path ending here
+    };
+
+    explicit ReadOut(QWidget *parent = nullptr);
+
+    /// UTC of the first sample; without it only relative time is shown.
+    void setStartUnixSeconds(std::optional<double> unixSeconds);
+    /// Digits are chosen so that neighbouring cells differ.
+    void setResolution(double frameSeconds, double binHz);
+    void setReading(const Reading &reading);
+    void clear() { setReading({}); }
+
+    /// The line as text, as it would be copied.
+    QString text() const;
+
+protected:
+    void contextMenuEvent(QContextMenuEvent *event) override;
+
+private:
+    struct Item {
+        QWidget *box = nullptr;
+        QLabel *value = nullptr;
+    };
+    Item addItem(const QString &name, const QString &widest);
+
+    Item m_time, m_utc, m_frequency, m_level, m_statistic, m_slope;
+    std::optional<double> m_startUnixSeconds;
+    double m_frameSeconds = 0.01;
+    double m_binHz = 0.1;
+    Reading m_reading;
+};
+
+} // namespace faintline

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "base/Field.h"
+
+#include <QWidget>
+
+class QLabel;
+class QToolButton;
+
+namespace faintline {
+
+/// One setting in a form: label, editor, unit, and a button that goes back to the default.
+class SettingRow : public QWidget
+{
+    Q_OBJECT
+
+public:
+    SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, QWidget *parent = nullptr);
+
+    const FieldInfo &info() const { return m_info; }
+    QWidget *editor() const { return m_editor; }
+    QLabel *label() const { return m_label; }
+
+    void setValue(const FieldValue &value);
+    void setError(const QString &sentence);
+    void setNote(const QString &note);
+    void setLabelWidth(int width);
+
+signals:
+    void edited(const faintline::FieldValue &value);
+
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
+    void changeEvent(QEvent *event) override;
+
+private:
+    void makeEditor();
+    void acceptText(const QString &text);
+    void accept(const FieldValue &value);
+    void showMessage();
+
+    FieldInfo m_info;
+    FieldValue m_default;
+    FieldValue m_value;
+    QLabel *m_label;
+    QWidget *m_editor = nullptr;
+    QToolButton *m_reset;
+    QLabel *m_message; ///< error, or otherwise note
+    QString m_error;
+    QString m_note;
+};
+
+} // namespace faintline

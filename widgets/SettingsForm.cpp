@@ -1,0 +1,155 @@
+#include "widgets/SettingsForm.h"
+
+#include "widgets/FormSection.h"
+#include "widgets/SettingRow.h"
+#include "widgets/Theme.h"
+#include "widgets/settingWords.h"
+
+#include <QFontMetrics>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int labelWidth = 116;
+
+    QString prefixOf(const QString &name)
+    {
+        return name.section(QLatin1Char('.'), 0, 0);
+    }
+
+} // namespace
+
+SettingsForm::SettingsForm(QWidget *parent) : QWidget(parent), m_scroll(new QScrollArea), m_error(new QLabel)
+{
+    auto *content = new QWidget;
+    m_layout = new QVBoxLayout(content);
+    m_layout->setContentsMargins(4, 2, 4, 4);
+    m_layout->setSpacing(2);
+    for (const auto &field : AnalysisSettings::fields())
+        addRow(field);
+    m_layout->addStretch(1);
+
+    m_scroll->setWidget(content);
+    m_scroll->setWidgetResizable(true);
+    m_scroll->setFrameShape(QFrame::NoFrame);
+    m_scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_scroll->setFocusPolicy(Qt::NoFocus);
+    m_error->setWordWrap(true);
+    m_error->setContentsMargins(8, 2, 8, 2);
+    m_error->hide();
+    auto *reset = new QPushButton(tr("Reset all to defaults"));
+    connect(reset, &QPushButton::clicked, this, &SettingsForm::resetRequested);
+
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 4);
+    layout->setSpacing(4);
+    layout->addWidget(m_scroll, 1);
+    layout->addWidget(m_error);
+    layout->addWidget(reset, 0, Qt::AlignHCenter);
+    m_scroll->setMinimumWidth(content->minimumSizeHint().width() + 14);
+    setAccessibleName(tr("Settings"));
+    setSettings(m_settings);
+}
+
+SettingsForm::~SettingsForm() = default;
+
+FormSection &SettingsForm::section(const QString &prefix)
+{
+    FormSection *&section = m_sections[prefix];
+    if (!section) {
+        section = new FormSection(stageLabel(prefix));
+        m_layout->addWidget(section);
+    }
+    return *section;
+}
+
+void SettingsForm::addRow(const Field<AnalysisSettings> &field)
+{
+    const AnalysisSettings defaults;
+    const auto value = field.get(defaults);
+    if (!value)
+        return;
+    const QString name = QString::fromStdString(field.name);
+    auto *row = new SettingRow(field, settingLabel(name), *value);
+    row->setLabelWidth(labelWidth);
+    connect(row, &SettingRow::edited, this,
+            [this, name](const FieldValue &edited) { emit settingEdited(name, edited); });
+    section(prefixOf(name)).addRow(row, isSeldomUsed(name));
+    m_rows[name] = row;
+}
+
+void SettingsForm::setSettings(const AnalysisSettings &settings)
+{
+    m_settings = settings;
+    clearErrors();
+    for (const auto &field : AnalysisSettings::fields()) {
+        SettingRow *row = m_rows.value(QString::fromStdString(field.name));
+        const auto value = field.get(settings);
+        if (!row)
+            continue;
+        row->setVisible(value.has_value());
+        if (value)
+            row->setValue(*value);
+    }
+}
+
+void SettingsForm::setError(const QString &name, const QString &sentence)
+{
+    if (SettingRow *row = m_rows.value(name)) {
+        row->setError(sentence);
+        if (!sentence.isEmpty())
+            section(prefixOf(name)).reveal(row);
+        return;
+    }
+    QPalette palette = m_error->palette();
+    palette.setColor(QPalette::WindowText, Theme::colours(*this).error);
+    m_error->setPalette(palette);
+    m_error->setText(sentence);
+    m_error->setVisible(!sentence.isEmpty());
+}
+
+void SettingsForm::clearErrors()
+{
+    for (SettingRow *row : std::as_const(m_rows))
+        row->setError(QString());
+    m_error->hide();
+}
+
+void SettingsForm::setNote(const QString &name, const QString &note)
+{
+    if (SettingRow *row = m_rows.value(name))
+        row->setNote(note);
+}
+
+void SettingsForm::reveal(const QString &name)
+{
+    SettingRow *row = m_rows.value(name);
+    if (!row)
+        return;
+    section(prefixOf(name)).reveal(row);
+    m_scroll->ensureWidgetVisible(row);
+    row->editor()->setFocus(Qt::OtherFocusReason);
+}
+
+QWidget *SettingsForm::editor(const QString &name) const
+{
+    const SettingRow *row = m_rows.value(name);
+    return row ? row->editor() : nullptr;
+}
+
+QString SettingsForm::label(const QString &name)
+{
+    return settingLabel(name);
+}
+
+QString SettingsForm::sectionLabel(const QString &prefix)
+{
+    return stageLabel(prefix);
+}
+
+} // namespace faintline

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <QColor>
+#include <QFont>
+#include <QPalette>
+
+class QApplication;
+class QWidget;
+class QwtPlot;
+
+namespace faintline {
+
+/// How the program looks: Fusion, our own palettes, the bundled fonts; the same pixels on every machine.
+///
+/// There is no current theme to ask for: the palette carries it, so a widget finds its colours with `Theme::colours(*this)`
+/// and restyles itself when its palette changes.
+///
+///     Theme::prepareEnvironment();          // before QApplication
+///     QApplication application(argc, argv);
+///     Theme::apply(Theme::Kind::Dark);
+class Theme
+{
+public:
+    enum class Kind { Light, Dark };
+
+    /// What a palette has no role for.
+    struct Colours {
+        QColor canvas; ///< behind curves
+        QColor grid;
+        QColor frame; ///< hair lines round canvases and sections
+        QColor text;
+        QColor faintText; ///< units, hints, disabled sections
+        QColor accent;    ///< selection, focus, the visible span
+        QColor threshold;
+        QColor event;
+        QColor selectedEvent;
+        QColor track;
+        QColor truth;
+        QColor cursor;
+        QColor contour; ///< round the cells above the threshold
+        QColor error;
+        QColor curves[4]; ///< distinguishable without colour vision, in this order
+    };
+
+    /// Removes the environment variables that would change sizes or style. Call before QApplication is made.
+    static void prepareEnvironment();
+
+    /// Style, palette, fonts, C locale, steady text cursor. May be called again to change the theme of a running program.
+    static void apply(Kind kind);
+
+    static QPalette palette(Kind kind);
+    static Kind kind(const QPalette &palette);
+
+    static const Colours &colours(Kind kind);
+    static const Colours &colours(const QWidget &widget);
+
+    static QFont font(int pixelSize = 13);
+    static QFont boldFont(int pixelSize = 13);
+    static QFont monoFont(int pixelSize = 13); ///< figures that must stay in their columns
+    static QFont plotFont();                   ///< tick labels
+    static QFont plotTitleFont();              ///< axis titles
+
+    /// Makes a Qwt plot look like the rest: canvas, thin frame, short ticks, our fonts, margins.
+    static void style(QwtPlot &plot);
+};
+
+} // namespace faintline

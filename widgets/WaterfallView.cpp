@@ -1,0 +1,780 @@
+#include "widgets/WaterfallView.h"
+
+#include "widgets/CanvasSentence.h"
+#include "widgets/NumberScaleDraw.h"
+#include "widgets/OverlayItem.h"
+#include "widgets/RasterItem.h"
+#include "widgets/Theme.h"
+#include "widgets/TimeScaleDraw.h"
+#include "widgets/quantities.h"
+#include "widgets/rasterise.h"
+#include "widgets/scaleTicks.h"
+#include "widgets/steadyAxes.h"
+
+#include <qwt_plot_grid.h>
+#include <qwt_plot_layout.h>
+#include <qwt_scale_map.h>
+#include <qwt_scale_widget.h>
+#include <qwt_text.h>
+
+#include <QActionGroup>
+#include <QContextMenuEvent>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double longSeconds = 600.0; ///< recordings from here on are labelled h:min:s
+    constexpr double scrollShare = 0.1;   ///< of what is visible, per notch of the wheel
+    constexpr double zoomPerNotch = 1.25;
+    constexpr double clickSlop = 4.0; ///< pixels a click may wander
+    constexpr int harmonicCount = 12;
+
+    double notchesOf(const QWheelEvent &event)
+    {
+        // Some platforms turn the wheel's direction while Shift or Alt is held.
+        const QPoint delta = event.angleDelta();
+        return (delta.y() != 0 ? delta.y() : delta.x()) / 120.0;
+    }
+
+    /// "Frequency", and what a value of that axis is divided by to be shown.
+    FrequencyUnit shownUnit(const Axis &axis)
+    {
+        if (axis.unit == "Hz")
+            return frequencyUnit(std::max(std::abs(axis.first), std::abs(axis.last())));
+        return {QString::fromStdString(axis.unit), 1.0};
+    }
+
+    QString titleOf(const Axis &axis)
+    {
+        QString name = QString::fromStdString(axis.name);
+        if (!name.isEmpty())
+            name[0] = name[0].toUpper();
+        const QString unit = shownUnit(axis).name;
+        return unit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, unit);
+    }
+
+} // namespace
+
+WaterfallView::WaterfallView(const QString &heading, QWidget *parent)
+    : QwtPlot(parent), m_heading(heading), m_raster(new RasterItem), m_overlay(new OverlayItem),
+      m_sentence(new CanvasSentence), m_grid(new QwtPlotGrid), m_colourMap(&ColourMap::named(ColourMap::defaultName()))
+{
+    m_sentence->text = tr("Open a recording or choose a scenario to see something here.");
+    m_sentence->pixelSize = 14;
+    m_sentence->attach(this);
+    m_raster->attach(this);
+    m_grid->setZ(5.0);
+    m_grid->attach(this);
+    m_overlay->attach(this);
+    setFocusPolicy(Qt::StrongFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    canvas()->setFocusPolicy(Qt::NoFocus);
+    canvas()->setMouseTracking(true);
+    canvas()->setCursor(Qt::CrossCursor);
+    canvas()->installEventFilter(this);
+    setAccessibleName(tr("%1 waterfall").arg(heading));
+    layAxes();
+}
+
+WaterfallView::~WaterfallView() = default;
+
+// ---- what is shown -------------------------------------------------------------------------------------------------
+
+void WaterfallView::setViewport(Viewport *viewport)
+{
+    if (m_viewport)
+        m_viewport->disconnect(this);
+    m_viewport = viewport;
+    if (viewport) {
+        connect(viewport, &Viewport::spanChanged, this, &WaterfallView::followSpan);
+        connect(viewport, &Viewport::extentsChanged, this, &WaterfallView::layAxes);
+        connect(viewport, &Viewport::cursorChanged, this, &WaterfallView::followCursor);
+        connect(viewport, &Viewport::selectionChanged, this, &WaterfallView::updateContent);
+    }
+    layAxes();
+    followCursor();
+}
+
+void WaterfallView::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
+{
+    const bool isOtherKind = picture && m_picture && picture->scale().kind() != m_picture->scale().kind();
+    m_picture = std::move(picture);
+    m_frequency = frequency;
+    m_raster->setPicture(m_picture, frequency);
+    m_histogramKey = {-1, 0};
+    if (!m_picture) {
+        m_histogram.clear();
+        emit histogramChanged();
+    }
+    if (isOtherKind)
+        m_isRangeAutomatic = true;
+    layAxes();
+    updateMarks();
+}
+
+Viewport::Box WaterfallView::extents(const PeakPyramid &picture, const Axis &frequency)
+{
+    const Axis &time = picture.time();
+    return {{time.value(-0.5), time.value(static_cast<double>(picture.frameCount()) - 0.5)},
+            {frequency.value(-0.5), frequency.value(static_cast<double>(frequency.count) - 0.5)}};
+}
+
+void WaterfallView::setEmptySentence(const QString &sentence)
+{
+    m_sentence->text = sentence;
+    replot();
+}
+
+QString WaterfallView::valueUnit() const
+{
+    return m_picture && m_picture->scale().kind() == ByteScale::Kind::ScoreNats ? tr("nat") : tr("dB");
+}
+
+std::optional<double> WaterfallView::valueAt(double seconds, double hz) const
+{
+    if (!m_picture || m_picture->rowCount(0) == 0)
+        return {};
+    const Viewport::Box box = extents(*m_picture, m_frequency);
+    if (!box.time.contains(seconds) || !box.frequency.contains(hz))
+        return {};
+    const double frame = std::floor(m_picture->time().position(seconds) + 0.5);
+    const Index row =
+        std::clamp<Index>(static_cast<Index>(frame) / m_picture->framesPerRow(0), 0, m_picture->rowCount(0) - 1);
+    return m_picture->scale().value(m_picture->row(0, row)[static_cast<std::size_t>(m_frequency.nearest(hz))]);
+}
+
+Span WaterfallView::visibleTime() const
+{
+    if (m_viewport && !m_viewport->isEmpty())
+        return m_viewport->time();
+    return m_picture ? extents(*m_picture, m_frequency).time : Span{0.0, 1.0};
+}
+
+Span WaterfallView::visibleHz() const
+{
+    if (m_viewport && !m_viewport->isEmpty())
+        return m_viewport->frequency();
+    return m_picture ? extents(*m_picture, m_frequency).frequency : Span{0.0, 1.0};
+}
+
+Viewport::Point WaterfallView::pointAt(const QPointF &position) const
+{
+    const double x = invTransform(QwtAxis::XBottom, position.x()), y = invTransform(QwtAxis::YLeft, position.y());
+    return isTimeVertical() ? Viewport::Point{y, x} : Viewport::Point{x, y};
+}
+
+QPointF WaterfallView::positionOf(const Viewport::Point &point) const
+{
+    const double time = canvasMap(timeAxis()).transform(point.seconds), hz = canvasMap(hzAxis()).transform(point.hz);
+    return isTimeVertical() ? QPointF(hz, time) : QPointF(time, hz);
+}
+
+// ---- axes ----------------------------------------------------------------------------------------------------------
+
+void WaterfallView::layAxes()
+{
+    const bool isEmpty = !m_picture;
+    auto *timeDraw = new TimeScaleDraw;
+    const Span fullTime = m_viewport && !m_viewport->isEmpty() ? m_viewport->full().time : visibleTime();
+    timeDraw->setClock(fullTime.high > longSeconds);
+    auto *hzDraw = new NumberScaleDraw;
+    hzDraw->setUnit(shownUnit(m_frequency).hz);
+    setAxisScaleDraw(timeAxis(), timeDraw);
+    setAxisScaleDraw(hzAxis(), hzDraw);
+    setAxisTitle(timeAxis(), timeDraw->isClock() ? tr("Time (h:min:s)") : tr("Time (s)"));
+    setAxisTitle(hzAxis(), titleOf(m_frequency));
+    for (const QwtAxisId axis : {timeAxis(), hzAxis()})
+        setAxisVisible(axis, !isEmpty);
+
+    QwtText title(m_heading);
+    title.setFont(Theme::boldFont(13));
+    title.setRenderFlags(Qt::AlignLeft | Qt::AlignVCenter);
+    title.setColor(Theme::colours(*this).text);
+    setTitle(title);
+    Theme::style(*this);
+    m_grid->setPen(Theme::colours(Theme::Kind::Dark).grid, 1.0);
+    m_raster->setTimeVertical(isTimeVertical());
+    m_overlay->isTimeVertical = isTimeVertical();
+    m_overlay->colours = Theme::colours(*this);
+    m_sentence->colour = m_overlay->colours.faintText;
+    followSpan();
+    updateContent();
+}
+
+void WaterfallView::followSpan()
+{
+    const Span time = visibleTime(), hz = visibleHz();
+    const QSize size = canvas()->contentsRect().size();
+    const int along = isTimeVertical() ? size.height() : size.width();
+    const int across = isTimeVertical() ? size.width() : size.height();
+    auto *timeDraw = static_cast<TimeScaleDraw *>(axisScaleDraw(timeAxis()));
+    auto *hzDraw = static_cast<NumberScaleDraw *>(axisScaleDraw(hzAxis()));
+
+    const int timeSpacing = isTimeVertical() ? 42 : timeDraw->isClock() ? 90 : 60;
+    const QwtScaleDiv timeDiv = timeScaleDiv(time, std::clamp(along / timeSpacing, 1, 12));
+    setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
+    setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
+
+    const Viewport::Box full = m_viewport && !m_viewport->isEmpty() ? m_viewport->full() : Viewport::Box{time, hz};
+    const QString timeLabel = timeDraw->widestLabel(full.time), hzLabel = hzDraw->widestLabel(full.frequency);
+    steadyAxes(*this, isTimeVertical() ? timeLabel : hzLabel, isTimeVertical() ? hzLabel : timeLabel);
+
+    countHistogram();
+    replot();
+}
+
+// ---- colours -------------------------------------------------------------------------------------------------------
+
+void WaterfallView::countHistogram()
+{
+    const QSize size = canvas()->contentsRect().size();
+    if (!m_picture || size.isEmpty() || m_frequency.count == 0)
+        return;
+    const double frames =
+        visibleTime().width() / m_picture->time().step / (isTimeVertical() ? size.height() : size.width());
+    const double cells = visibleHz().width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
+    // By powers of two in frequency and of four in time, so that colours change by steps while one zooms, not all the time.
+    const auto group = static_cast<Index>(std::exp2(std::round(std::log2(std::max(cells, 1.0)))));
+    const std::pair key{m_picture->levelFor(std::max(frames, 1.0)), group};
+    if (key == m_histogramKey)
+        return;
+    m_histogramKey = key;
+    m_histogram = countPixels(*m_picture, frames, static_cast<double>(group));
+    emit histogramChanged();
+    if (m_isRangeAutomatic)
+        applyRange(automaticRange());
+}
+
+Span WaterfallView::automaticRange() const
+{
+    if (!m_picture || m_histogram.empty())
+        return m_range;
+    return faintline::automaticRange(m_picture->scale(), m_histogram);
+}
+
+void WaterfallView::applyRange(const Span &range)
+{
+    m_raster->setColours(*m_colourMap, range);
+    if (range == m_range)
+        return;
+    m_range = range;
+    emit rangeChanged(range.low, range.high);
+}
+
+void WaterfallView::setRange(double low, double high)
+{
+    constexpr double smallest = 0.5;
+    m_isRangeAutomatic = false;
+    applyRange({low, std::max(high, low + smallest)});
+    replot();
+}
+
+void WaterfallView::setAutomaticRange()
+{
+    m_isRangeAutomatic = true;
+    applyRange(automaticRange());
+    replot();
+}
+
+void WaterfallView::stepBlack(int steps)
+{
+    const double step = valueUnit() == tr("dB") ? 1.0 : 0.5;
+    setRange(std::min(m_range.low + steps * step, m_range.high - step), m_range.high);
+}
+
+void WaterfallView::stepWhite(int steps)
+{
+    const double step = valueUnit() == tr("dB") ? 1.0 : 0.5;
+    setRange(m_range.low, std::max(m_range.high + steps * step, m_range.low + step));
+}
+
+void WaterfallView::setColourMap(const QString &name)
+{
+    const ColourMap &map = ColourMap::named(name);
+    if (&map == m_colourMap)
+        return;
+    m_colourMap = &map;
+    m_raster->setColours(map, m_range);
+    replot();
+    emit colourMapChanged(map.name());
+}
+
+void WaterfallView::cycleColourMap()
+{
+    setColourMap(ColourMap::next(m_colourMap->name()));
+}
+
+// ---- orientation, layers, overlays ---------------------------------------------------------------------------------
+
+void WaterfallView::setOrientation(Orientation orientation)
+{
+    if (orientation == m_orientation)
+        return;
+    m_orientation = orientation;
+    layAxes();
+    emit orientationChanged(orientation);
+}
+
+void WaterfallView::cycleOrientation()
+{
+    setOrientation(static_cast<Orientation>((static_cast<int>(m_orientation) + 1) % 3));
+}
+
+void WaterfallView::setThreshold(double nats)
+{
+    const std::optional<double> threshold = std::isnan(nats) ? std::nullopt : std::optional(nats);
+    if (threshold == m_threshold)
+        return;
+    m_threshold = threshold;
+    updateContent();
+    emit thresholdChanged(nats);
+}
+
+void WaterfallView::setEvents(const std::vector<Event> &events)
+{
+    m_events = events;
+    updateMarks();
+}
+
+void WaterfallView::setTracks(const std::vector<Track> &tracks, const Axis &time)
+{
+    m_overlay->tracks = OverlayItem::linesOf(tracks, time, m_frequency);
+    updateMarks();
+}
+
+void WaterfallView::setTruth(const std::vector<TruthLine> &lines)
+{
+    m_overlay->truth = OverlayItem::linesOf(lines);
+    replot();
+}
+
+void WaterfallView::setSelectedEvent(int id)
+{
+    m_selectedEvent = id;
+    updateContent();
+}
+
+void WaterfallView::setLayer(Layer layer, bool isOn)
+{
+    if (m_layers.testFlag(layer) == isOn)
+        return;
+    m_layers.setFlag(layer, isOn);
+    updateContent();
+    emit layersChanged();
+}
+
+void WaterfallView::setMeasuring(bool isOn)
+{
+    if (m_isMeasuring == isOn)
+        return;
+    m_isMeasuring = isOn;
+    if (!isOn && m_viewport)
+        m_viewport->clearSelection();
+    emit measuringChanged(isOn);
+}
+
+void WaterfallView::setHarmonics(bool isOn)
+{
+    m_hasHarmonics = isOn;
+    updateContent();
+}
+
+void WaterfallView::updateMarks()
+{
+    const double frame = m_picture ? m_picture->time().step : 0.0;
+    m_overlay->marks = OverlayItem::marksOf(m_events, m_overlay->tracks, frame, m_frequency.step);
+    updateContent();
+}
+
+void WaterfallView::updateContent()
+{
+    m_grid->setVisible(m_picture && m_layers.testFlag(GridLayer));
+    m_raster->setContour(m_layers.testFlag(ThresholdLayer) ? m_threshold : std::nullopt,
+                         m_overlay->colours.contour.rgb());
+
+    m_sentence->setVisible(!m_picture);
+    m_overlay->setVisible(m_picture != nullptr);
+
+    OverlayItem &overlay = *m_overlay;
+    overlay.hasEvents = m_layers.testFlag(EventLayer);
+    overlay.hasTracks = m_layers.testFlag(TrackLayer);
+    overlay.hasTruth = m_layers.testFlag(TruthLayer);
+    overlay.selectedEvent = m_selectedEvent;
+    overlay.cursor = m_viewport && m_layers.testFlag(CursorLayer) ? m_viewport->cursor() : std::nullopt;
+    overlay.selection = m_viewport ? m_viewport->selection() : std::nullopt;
+    overlay.selectionText = overlay.selection ? selectionText(*overlay.selection) : QString();
+    overlay.harmonicsHz.clear();
+    if (m_hasHarmonics && m_viewport && m_viewport->cursor())
+        for (int i = 1; i <= harmonicCount; ++i)
+            overlay.harmonicsHz.push_back(i * m_viewport->cursor()->hz);
+    replot();
+}
+
+QString WaterfallView::selectionText(const Viewport::Box &box) const
+{
+    const double seconds = box.time.width(), hz = box.frequency.width();
+    QStringList words{tr("Δt %1").arg(secondsText(seconds, 0.01 * seconds)), tr("Δf %1").arg(hertzText(hz, 0.01 * hz))};
+    if (seconds > 0.0)
+        words << tr("%1 Hz/s").arg(powerText(hz / seconds, 3));
+    return words.join(QStringLiteral(" · "));
+}
+
+void WaterfallView::followCursor()
+{
+    QString text = tr("Arrow keys move the cursor, Ctrl and wheel zoom, 0 shows all.");
+    if (m_viewport && m_viewport->cursor()) {
+        const Viewport::Point &cursor = *m_viewport->cursor();
+        const auto value = valueAt(cursor.seconds, cursor.hz);
+        text = tr("Cursor at %1, %2").arg(secondsText(cursor.seconds, 0.01), hertzText(cursor.hz, 0.1));
+        if (value)
+            text += tr(", %1 %2").arg(numberText(*value, 1), valueUnit());
+    }
+    setAccessibleDescription(text);
+    updateContent();
+}
+
+int WaterfallView::eventAt(const QPointF &position) const
+{
+    int nearest = 0;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const OverlayItem::Mark &mark : m_overlay->marks) {
+        const QRectF frame = OverlayItem::frameOf(
+            OverlayItem::rectOf(mark.box, canvasMap(QwtAxis::XBottom), canvasMap(QwtAxis::YLeft), isTimeVertical()));
+        const double area = frame.width() * frame.height();
+        if (frame.contains(position) && area < smallest) {
+            smallest = area;
+            nearest = mark.id;
+        }
+    }
+    return nearest;
+}
+
+// ---- mouse ---------------------------------------------------------------------------------------------------------
+
+bool WaterfallView::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched != canvas() || !m_picture || !m_viewport)
+        return QwtPlot::eventFilter(watched, event);
+    switch (event->type()) {
+    case QEvent::MouseButtonPress:
+        pressed(*static_cast<QMouseEvent *>(event));
+        return true;
+    case QEvent::MouseMove:
+        moved(*static_cast<QMouseEvent *>(event));
+        return true;
+    case QEvent::MouseButtonRelease:
+        released(*static_cast<QMouseEvent *>(event));
+        return true;
+    case QEvent::MouseButtonDblClick:
+        if (const int id = eventAt(static_cast<QMouseEvent *>(event)->position()))
+            emit eventActivated(id);
+        return true;
+    case QEvent::Leave:
+        emit hoverEnded();
+        break;
+    default:
+        break;
+    }
+    return QwtPlot::eventFilter(watched, event);
+}
+
+void WaterfallView::pressed(const QMouseEvent &event)
+{
+    setFocus(Qt::MouseFocusReason);
+    if (event.button() != Qt::LeftButton && event.button() != Qt::MiddleButton)
+        return;
+    m_dragStart = event.position();
+    m_dragVisible = m_viewport->visible();
+    m_drag = event.button() == Qt::MiddleButton              ? Drag::Pan
+             : event.modifiers().testFlag(Qt::ShiftModifier) ? Drag::Zoom
+             : m_isMeasuring                                 ? Drag::Measure
+                                                             : Drag::Press;
+}
+
+Viewport::Box WaterfallView::draggedBox(const QPointF &to) const
+{
+    const Viewport::Point a = pointAt(m_dragStart), b = pointAt(to);
+    const Viewport::Box &full = m_viewport->full();
+    const auto spanOf = [](double p, double q, const Span &limits) {
+        return Span{std::max(std::min(p, q), limits.low), std::min(std::max(p, q), limits.high)};
+    };
+    return {spanOf(a.seconds, b.seconds, full.time), spanOf(a.hz, b.hz, full.frequency)};
+}
+
+void WaterfallView::moved(const QMouseEvent &event)
+{
+    hover(event.position());
+    const QPointF way = event.position() - m_dragStart;
+    if (m_drag == Drag::Press && way.manhattanLength() >= clickSlop) {
+        m_drag = Drag::Pan;
+        canvas()->setCursor(Qt::ClosedHandCursor);
+    }
+    if (m_drag == Drag::Pan) {
+        const QwtScaleMap time = canvasMap(timeAxis()), hz = canvasMap(hzAxis());
+        const auto travel = [](const QwtScaleMap &map, double from, double to) {
+            return map.invTransform(to) - map.invTransform(from);
+        };
+        const double seconds = isTimeVertical() ? travel(time, m_dragStart.y(), event.position().y())
+                                                : travel(time, m_dragStart.x(), event.position().x());
+        const double shift = isTimeVertical() ? travel(hz, m_dragStart.x(), event.position().x())
+                                              : travel(hz, m_dragStart.y(), event.position().y());
+        m_viewport->pan(m_dragVisible.time.low - seconds - m_viewport->time().low,
+                        m_dragVisible.frequency.low - shift - m_viewport->frequency().low);
+    } else if (m_drag == Drag::Zoom) {
+        m_overlay->rubber = draggedBox(event.position());
+        replot();
+    } else if (m_drag == Drag::Measure) {
+        m_viewport->setSelection(draggedBox(event.position()));
+    }
+}
+
+void WaterfallView::released(const QMouseEvent &event)
+{
+    const Drag drag = std::exchange(m_drag, Drag::None);
+    const bool isClick = (event.position() - m_dragStart).manhattanLength() < clickSlop;
+    canvas()->setCursor(Qt::CrossCursor);
+    m_overlay->rubber.reset();
+    if (drag == Drag::Zoom && !isClick) {
+        const Viewport::Box box = draggedBox(event.position());
+        m_viewport->zoomTo(box.time, box.frequency);
+    } else if (drag == Drag::Press || (drag == Drag::Measure && isClick)) {
+        m_viewport->setCursor(pointAt(event.position()));
+    }
+    replot();
+}
+
+void WaterfallView::hover(const QPointF &position)
+{
+    const Viewport::Point point = pointAt(position);
+    if (const auto value = valueAt(point.seconds, point.hz))
+        emit hovered(point.seconds, point.hz, *value);
+    else
+        emit hoverEnded();
+}
+
+void WaterfallView::scroll(Qt::Orientation direction, double notches)
+{
+    const bool isTime = (direction == Qt::Vertical) == isTimeVertical();
+    const Span span = isTime ? m_viewport->time() : m_viewport->frequency();
+    // The wheel away from oneself goes up or to the left; up is later with the newest on top, and higher in frequency.
+    const bool isUpward = direction == Qt::Vertical && (isTime ? m_orientation == Orientation::NewestOnTop : true);
+    const double shift = notches * scrollShare * span.width() * (isUpward ? 1.0 : -1.0);
+    m_viewport->pan(isTime ? shift : 0.0, isTime ? 0.0 : shift);
+}
+
+void WaterfallView::wheelEvent(QWheelEvent *event)
+{
+    if (!m_picture || !m_viewport) {
+        event->ignore();
+        return;
+    }
+    const QPoint position = event->position().toPoint();
+    const Viewport::Point point = pointAt(canvas()->mapFrom(this, event->position()));
+    const double notches = notchesOf(*event);
+    const auto isOver = [&](QwtAxisId axis) {
+        return isAxisVisible(axis) && axisWidget(axis)->geometry().contains(position);
+    };
+    if (isOver(timeAxis()))
+        m_viewport->zoomAt(std::pow(zoomPerNotch, notches), point, Viewport::Axes::Time);
+    else if (isOver(hzAxis()))
+        m_viewport->zoomAt(std::pow(zoomPerNotch, notches), point, Viewport::Axes::Frequency);
+    else if (event->modifiers().testFlag(Qt::ControlModifier))
+        m_viewport->zoomAt(std::pow(zoomPerNotch, notches), point);
+    else if (event->modifiers().testFlag(Qt::ShiftModifier))
+        scroll(isTimeVertical() ? Qt::Horizontal : Qt::Vertical, notches);
+    else
+        scroll(isTimeVertical() ? Qt::Vertical : Qt::Horizontal, notches);
+    event->accept();
+}
+
+// ---- keyboard ------------------------------------------------------------------------------------------------------
+
+void WaterfallView::moveCursor(int right, int up, int cells)
+{
+    const auto &cursor = m_viewport->cursor();
+    Viewport::Point point =
+        cursor ? *cursor : Viewport::Point{m_viewport->time().middle(), m_viewport->frequency().middle()};
+    const int timeSteps = isTimeVertical() ? (m_orientation == Orientation::NewestOnTop ? up : -up) : right;
+    const int hzSteps = isTimeVertical() ? right : up;
+    // From cell centre to cell centre, so that every key press reads another cell.
+    const auto moved = [](const Axis &axis, Index count, double value, Index by) {
+        const auto index = static_cast<Index>(std::lround(axis.position(value)));
+        return axis.value(static_cast<double>(std::clamp<Index>(index + by, 0, count - 1)));
+    };
+    point.seconds = moved(m_picture->time(), m_picture->frameCount(), point.seconds, timeSteps * cells);
+    point.hz = moved(m_frequency, m_frequency.count, point.hz, hzSteps * cells);
+    m_viewport->setCursor(point);
+
+    const Span &time = m_viewport->time(), &hz = m_viewport->frequency();
+    const auto beyond = [](const Span &span, double value) {
+        return value < span.low ? value - span.low : value > span.high ? value - span.high : 0.0;
+    };
+    m_viewport->pan(beyond(time, point.seconds), beyond(hz, point.hz));
+}
+
+void WaterfallView::keyPressEvent(QKeyEvent *event)
+{
+    if (!m_picture || !m_viewport) {
+        QwtPlot::keyPressEvent(event);
+        return;
+    }
+    const int cells = event->modifiers().testFlag(Qt::ControlModifier) ? 10 : 1;
+    switch (event->key()) {
+    case Qt::Key_Left:
+        moveCursor(-1, 0, cells);
+        return;
+    case Qt::Key_Right:
+        moveCursor(1, 0, cells);
+        return;
+    case Qt::Key_Up:
+        moveCursor(0, 1, cells);
+        return;
+    case Qt::Key_Down:
+        moveCursor(0, -1, cells);
+        return;
+    default:
+        break;
+    }
+    if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) {
+        QwtPlot::keyPressEvent(event);
+        return;
+    }
+    switch (event->key()) {
+    case Qt::Key_Backspace:
+        m_viewport->zoomBack();
+        return;
+    case Qt::Key_0:
+        m_viewport->showAll();
+        return;
+    case Qt::Key_O:
+        cycleOrientation();
+        return;
+    case Qt::Key_BracketLeft:
+        stepBlack(-1);
+        return;
+    case Qt::Key_BracketRight:
+        stepBlack(1);
+        return;
+    case Qt::Key_BraceLeft:
+        stepWhite(-1);
+        return;
+    case Qt::Key_BraceRight:
+        stepWhite(1);
+        return;
+    case Qt::Key_A:
+        setAutomaticRange();
+        return;
+    case Qt::Key_C:
+        cycleColourMap();
+        return;
+    case Qt::Key_Comma:
+        emit thresholdStepRequested(-1);
+        return;
+    case Qt::Key_Period:
+        emit thresholdStepRequested(1);
+        return;
+    case Qt::Key_M:
+        setMeasuring(!m_isMeasuring);
+        return;
+    case Qt::Key_H:
+        setHarmonics(!m_hasHarmonics);
+        return;
+    case Qt::Key_Escape:
+        setMeasuring(false);
+        setHarmonics(false);
+        m_viewport->clearSelection();
+        m_viewport->clearCursor();
+        return;
+    default:
+        QwtPlot::keyPressEvent(event);
+    }
+}
+
+// ---- menu, look ----------------------------------------------------------------------------------------------------
+
+void WaterfallView::fillMenu(QMenu &menu)
+{
+    const auto add = [this](QMenu &to, const QString &text, const QString &key, auto act) {
+        // The key is text only: as a shortcut it would take the key from the view that has the focus.
+        QAction *action = to.addAction(key.isEmpty() ? text : text + QLatin1Char('\t') + key);
+        connect(action, &QAction::triggered, this, act);
+        return action;
+    };
+    const auto check = [&](QMenu &to, const QString &text, const QString &key, bool isOn, auto act) {
+        QAction *action = add(to, text, key, act);
+        action->setCheckable(true);
+        action->setChecked(isOn);
+        return action;
+    };
+    add(menu, tr("Show all"), QStringLiteral("0"), [this] {
+        m_viewport->showAll();
+    })->setEnabled(m_viewport && !m_viewport->showsAll());
+    add(menu, tr("Zoom back"), tr("Backspace"), [this] {
+        m_viewport->zoomBack();
+    })->setEnabled(m_viewport && m_viewport->canZoomBack());
+    menu.addSeparator();
+
+    QMenu &orientations = *menu.addMenu(tr("Orientation"));
+    auto *orientationGroup = new QActionGroup(&orientations);
+    const QStringList names{tr("Newest on top"), tr("Oldest on top"), tr("Left to right")};
+    for (int i = 0; i < names.size(); ++i)
+        orientationGroup->addAction(check(orientations, names[i], QString(), static_cast<int>(m_orientation) == i,
+                                          [this, i] { setOrientation(static_cast<Orientation>(i)); }));
+    QMenu &colours = *menu.addMenu(tr("Colours"));
+    auto *colourGroup = new QActionGroup(&colours);
+    for (const QString &name : ColourMap::names())
+        colourGroup->addAction(
+            check(colours, name, QString(), name == m_colourMap->name(), [this, name] { setColourMap(name); }));
+    check(menu, tr("Automatic range"), QStringLiteral("A"), m_isRangeAutomatic, [this] { setAutomaticRange(); });
+
+    QMenu &layers = *menu.addMenu(tr("Show"));
+    const std::pair<Layer, QString> rows[] = {{EventLayer, tr("Events")}, {TrackLayer, tr("Tracks")},
+                                              {TruthLayer, tr("Truth")},  {ThresholdLayer, tr("Threshold contour")},
+                                              {GridLayer, tr("Grid")},    {CursorLayer, tr("Cursor")}};
+    for (const auto &[layer, text] : rows)
+        check(layers, text, QString(), m_layers.testFlag(layer),
+              [this, layer = layer](bool isOn) { setLayer(layer, isOn); });
+    menu.addSeparator();
+    check(menu, tr("Measure a box"), QStringLiteral("M"), m_isMeasuring, [this](bool isOn) { setMeasuring(isOn); });
+    check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), m_hasHarmonics,
+          [this](bool isOn) { setHarmonics(isOn); });
+}
+
+void WaterfallView::addActionsTo(QMenu *menu)
+{
+    fillMenu(*menu);
+}
+
+void WaterfallView::contextMenuEvent(QContextMenuEvent *event)
+{
+    if (!m_picture || !m_viewport)
+        return;
+    const Viewport::Point point = pointAt(canvas()->mapFrom(this, event->pos()));
+    QMenu menu(this);
+    fillMenu(menu);
+    emit contextMenuRequested(&menu, point.seconds, point.hz);
+    menu.exec(event->globalPos());
+}
+
+void WaterfallView::resizeEvent(QResizeEvent *event)
+{
+    QwtPlot::resizeEvent(event);
+    followSpan();
+}
+
+void WaterfallView::changeEvent(QEvent *event)
+{
+    QwtPlot::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
+        layAxes();
+}
+
+} // namespace faintline

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <QString>
+
+namespace faintline {
+
+/// Numbers as people read them: true minus sign, unit after a space, no more digits than the resolution is worth.
+
+/// Digits after the point so that two values `resolution` apart look different; 0 … 9.
+int decimalsFor(double resolution);
+
+/// Fixed decimals, − for a minus, never "−0".
+QString numberText(double value, int decimals);
+
+/// "83.25 s", or from ten minutes on "1:02:30.5" (h:min:s).
+QString secondsText(double seconds, double resolution);
+
+/// h:min:s or min:s, without a unit: "1:02:30", "12:05".
+QString clockText(double seconds, int decimals, bool withHours);
+
+/// The unit a frequency axis is written in.
+struct FrequencyUnit {
+    QString name;
+    double hz = 1.0;
+};
+
+/// Hz below 10 kHz, kHz below 10 MHz, MHz above.
+FrequencyUnit frequencyUnit(double largestHz);
+
+/// "440.0 Hz", "14.0956 kHz", "14.074 MHz".
+QString hertzText(double hz, double resolution);
+
+/// "3·10⁻⁷", or "0.25" where that is short.
+QString powerText(double value, int digits = 2);
+
+/// "10⁻⁷" from -7.
+QString powerOfTenText(int exponent);
+
+} // namespace faintline

@@ -1,0 +1,139 @@
+#include "widgets/rasterise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace faintline {
+
+namespace {
+
+    struct Range {
+        Index begin = 0;
+        Index end = 0;
+    };
+
+    /// The items (cells, or rows of `size` frames) of each pixel.
+    std::vector<Range> itemsOfPixels(const PixelRow &pixels, double size, Index itemCount)
+    {
+        std::vector<Range> ranges(static_cast<std::size_t>(pixels.count));
+        const double step = pixels.step / size;
+        const auto perPixel = static_cast<Index>(std::ceil(step - 1e-6));
+        for (int p = 0; p < pixels.count; ++p) {
+            const double low = pixels.first / size + p * step;
+            const double begin = step > 1.0 ? std::ceil(low - 0.5 - 1e-6) : std::floor(low + 0.5 * step);
+            Range &range = ranges[static_cast<std::size_t>(p)];
+            range.begin = std::clamp<Index>(static_cast<Index>(begin), 0, std::max<Index>(itemCount - perPixel, 0));
+            range.end = std::min(range.begin + perPixel, itemCount);
+        }
+        return ranges;
+    }
+
+    /// Reading twice as many rows draws a sharper picture, but takes its time on a hundred thousand cells.
+    int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells)
+    {
+        constexpr double affordableBytes = 48e6;
+        const bool isAffordable = 8.0 * time.count * cells.step * cells.count < affordableBytes;
+        return picture.levelFor(std::max(isAffordable ? 0.5 * time.step : time.step, 1.0));
+    }
+
+    void raise(std::uint8_t *to, const std::uint8_t *from, std::size_t count)
+    {
+        for (std::size_t i = 0; i < count; ++i)
+            to[i] = std::max(to[i], from[i]);
+    }
+
+    std::uint8_t highest(const std::uint8_t *from, Index count)
+    {
+        std::uint8_t high = 0;
+        for (Index i = 0; i < count; ++i)
+            high = std::max(high, from[i]);
+        return high;
+    }
+
+    double quantile(const ByteScale &scale, const std::vector<double> &counts, double share)
+    {
+        // The lowest byte is silence or "never reached", not noise.
+        const double total = std::accumulate(counts.begin() + 1, counts.end(), 0.0);
+        double sum = 0.0;
+        for (int byte = 1; byte < 256; ++byte) {
+            sum += counts[static_cast<std::size_t>(byte)];
+            if (sum >= share * total)
+                return scale.value(byte);
+        }
+        return scale.value(255);
+    }
+
+} // namespace
+
+void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out)
+{
+    const int level = levelToRead(picture, time, cells);
+    const Index rowCount = picture.rowCount(level);
+    if (rowCount == 0 || picture.cells() == 0) {
+        std::fill(out.begin(), out.end(), std::uint8_t(0));
+        return;
+    }
+    const auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(picture.framesPerRow(level)), rowCount);
+    const auto cellsOfPixel = itemsOfPixels(cells, 1.0, picture.cells());
+    const auto lowest = static_cast<std::size_t>(cellsOfPixel.front().begin);
+    const auto width = static_cast<std::size_t>(cellsOfPixel.back().end) - lowest;
+
+    std::vector<std::uint8_t> merged(width);
+    Range done;
+    for (int p = 0; p < time.count; ++p) {
+        std::uint8_t *line = out.data() + static_cast<std::size_t>(p) * cellsOfPixel.size();
+        const Range rows = rowsOfPixel[static_cast<std::size_t>(p)];
+        if (p > 0 && rows.begin == done.begin && rows.end == done.end) {
+            std::copy_n(line - cellsOfPixel.size(), cellsOfPixel.size(), line);
+            continue;
+        }
+        done = rows;
+        const std::uint8_t *values = picture.row(level, rows.begin).data() + lowest;
+        if (rows.end - rows.begin > 1) {
+            std::copy_n(values, width, merged.data());
+            for (Index r = rows.begin + 1; r < rows.end; ++r)
+                raise(merged.data(), picture.row(level, r).data() + lowest, width);
+            values = merged.data();
+        }
+        for (std::size_t i = 0; i < cellsOfPixel.size(); ++i) {
+            const Range range = cellsOfPixel[i];
+            line[i] = highest(values + (static_cast<std::size_t>(range.begin) - lowest), range.end - range.begin);
+        }
+    }
+}
+
+std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel)
+{
+    std::vector<double> counts(256, 0.0);
+    const int level = picture.levelFor(std::max(framesPerPixel, 1.0));
+    const Index rowCount = picture.rowCount(level);
+    if (rowCount == 0 || picture.cells() == 0)
+        return counts;
+    const Index cellsPerGroup = std::clamp<Index>(static_cast<Index>(std::lround(cellsPerPixel)), 1, picture.cells());
+    constexpr Index cellLimit = 2'000'000;
+    const Index stride = std::max<Index>(rowCount * picture.cells() / cellLimit, 1);
+    for (Index row = 0; row < rowCount; row += stride) {
+        const auto values = picture.row(level, row);
+        for (Index cell = 0; cell < picture.cells(); cell += cellsPerGroup) {
+            const Index count = std::min(cellsPerGroup, picture.cells() - cell);
+            counts[highest(values.data() + cell, count)] += static_cast<double>(stride);
+        }
+    }
+    return counts;
+}
+
+Span automaticRange(const ByteScale &scale, const std::vector<double> &counts)
+{
+    if (std::accumulate(counts.begin() + (counts.empty() ? 0 : 1), counts.end(), 0.0) == 0.0)
+        return scale.kind() == ByteScale::Kind::PowerDb ? Span{-6.0, 14.0} : Span{0.0, 30.0};
+    const double middle = quantile(scale, counts, 0.5);
+    if (scale.kind() == ByteScale::Kind::PowerDb) {
+        return {middle - 2.5, std::clamp(quantile(scale, counts, 0.998) + 2.0, middle + 10.0, middle + 16.0)};
+    }
+    // The noise's tail is exponential, so a multiple of the upper quartile's distance is a false-alarm probability.
+    const double tail = std::max(quantile(scale, counts, 0.75) - middle, 0.25);
+    return {middle, middle + std::clamp(25.0 * tail, 10.0, 200.0)};
+}
+
+} // namespace faintline

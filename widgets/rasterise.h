@@ -1,0 +1,38 @@
+#pragma once
+
+#include "spectrum/PeakPyramid.h"
+#include "widgets/Span.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// A row of pixels laid over a row of cells: pixel p covers first + p·step … first + (p+1)·step, where cell i covers i … i+1.
+struct PixelRow {
+    double first = 0.0;
+    double step = 1.0;
+    int count = 0;
+
+    bool operator==(const PixelRow &) const = default;
+};
+
+/// The picture as bytes of its scale, time-major: `out` holds time.count × cells.count values.
+///
+///     pixel = max over n cells from the first one whose centre it covers, n = ⌈step⌉
+///
+/// so that every pixel is the maximum of as many cells, which gives noise an even grain, and no maximum is lost, though one near a
+/// pixel's edge may show in two. Zoomed in, every cell is a plain rectangle. In time the cells are rows of the coarsest level that has
+/// at least one row, and where that is fast enough two, per pixel.
+void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out);
+
+/// How many pixels bear each byte where a pixel covers so many frames and cells: from a sample of rows of the whole picture, so it
+/// does not depend on where one looks. 256 counts.
+std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel);
+
+/// Black and white level suggested by such counts: dB from somewhat under the noise's middle to 10 … 16 dB above it; nats
+/// from the noise's middle to where only a detection gets.
+Span automaticRange(const ByteScale &scale, const std::vector<double> &counts);
+
+} // namespace faintline

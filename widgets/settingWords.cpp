@@ -1,0 +1,117 @@
+#include "widgets/settingWords.h"
+
+#include <QHash>
+#include <QSet>
+
+namespace faintline {
+
+namespace {
+
+    /// "windowSeconds" → "window seconds".
+    QString spelled(const QString &camelCase)
+    {
+        QString words;
+        for (const QChar c : camelCase) {
+            if (c.isUpper() && !words.isEmpty())
+                words += QLatin1Char(' ');
+            words += c.toLower();
+        }
+        return words;
+    }
+
+    QString capitalised(QString words)
+    {
+        if (!words.isEmpty())
+            words[0] = words[0].toUpper();
+        return words;
+    }
+
+} // namespace
+
+QString settingLabel(const QString &name)
+{
+    static const QHash<QString, QString> labels{
+        {"selection.channel", "Channel"},
+        {"selection.fromSeconds", "From"},
+        {"selection.toSeconds", "To"},
+        {"selection.lowHz", "Lower edge"},
+        {"selection.highHz", "Upper edge"},
+        {"spectrogram.windowSeconds", "Window length"},
+        {"spectrogram.stepsPerWindow", "Frames per window"},
+        {"spectrogram.binsPerCell", "Bins per cell"},
+        {"spectrogram.window", "Window shape"},
+        {"noise.halfWidthCells", "Half width"},
+        {"noise.blockWindows", "Block length"},
+        {"noise.followLevel", "Follow level changes"},
+        {"model.lowestSlope", "Lowest slope"},
+        {"model.highestSlope", "Highest slope"},
+        {"model.slopeChange", "Slope change law"},
+        {"model.rounding", "Rounding"},
+        {"model.likelihood", "Signal law"},
+        {"model.snr", "Design SNR"},
+        {"smd.reset", "Reset rule"},
+        {"smd.lnK", "ln K"},
+        {"decide.falseAlarmsPerHour", "False alarms"},
+        {"decide.pfaPerCell", "Pfa per cell"},
+        {"decide.thresholdNats", "Threshold"},
+        {"decide.by", "Set by"},
+        {"decide.linkCells", "Link distance"},
+        {"decide.inhibitCells", "Inhibit half width"},
+        {"track.windowCells", "Window half width"},
+        {"track.decayNats", "Decay per frame"},
+        {"track.ceilingNats", "Ceiling"},
+        {"track.endNats", "End below"},
+        {"track.confirmNats", "Confirm above"},
+        {"track.confirmFrames", "Confirm after"},
+        {"track.smoothingFrames", "Smoothing lag"},
+    };
+    const auto found = labels.constFind(name);
+    return found != labels.constEnd() ? *found : capitalised(spelled(name.section(QLatin1Char('.'), -1)));
+}
+
+QString stageLabel(const QString &prefix)
+{
+    static const QHash<QString, QString> labels{
+        {"selection", "Selection"},    {"spectrogram", "Spectrogram"},
+        {"noise", "Noise background"}, {"model", "Signal model"},
+        {"smd", "Detector"},           {"decide", "Threshold"},
+        {"track", "Tracks"},
+    };
+    const auto found = labels.constFind(prefix);
+    return found != labels.constEnd() ? *found : capitalised(spelled(prefix));
+}
+
+QString choiceLabel(const QString &choice)
+{
+    static const QHash<QString, QString> labels{
+        {"hann", "Hann"},
+        {"hamming", "Hamming"},
+        {"blackman", "Blackman"},
+        {"blackmanHarris", "Blackman–Harris"},
+        {"rice", "constant (Rice)"},
+        {"exponential", "fluctuating"},
+        {"linear", "plain power"},
+        {"halfDown", "half down"},
+        {"trunc", "toward zero"},
+        {"calibrated", "calibrated"},
+        {"half", "regulated"},
+        {"mean", "Parsons' mean"},
+        {"falseAlarmsPerHour", "false alarms/h"},
+        {"pfaPerCell", "Pfa per cell"},
+        {"thresholdNats", "nats"},
+    };
+    const auto found = labels.constFind(choice);
+    return found != labels.constEnd() ? *found : spelled(choice);
+}
+
+bool isSeldomUsed(const QString &name)
+{
+    static const QSet<QString> names{"noise.blockWindows",     "noise.followLevel",   "model.slopeChange",
+                                     "model.rounding",         "model.likelihood",    "smd.lnK",
+                                     "decide.linkCells",       "decide.inhibitCells", "track.windowCells",
+                                     "track.decayNats",        "track.ceilingNats",   "track.smoothingFrames",
+                                     "spectrogram.binsPerCell"};
+    return names.contains(name);
+}
+
+} // namespace faintline

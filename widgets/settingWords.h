@@ -1,0 +1,22 @@
+#pragma once
+
+#include <QString>
+
+namespace faintline {
+
+/// Words for people, from the names that files and the command line use. What is not in the lists is made from the name itself, so a
+/// new setting needs no entry here.
+
+/// "decide.falseAlarmsPerHour" → "False alarms per hour".
+QString settingLabel(const QString &name);
+
+/// "smd" → "Detector".
+QString stageLabel(const QString &prefix);
+
+/// "halfDown" → "half down".
+QString choiceLabel(const QString &choice);
+
+/// Whether a setting is folded away under "More".
+bool isSeldomUsed(const QString &name);
+
+} // namespace faintline
