@@ -63,7 +63,8 @@ void AnalysisController::open(const QString &path, const OpenOptions &options, c
 
 void AnalysisController::reopen(const OpenOptions &options)
 {
-    open(m_document.source().path, options, [now = m_document.settings()](AnalysisSettings &settings) { settings = now; });
+    open(m_document.source().path, options,
+         [now = m_document.settings()](AnalysisSettings &settings) { settings = now; });
 }
 
 void AnalysisController::adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
@@ -109,7 +110,9 @@ void AnalysisController::startAnalysis()
                     previous = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
         auto analysis = analyse(recording, settings, context, previous.get());
         std::vector<Event> found = events(*analysis);
-        return [this, analysis = std::move(analysis), found = std::move(found)] { m_document.setAnalysis(analysis, found); };
+        return [this, analysis = std::move(analysis), found = std::move(found)] {
+            m_document.setAnalysis(analysis, found);
+        };
     });
 }
 

@@ -24,8 +24,8 @@ public:
 
     using Adjust = std::function<void(AnalysisSettings &)>;
 
-    /// Opens a recording, a scenario or a session, by its name. `adjust` changes the settings it begins with: the defaults,
-    /// or the session's. May be called on another thread.
+    /// Opens a recording, a scenario or a session, by its name. `adjust` changes the settings it begins with: the
+    /// defaults, or the session's. May be called on another thread.
     void open(const QString &path, const OpenOptions &options = {}, const Adjust &adjust = {});
     /// What is open, read in another way.
     void reopen(const OpenOptions &options);

@@ -21,7 +21,8 @@ class Document::SettingsEdit : public QUndoCommand
 {
 public:
     SettingsEdit(Document &document, const AnalysisSettings &after, const QString &text, QString field)
-        : QUndoCommand(text), m_document(document), m_before(document.settings()), m_after(after), m_field(std::move(field))
+        : QUndoCommand(text), m_document(document), m_before(document.settings()), m_after(after),
+          m_field(std::move(field))
     {
         m_age.start();
     }

@@ -70,7 +70,7 @@ signals:
     void analysisChanged();
     void shownThresholdChanged();
     void shownEventsChanged(); ///< the threshold passed one, or they are new
-    void sessionChanged(); ///< its path, or whether there is something to save
+    void sessionChanged();     ///< its path, or whether there is something to save
 
 private:
     class SettingsEdit;

@@ -20,12 +20,20 @@ namespace {
     class Rows
     {
     public:
-        void heading(const QString &text) { m_html += QStringLiteral("<tr><td colspan=2 style='padding-top:8px'><b>%1</b></td></tr>").arg(text.toHtmlEscaped()); }
+        void heading(const QString &text)
+        {
+            m_html += QStringLiteral("<tr><td colspan=2 style='padding-top:8px'><b>%1</b></td></tr>")
+                          .arg(text.toHtmlEscaped());
+        }
         void row(const QString &name, const QString &value)
         {
-            m_html += QStringLiteral("<tr><td style='padding-right:14px'>%1</td><td>%2</td></tr>").arg(name.toHtmlEscaped(), value.toHtmlEscaped());
+            m_html += QStringLiteral("<tr><td style='padding-right:14px'>%1</td><td>%2</td></tr>")
+                          .arg(name.toHtmlEscaped(), value.toHtmlEscaped());
         }
-        void note(const QString &text) { m_html += QStringLiteral("<tr><td colspan=2>%1</td></tr>").arg(text.toHtmlEscaped()); }
+        void note(const QString &text)
+        {
+            m_html += QStringLiteral("<tr><td colspan=2>%1</td></tr>").arg(text.toHtmlEscaped());
+        }
         QString html() const { return QStringLiteral("<table>") + m_html + QStringLiteral("</table>"); }
 
     private:
@@ -76,17 +84,21 @@ namespace {
         const Calibration &calibration = *analysis.calibration;
         const double eventRate = calibration.eventRateAt(analysis.threshold);
         rows.heading(tr("Detector on noise"));
-        rows.row(tr("Threshold"), tr("%1 ± %2 nat").arg(analysis.threshold, 0, 'f', 2).arg(calibration.thresholdUncertainty(eventRate), 0, 'f', 2));
+        rows.row(tr("Threshold"), tr("%1 ± %2 nat")
+                                      .arg(analysis.threshold, 0, 'f', 2)
+                                      .arg(calibration.thresholdUncertainty(eventRate), 0, 'f', 2));
         rows.row(tr("False alarms"), powerText(eventRate * analysis.cellFramesPerHour, 3) + tr(" per hour"));
         rows.row(tr("Pfa per cell"), powerText(calibration.exceedanceAt(analysis.threshold)));
         rows.row(tr("ln K"), withUnit(calibration.lnK, 3, "nat"));
         rows.row(tr("Paths continued"), withUnit(100.0 * calibration.continuedFraction, 1, "%"));
-        rows.row(tr("Tail e^(-θT), θ"), tr("%1 ± %2 per nat").arg(calibration.tailSlope, 0, 'f', 3).arg(calibration.slopeError, 0, 'f', 3));
+        rows.row(tr("Tail e^(-θT), θ"),
+                 tr("%1 ± %2 per nat").arg(calibration.tailSlope, 0, 'f', 3).arg(calibration.slopeError, 0, 'f', 3));
     }
 
 } // namespace
 
-InfoPanel::InfoPanel(const Document &document, QWidget *parent) : QWidget(parent), m_document(document), m_label(new QLabel)
+InfoPanel::InfoPanel(const Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_label(new QLabel)
 {
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     m_label->setAlignment(Qt::AlignTop | Qt::AlignLeft);

@@ -20,8 +20,7 @@ namespace {
 
 } // namespace
 
-JobRunner::JobRunner(QObject *parent)
-    : QObject(parent), m_thread([this](const std::stop_token &quit) { work(quit); })
+JobRunner::JobRunner(QObject *parent) : QObject(parent), m_thread([this](const std::stop_token &quit) { work(quit); })
 {
 }
 
@@ -111,7 +110,8 @@ void JobRunner::run(const Request &request)
     } catch (const Error &error) {
         fail(error);
     } catch (const std::bad_alloc &) {
-        fail(Error("memory", "there is not enough of it for this; look at a part of the recording", Error::Kind::Failure));
+        fail(Error("memory", "there is not enough of it for this; look at a part of the recording",
+                   Error::Kind::Failure));
     } catch (const std::exception &error) {
         fail(Error("internal failure", error.what(), Error::Kind::Failure));
     }

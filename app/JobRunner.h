@@ -62,8 +62,8 @@ private:
 
     std::mutex m_mutex;
     std::condition_variable_any m_wake;
-    Request m_request;           ///< guarded by m_mutex: the newest; its job is empty when it was taken
-    std::jthread m_thread;       ///< last, so that it ends first
+    Request m_request;     ///< guarded by m_mutex: the newest; its job is empty when it was taken
+    std::jthread m_thread; ///< last, so that it ends first
 };
 
 } // namespace faintline

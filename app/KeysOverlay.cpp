@@ -85,12 +85,14 @@ namespace {
         for (const Section &section : sections) {
             painter.setFont(Theme::boldFont(14));
             painter.setPen(colours.accent);
-            painter.drawText(QRect(at, QSize(columnWidth, titleHeight)), Qt::AlignLeft | Qt::AlignVCenter, tr(section.title));
+            painter.drawText(QRect(at, QSize(columnWidth, titleHeight)), Qt::AlignLeft | Qt::AlignVCenter,
+                             tr(section.title));
             at.ry() += titleHeight;
             for (const Entry &entry : section.entries) {
                 painter.setFont(Theme::boldFont());
                 painter.setPen(colours.text);
-                painter.drawText(QRect(at, QSize(keyWidth, rowHeight)), Qt::AlignLeft | Qt::AlignVCenter, tr(entry.keys));
+                painter.drawText(QRect(at, QSize(keyWidth, rowHeight)), Qt::AlignLeft | Qt::AlignVCenter,
+                                 tr(entry.keys));
                 painter.setFont(Theme::font());
                 painter.drawText(QRect(at.x() + keyWidth, at.y(), columnWidth - keyWidth, rowHeight),
                                  Qt::AlignLeft | Qt::AlignVCenter, tr(entry.does));
@@ -137,7 +139,8 @@ bool KeysOverlay::event(QEvent *event)
 void KeysOverlay::paintEvent(QPaintEvent *)
 {
     const Theme::Colours &colours = Theme::colours(*this);
-    const QSize size(2 * columnWidth + 3 * margin, std::max(heightOf(columns()[0]), heightOf(columns()[1])) + 2 * margin);
+    const QSize size(2 * columnWidth + 3 * margin,
+                     std::max(heightOf(columns()[0]), heightOf(columns()[1])) + 2 * margin);
     const QRect sheet(QPoint((width() - size.width()) / 2, (height() - size.height()) / 2), size);
 
     QPainter painter(this);

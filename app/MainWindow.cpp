@@ -96,7 +96,7 @@ MainWindow::~MainWindow()
     m_document.disconnect(this);
 }
 
-// ---- building ----------------------------------------------------------------------------------------------------------
+// ---- building -------------------------------------------------------------------------------------------------------
 
 void MainWindow::buildCentre()
 {
@@ -141,9 +141,12 @@ void MainWindow::buildDocks()
     m_events->setEmptySentence(tr("No event at this threshold."));
 
     QDockWidget *pipeline = addDock(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Qt::LeftDockWidgetArea);
-    QDockWidget *threshold = addDock(QStringLiteral("thresholdDock"), tr("Threshold"), m_threshold, Qt::RightDockWidgetArea);
-    QDockWidget *events = addDock(QStringLiteral("eventsDock"), tr("Events · tracks"), m_events, Qt::RightDockWidgetArea);
-    QDockWidget *noise = addDock(QStringLiteral("noiseDock"), tr("Noise · calibration"), m_info, Qt::RightDockWidgetArea);
+    QDockWidget *threshold =
+        addDock(QStringLiteral("thresholdDock"), tr("Threshold"), m_threshold, Qt::RightDockWidgetArea);
+    QDockWidget *events =
+        addDock(QStringLiteral("eventsDock"), tr("Events · tracks"), m_events, Qt::RightDockWidgetArea);
+    QDockWidget *noise =
+        addDock(QStringLiteral("noiseDock"), tr("Noise · calibration"), m_info, Qt::RightDockWidgetArea);
     // The threshold above the events it decides about: one sees both while dragging.
     splitDockWidget(threshold, events, Qt::Vertical);
     tabifyDockWidget(events, noise);
@@ -176,6 +179,7 @@ void MainWindow::buildStatusBar()
 {
     m_hint = new QLabel;
     m_hint->setTextFormat(Qt::PlainText);
+    m_hint->setContentsMargins(8, 0, 0, 0);
     m_hint->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_activity = new ActivityBar;
     statusBar()->setSizeGripEnabled(false);
@@ -183,7 +187,7 @@ void MainWindow::buildStatusBar()
     statusBar()->addPermanentWidget(m_activity);
 }
 
-// ---- menus ---------------------------------------------------------------------------------------------------------------
+// ---- menus ----------------------------------------------------------------------------------------------------------
 
 void MainWindow::buildMenus()
 {
@@ -230,7 +234,8 @@ void MainWindow::buildEditMenu()
     redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::Key_Y), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)});
     menu->addActions({undo, redo});
     menu->addSeparator();
-    addViewAction(*menu, tr("Reset all &settings"), {}, [this] { m_controller.setSettings({}, tr("Reset all settings")); });
+    addViewAction(*menu, tr("Reset all &settings"), {},
+                  [this] { m_controller.setSettings({}, tr("Reset all settings")); });
 }
 
 void MainWindow::buildViewMenu()
@@ -271,7 +276,8 @@ void MainWindow::buildViewMenu()
     m_darkAction = menu->addAction(tr("&Dark"));
     m_darkAction->setCheckable(true);
     m_darkAction->setChecked(Theme::kind(palette()) == Theme::Kind::Dark);
-    connect(m_darkAction, &QAction::toggled, this, [this](bool isDark) { setTheme(isDark ? Theme::Kind::Dark : Theme::Kind::Light); });
+    connect(m_darkAction, &QAction::toggled, this,
+            [this](bool isDark) { setTheme(isDark ? Theme::Kind::Dark : Theme::Kind::Light); });
 }
 
 void MainWindow::buildDetectMenu()
@@ -285,7 +291,8 @@ void MainWindow::buildDetectMenu()
     addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
-    addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N), [this] { m_events->selectPrevious(); });
+    addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
+                  [this] { m_events->selectPrevious(); });
     menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);
@@ -302,11 +309,13 @@ void MainWindow::buildHelpMenu()
 {
     QMenu *menu = menuBar()->addMenu(tr("&Help"));
     QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(); });
-    keys->setShortcuts({QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
+    keys->setShortcuts(
+        {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
     menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
 }
 
-QAction *MainWindow::addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action)
+QAction *MainWindow::addViewAction(QMenu &menu, const QString &text, const QKeySequence &key,
+                                   std::function<void()> action)
 {
     QAction *result = menu.addAction(text);
     result->setShortcut(key);
@@ -322,7 +331,8 @@ void MainWindow::buildToolBar()
     bar->setObjectName(QStringLiteral("toolBar"));
     bar->setMovable(false);
     bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    bar->addAction(tr("Open…"), this, &MainWindow::chooseFile)->setToolTip(tr("Open a recording, a scenario or a session (Ctrl+O)"));
+    bar->addAction(tr("Open…"), this, &MainWindow::chooseFile)
+        ->setToolTip(tr("Open a recording, a scenario or a session (Ctrl+O)"));
 
     auto *scenarioMenu = new QMenu(this);
     for (ScenarioCard *card : m_welcome->cards())
@@ -343,7 +353,8 @@ void MainWindow::buildToolBar()
     add(tr("Run"), tr("Run the chain again (Ctrl+R)"), [this] { m_controller.run(); });
     bar->addAction(m_stopAction);
     bar->addSeparator();
-    add(tr("Orientation"), tr("Newest on top, oldest on top, left to right (O)"), [this] { m_workbench->output()->cycleOrientation(); });
+    add(tr("Orientation"), tr("Newest on top, oldest on top, left to right (O)"),
+        [this] { m_workbench->output()->cycleOrientation(); });
     add(tr("Colours"), tr("Next colour map (C)"), [this] { m_workbench->output()->cycleColourMap(); });
     add(tr("Show all"), tr("The whole recording (0)"), [this] { m_document.viewport().showAll(); });
     bar->addSeparator();
@@ -353,7 +364,7 @@ void MainWindow::buildToolBar()
     add(tr("Next event"), tr("Go to the next event (N)"), [this] { m_events->selectNext(); });
 }
 
-// ---- connections -----------------------------------------------------------------------------------------------------------
+// ---- connections ----------------------------------------------------------------------------------------------------
 
 void MainWindow::connectDocument()
 {
@@ -388,7 +399,8 @@ void MainWindow::connectController()
         m_messages->showMessage(MessageBar::Kind::Notice, where, why);
     });
     connect(&m_controller, &AnalysisController::viewRestored, m_workbench, &Workbench::restore);
-    m_saver = new SessionSaver(m_document, [this] { return m_workbench->viewState(); }, this);
+    m_saver = new SessionSaver(
+        m_document, [this] { return m_workbench->viewState(); }, this);
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::closable, this, &QWidget::close);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
@@ -422,14 +434,14 @@ void MainWindow::connectViews()
     connect(new FileDrop(this), &FileDrop::dropped, this, [this](const QString &path) { open(path); });
 }
 
-// ---- what is open ------------------------------------------------------------------------------------------------------
+// ---- what is open ---------------------------------------------------------------------------------------------------
 
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
 {
     if (!m_saver->mayDiscard())
         return;
     OpenOptions chosen = options;
-    if (needsRawOptions(path, options) && !(options.rawRateHz > 0.0)) {
+    if (m_isAsking && needsRawOptions(path, options)) {
         OpenOptionsDialog dialog(path, this);
         if (dialog.exec() != QDialog::Accepted)
             return;
@@ -551,7 +563,8 @@ void MainWindow::showTitle()
 
 void MainWindow::showError(const Error &error)
 {
-    m_messages->showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()), QString::fromStdString(error.why()));
+    m_messages->showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()),
+                            QString::fromStdString(error.why()));
 }
 
 void MainWindow::showFailure(const Error &error)
@@ -604,18 +617,25 @@ void MainWindow::restoreLayout()
     m_workbench->restore({{}, {}, layout.orientation, layout.colourMap});
 }
 
-// ---- the rest --------------------------------------------------------------------------------------------------------------
+void MainWindow::setAsking(bool isAsking)
+{
+    m_isAsking = isAsking;
+    m_saver->setAsking(isAsking);
+}
+
+// ---- the rest -------------------------------------------------------------------------------------------------------
 
 const QStringList &MainWindow::viewNames()
 {
-    static const QStringList names{QStringLiteral("window"), QStringLiteral("input"), QStringLiteral("output"),
+    static const QStringList names{QStringLiteral("window"),    QStringLiteral("input"),  QStringLiteral("output"),
                                    QStringLiteral("threshold"), QStringLiteral("events"), QStringLiteral("noise")};
     return names;
 }
 
 QWidget *MainWindow::view(const QString &name)
 {
-    const std::array<QWidget *, 6> views{this, m_workbench->inputPane(), m_workbench->outputPane(), m_threshold, m_events, m_info};
+    const std::array<QWidget *, 6> views{
+        this, m_workbench->inputPane(), m_workbench->outputPane(), m_threshold, m_events, m_info};
     const auto index = viewNames().indexOf(name);
     return index < 0 ? nullptr : views[static_cast<std::size_t>(index)];
 }

@@ -56,7 +56,8 @@ public:
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
 
-    SessionSaver &saver() { return *m_saver; }
+    /// Off: nobody is there to answer a dialog.
+    void setAsking(bool isAsking);
 
 signals:
     void saved(const QString &sessionPath);
@@ -106,6 +107,7 @@ private:
     Document m_document;
     AnalysisController m_controller;
     WindowMemory m_memory;
+    bool m_isAsking = true;
     QByteArray m_defaultLayout;
     QByteArray m_layoutBeforePresenting;
 

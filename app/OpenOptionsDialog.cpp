@@ -32,8 +32,8 @@ OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
       m_length(new QLabel)
 {
     setWindowTitle(tr("Raw samples"));
-    for (const char *type : {"ci16_le", "ci8", "cu8", "cf32_le", "cf64_le", "ci16_be", "cf32_be", "ri16_le", "ri8", "ru8",
-                             "rf32_le", "rf64_le", "ri16_be", "rf32_be"})
+    for (const char *type : {"ci16_le", "ci8", "cu8", "cf32_le", "cf64_le", "ci16_be", "cf32_be", "ri16_le", "ri8",
+                             "ru8", "rf32_le", "rf64_le", "ri16_be", "rf32_be"})
         m_type->addItem(QString::fromLatin1(type));
     m_type->setEditable(true);
     m_type->setCurrentText(suggestedType(path));
@@ -52,7 +52,8 @@ OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
 
     auto *form = new QFormLayout(this);
-    auto *what = new QLabel(tr("<b>%1</b> holds bare samples. What are they?").arg(QFileInfo(path).fileName().toHtmlEscaped()));
+    auto *what =
+        new QLabel(tr("<b>%1</b> holds bare samples. What are they?").arg(QFileInfo(path).fileName().toHtmlEscaped()));
     form->addRow(what);
     form->addRow(tr("&Type"), m_type);
     form->addRow(tr("Sample &rate"), m_rate);
@@ -71,14 +72,16 @@ OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
 
 OpenOptions OpenOptionsDialog::options() const
 {
-    return {m_iq->isChecked(), m_type->currentText().trimmed().toStdString(), m_rate->value(), m_channels->value(), m_header->value()};
+    return {m_iq->isChecked(), m_type->currentText().trimmed().toStdString(), m_rate->value(), m_channels->value(),
+            m_header->value()};
 }
 
 void OpenOptionsDialog::showLength()
 {
     try {
         const SampleType type = parseSampleType(options().rawType, "type");
-        const auto samples = static_cast<double>((m_fileBytes - m_header->value()) / (type.sampleBytes() * m_channels->value()));
+        const auto samples =
+            static_cast<double>((m_fileBytes - m_header->value()) / (type.sampleBytes() * m_channels->value()));
         m_length->setText(tr("%1 s").arg(std::max(0.0, samples) / m_rate->value(), 0, 'g', 6));
         m_iq->setEnabled(!type.isComplex && m_channels->value() % 2 == 0);
     } catch (const Error &error) {

@@ -20,9 +20,10 @@ namespace {
     /// "WAV, int16 · 12 kHz · 15 s"
     QString summary(const RecordingInfo &info)
     {
-        QStringList parts{QString::fromStdString(info.container == info.sampleType ? info.container
-                                                                                     : info.container + ", " + info.sampleType)};
-        parts << hertzText(info.sampleRateHz, 1e-3 * info.sampleRateHz) << secondsText(info.durationSeconds(), 1e-2 * info.durationSeconds());
+        QStringList parts{QString::fromStdString(
+            info.container == info.sampleType ? info.container : info.container + ", " + info.sampleType)};
+        parts << hertzText(info.sampleRateHz, 1e-3 * info.sampleRateHz)
+              << secondsText(info.durationSeconds(), 1e-2 * info.durationSeconds());
         if (info.channelCount > 1)
             parts << QObject::tr("%1 channels").arg(info.channelCount);
         return parts.join(QStringLiteral(" · "));
@@ -64,7 +65,8 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
     connect(m_form, &SettingsForm::settingEdited, this, [this](const QString &name, const FieldValue &value) {
         m_controller.edit(name, value, tr("Change “%1”").arg(SettingsForm::label(name)));
     });
-    connect(m_form, &SettingsForm::resetRequested, this, [this] { m_controller.setSettings({}, tr("Reset all settings")); });
+    connect(m_form, &SettingsForm::resetRequested, this,
+            [this] { m_controller.setSettings({}, tr("Reset all settings")); });
     connect(&document, &Document::opened, this, &PipelinePanel::showRecording);
     connect(&document, &Document::opened, this, &PipelinePanel::showSettings);
     connect(&document, &Document::settingsChanged, this, &PipelinePanel::showSettings);
@@ -78,14 +80,17 @@ void PipelinePanel::showRecording()
 {
     if (m_document.isEmpty())
         return m_recording->setText(tr("Nothing is open."));
-    m_recording->setText(QStringLiteral("<b>%1</b><br>%2").arg(m_document.source().name().toHtmlEscaped(),
-                                                              summary(m_document.recording()->info()).toHtmlEscaped()));
+    m_recording->setText(
+        QStringLiteral("<b>%1</b><br>%2")
+            .arg(m_document.source().name().toHtmlEscaped(), summary(m_document.recording()->info()).toHtmlEscaped()));
 }
 
 void PipelinePanel::showSettings()
 {
     m_form->setSettings(m_document.settings());
-    const auto isTaken = [this](const Preset &preset) { return withSelection(preset.settings) == m_document.settings(); };
+    const auto isTaken = [this](const Preset &preset) {
+        return withSelection(preset.settings) == m_document.settings();
+    };
     const auto taken = std::find_if(presets().begin(), presets().end(), isTaken);
     m_preset->setCurrentIndex(taken == presets().end() ? 0 : static_cast<int>(taken - presets().begin()) + 1);
 }

@@ -71,7 +71,7 @@ void ScenarioCard::setResult(const OpenedSource &opened, std::shared_ptr<const A
     m_input->setPicture(m_analysis->input, frequency);
     m_statistic->setPicture(m_analysis->statistic, frequency);
     const int count = static_cast<int>(m_analysis->tracks.size());
-    m_found->setText(count == 1 ? tr("Found: 1 line") : tr("Found: %1 lines").arg(count));
+    m_found->setText(count == 1 ? tr("1 event found") : tr("%1 events found").arg(count));
 }
 
 QSize ScenarioCard::sizeHint() const

@@ -32,14 +32,17 @@ namespace {
 
     Source sourceFromJson(const Json &json, const QDir &folder)
     {
-        checkKeys(json, "recording", {"name", "scenario", "path", "sha256", "iq", "rawType", "rawRateHz", "rawChannels", "rawHeaderBytes"});
+        checkKeys(
+            json, "recording",
+            {"name", "scenario", "path", "sha256", "iq", "rawType", "rawRateHz", "rawChannels", "rawHeaderBytes"});
         Source source;
         if (json.contains("scenario")) {
             source.path = QString::fromStdString(json.value("name", std::string("scenario")));
             source.scene = lineSceneFromJson(json["scenario"]);
             return source;
         }
-        source.path = QDir::cleanPath(folder.absoluteFilePath(QString::fromStdString(json.at("path").get<std::string>())));
+        source.path =
+            QDir::cleanPath(folder.absoluteFilePath(QString::fromStdString(json.at("path").get<std::string>())));
         source.options.iq = json.value("iq", false);
         source.options.rawType = json.value("rawType", std::string());
         source.options.rawRateHz = json.value("rawRateHz", 0.0);
@@ -94,7 +97,8 @@ namespace {
     {
         checkKeys(json, "", {"faintline", "recording", "settings", "view"});
         if (json.value("faintline", 0) != formatVersion)
-            throw Error("faintline", "must be " + std::to_string(formatVersion) + ", the version of the format this program reads");
+            throw Error("faintline",
+                        "must be " + std::to_string(formatVersion) + ", the version of the format this program reads");
         if (!json.contains("recording"))
             throw Error("recording", "is missing");
         Session session;

@@ -18,8 +18,8 @@ struct ViewState {
     QString colourMap;
 };
 
-/// A session file: the recipe, never the results. The recording is named relative to the session and known by its hash; a
-/// scenario is written out.
+/// A session file: the recipe, never the results. The recording is named relative to the session and known by its
+/// hash; a scenario is written out.
 struct Session {
     Source source;
     std::string recordingHash; ///< empty for a scenario

@@ -27,7 +27,8 @@ void SessionSaver::saveAs()
 {
     const QFileInfo recording(m_document.source().path);
     const QString suggested = recording.dir().filePath(recording.completeBaseName() + QStringLiteral(".faintline"));
-    const QString path = QFileDialog::getSaveFileName(m_window, tr("Save session"), suggested, tr("Sessions (*.faintline)"));
+    const QString path =
+        QFileDialog::getSaveFileName(m_window, tr("Save session"), suggested, tr("Sessions (*.faintline)"));
     if (path.isEmpty())
         m_isClosing = false;
     else
@@ -53,7 +54,8 @@ bool SessionSaver::mayDiscard()
 {
     if (!m_isAsking || !m_document.isModified())
         return true;
-    const QString question = tr("The settings for %1 are not saved in a session. Discard them?").arg(m_document.source().name());
+    const QString question =
+        tr("The settings for %1 are not saved in a session. Discard them?").arg(m_document.source().name());
     return QMessageBox::question(m_window, tr("Unsaved settings"), question, QMessageBox::Discard | QMessageBox::Cancel,
                                  QMessageBox::Cancel)
            == QMessageBox::Discard;
@@ -63,9 +65,11 @@ bool SessionSaver::mayClose()
 {
     if (!m_isAsking || !m_document.isModified())
         return true;
-    const QString question = tr("Save the settings for %1 as a session before closing?").arg(m_document.source().name());
-    const auto answer = QMessageBox::question(m_window, tr("Unsaved settings"), question,
-                                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+    const QString question =
+        tr("Save the settings for %1 as a session before closing?").arg(m_document.source().name());
+    const auto answer =
+        QMessageBox::question(m_window, tr("Unsaved settings"), question,
+                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
     m_isClosing = answer == QMessageBox::Save;
     if (m_isClosing)
         save();

@@ -54,7 +54,8 @@ OpenedSource openSource(const Source &source)
 bool needsRawOptions(const QString &path, const OpenOptions &options)
 {
     const std::string name = path.toStdString();
-    return options.rawType.empty() && QFileInfo(path).isFile() && rawTypeOfExtension(name) && !AudioRecording::recognises(name);
+    return options.rawType.empty() && !(options.rawRateHz > 0.0) && QFileInfo(path).isFile() && rawTypeOfExtension(name)
+           && !AudioRecording::recognises(name);
 }
 
 } // namespace faintline

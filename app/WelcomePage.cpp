@@ -45,6 +45,7 @@ WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxL
     page->setMaximumWidth(pageWidth);
     auto *open = new QPushButton(tr("&Open recording…"));
     open->setFont(Theme::boldFont(14));
+    open->setMinimumSize(180, 34);
     open->setToolTip(tr("WAV, FLAC and other audio, SigMF, raw I/Q, a scenario (.json), a session (.faintline)"));
     connect(open, &QPushButton::clicked, this, &WelcomePage::openRequested);
 
@@ -67,8 +68,10 @@ WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxL
     column->setContentsMargins(24, 28, 24, 24);
     column->setSpacing(12);
     column->addWidget(sentence(tr("Faintline"), Theme::boldFont(28)));
-    column->addWidget(sentence(tr("Finds faint lines that drift and wander, by adding up the evidence along every path they could "
-                                  "have taken. Click a picture to go inside."), Theme::font(15)));
+    column->addWidget(
+        sentence(tr("Finds faint lines that drift and wander, by adding up the evidence along every path they could "
+                    "have taken. Click a picture to go inside."),
+                 Theme::font(15)));
     column->addSpacing(8);
     column->addLayout(cards);
     column->addSpacing(8);
@@ -121,17 +124,19 @@ void WelcomePage::stop()
 
 void WelcomePage::startNext()
 {
-    const auto next = std::find_if(m_cards.begin(), m_cards.end(), [](const ScenarioCard *card) { return !card->analysis(); });
+    const auto next =
+        std::find_if(m_cards.begin(), m_cards.end(), [](const ScenarioCard *card) { return !card->analysis(); });
     if (next == m_cards.end())
         return emit settled();
-    m_runner.start([this, card = *next, path = (*next)->scenario().path](const RunContext &context) -> JobRunner::Delivery {
-        const OpenedSource opened = openSource(sourceOf(path));
-        const auto analysis = analyse(opened.recording, {}, context);
-        return [this, card, opened, analysis] {
-            card->setResult(opened, analysis);
-            startNext();
-        };
-    });
+    m_runner.start(
+        [this, card = *next, path = (*next)->scenario().path](const RunContext &context) -> JobRunner::Delivery {
+            const OpenedSource opened = openSource(sourceOf(path));
+            const auto analysis = analyse(opened.recording, {}, context);
+            return [this, card, opened, analysis] {
+                card->setResult(opened, analysis);
+                startNext();
+            };
+        });
 }
 
 } // namespace faintline

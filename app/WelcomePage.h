@@ -12,8 +12,8 @@ namespace faintline {
 
 class ScenarioCard;
 
-/// What there is to see before anything is open: scenarios that are simulated and analysed while one looks, a way to open
-/// a recording, and the latest ones.
+/// What there is to see before anything is open: scenarios that are simulated and analysed while one looks, a way to
+/// open a recording, and the latest ones.
 class WelcomePage : public QWidget
 {
     Q_OBJECT

@@ -36,7 +36,8 @@ namespace {
 
     QString orientationName(WaterfallView::Orientation orientation)
     {
-        QString name = QString::fromLatin1(QMetaEnum::fromType<WaterfallView::Orientation>().valueToKey(int(orientation)));
+        QString name =
+            QString::fromLatin1(QMetaEnum::fromType<WaterfallView::Orientation>().valueToKey(int(orientation)));
         name[0] = name[0].toLower();
         return name;
     }
@@ -47,7 +48,8 @@ namespace {
             return {};
         name[0] = name[0].toUpper();
         bool isKnown = false;
-        const int value = QMetaEnum::fromType<WaterfallView::Orientation>().keyToValue(name.toLatin1().constData(), &isKnown);
+        const int value =
+            QMetaEnum::fromType<WaterfallView::Orientation>().keyToValue(name.toLatin1().constData(), &isKnown);
         return isKnown ? std::optional(WaterfallView::Orientation(value)) : std::nullopt;
     }
 
@@ -80,7 +82,9 @@ namespace {
     {
         const Axis &time = analysis.time();
         const Axis &frequency = analysis.grid().axes.back();
-        const auto hz = [&](const TrackPoint &point) { return frequency.value(static_cast<double>(point.cell % frequency.count)); };
+        const auto hz = [&](const TrackPoint &point) {
+            return frequency.value(static_cast<double>(point.cell % frequency.count));
+        };
         const auto [low, high] = std::minmax_element(track.points.begin(), track.points.end(),
                                                      [&](const auto &a, const auto &b) { return hz(a) < hz(b); });
         return {{time.value(static_cast<double>(track.onsetFrame)), time.value(static_cast<double>(track.endFrame))},
@@ -91,9 +95,9 @@ namespace {
 
 Workbench::Workbench(Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
-      m_output(new WaterfallView(tr("Statistic D (nat)"))),
-      m_inputPane(pane(m_input)), m_outputPane(pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
-      m_regulation(new StripPlot(tr("ln K (nat)"))), m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
+      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
+      m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
+      m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
 {
     m_pictures->addWidget(m_inputPane);
     m_pictures->addWidget(m_outputPane);
@@ -105,7 +109,8 @@ Workbench::Workbench(Document &document, QWidget *parent)
     for (QSplitter *splitter : {m_pictures, m_rows})
         splitter->setChildrenCollapsible(false);
     for (QwtPlot *plot : std::initializer_list<QwtPlot *>{m_input, m_output, m_statistic, m_regulation})
-        plot->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding); // Qwt's own would never shrink below the hint
+        plot->setSizePolicy(QSizePolicy::Expanding,
+                            QSizePolicy::Expanding); // Qwt's own would never shrink below the hint
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
@@ -277,9 +282,11 @@ void Workbench::setPlaying(bool isPlaying)
 void Workbench::play()
 {
     const Viewport &viewport = m_document.viewport();
-    if (!m_document.analysis() || !viewport.cursor() || viewport.cursor()->seconds >= m_document.analysis()->time().last())
+    if (!m_document.analysis() || !viewport.cursor()
+        || viewport.cursor()->seconds >= m_document.analysis()->time().last())
         return setPlaying(false);
-    stepFrames(std::max(1, static_cast<int>(viewport.time().width() / playerSteps / m_document.analysis()->time().step)));
+    stepFrames(
+        std::max(1, static_cast<int>(viewport.time().width() / playerSteps / m_document.analysis()->time().step)));
 }
 
 ViewState Workbench::viewState() const

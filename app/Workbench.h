@@ -14,7 +14,7 @@ namespace faintline {
 
 class StripPlot;
 
-/// The pictures: input and statistic side by side on one viewport, each with its colour bar, and curves along time below.
+/// The pictures: input and statistic side by side on one viewport, each with its colour bar; curves along time below.
 class Workbench : public QWidget
 {
     Q_OBJECT

@@ -14,7 +14,8 @@ QString hint(const Document &document)
     if (!document.analysis())
         return tr("Reading the recording and listening to its noise.");
     if (document.shownEvents().empty())
-        return tr("Nothing exceeds the threshold: drag its line to the left, or press , (comma), and see what appears.");
+        return tr(
+            "Nothing exceeds the threshold: drag its line to the left, or press , (comma), and see what appears.");
     return tr("Drag the threshold line: contour and events follow. N goes to the next event, ? shows all keys.");
 }
 

@@ -50,14 +50,22 @@ namespace {
     CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size)
     {
         CLI::App *command = program.add_subcommand("render", "Write a picture of the window or of one of its views");
-        command->add_option("source", options.source, "Recording, scenario (.json) or session (.faintline)")->required();
-        command->add_option("--out", options.out, "The picture (.png); of several views, each gets its name added")->required();
-        command->add_option("--view", options.views, "window, input, output, threshold, events, noise; several with commas")
-            ->delimiter(',')->allow_extra_args(false)->capture_default_str();
+        command->add_option("source", options.source, "Recording, scenario (.json) or session (.faintline)")
+            ->required();
+        command->add_option("--out", options.out, "The picture (.png); of several views, each gets its name added")
+            ->required();
+        command
+            ->add_option("--view", options.views,
+                         "window, input, output, threshold, events, noise; several with commas")
+            ->delimiter(',')
+            ->allow_extra_args(false)
+            ->capture_default_str();
         command->add_option("--size", size, "Pixels")->capture_default_str();
         command->add_option("--time", options.seconds, "Where the cursor goes, s");
         command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
-        command->add_option("--theme", options.theme, "light or dark")->check(CLI::IsMember({"light", "dark"}))->capture_default_str();
+        command->add_option("--theme", options.theme, "light or dark")
+            ->check(CLI::IsMember({"light", "dark"}))
+            ->capture_default_str();
         command->add_option("--preset", options.preset, "Settings to begin with");
         command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
@@ -73,10 +81,13 @@ namespace {
         auto file = std::make_unique<QTemporaryFile>();
         if (!file->open())
             throw Error("temporary folder", file->errorString().toStdString(), Error::Kind::Failure);
-        file->write(QStringLiteral(R"({"synchronousWindowSystemEvents": false, "windowFrameMargins": false, "screens": [)"
-                                   R"({"name": "picture", "x": 0, "y": 0, "width": %1, "height": %2,)"
-                                   R"( "logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})")
-                        .arg(size.width()).arg(size.height()).toLatin1());
+        file->write(
+            QStringLiteral(R"({"synchronousWindowSystemEvents": false, "windowFrameMargins": false, "screens": [)"
+                           R"({"name": "picture", "x": 0, "y": 0, "width": %1, "height": %2,)"
+                           R"( "logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})")
+                .arg(size.width())
+                .arg(size.height())
+                .toLatin1());
         file->close();
         qputenv("QT_QPA_PLATFORM", "offscreen:configfile=" + QFile::encodeName(file->fileName()));
         return file;
@@ -119,7 +130,8 @@ namespace {
 
     int run(int argc, char *argv[])
     {
-        CLI::App program("Faintline: finds faint lines that drift and wander. Without a subcommand, opens its window.", "faintline");
+        CLI::App program("Faintline: finds faint lines that drift and wander. Without a subcommand, opens its window.",
+                         "faintline");
         program.set_version_flag("--version", "faintline " FAINTLINE_VERSION);
         std::vector<std::string> files;
         OpenOptions opening;

@@ -1,7 +1,6 @@
 #include "app/renderCommand.h"
 
 #include "app/MainWindow.h"
-#include "app/SessionSaver.h"
 #include "app/Workbench.h"
 #include "base/AtomicFile.h"
 
@@ -34,7 +33,8 @@ namespace {
     {
         QEventLoop loop;
         std::optional<Error> failure;
-        QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) { failure = error; });
+        QObject::connect(&window.controller(), &AnalysisController::failed, &loop,
+                         [&](const Error &error) { failure = error; });
         QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
         window.open(QString::fromStdString(options.source), options.opening,
                     [options](AnalysisSettings &settings) { adjust(settings, options); });
@@ -59,7 +59,8 @@ namespace {
             return options.out;
         const QFileInfo out(QString::fromStdString(options.out));
         return (out.path() + QLatin1Char('/') + out.completeBaseName() + QLatin1Char('-') + QString::fromStdString(view)
-                + QLatin1Char('.') + out.suffix()).toStdString();
+                + QLatin1Char('.') + out.suffix())
+            .toStdString();
     }
 
     void write(const QImage &image, const std::string &path)
@@ -96,11 +97,12 @@ void render(const RenderOptions &options)
 {
     for (const std::string &view : options.views)
         if (!MainWindow::viewNames().contains(QString::fromStdString(view)))
-            throw Error("--view " + view, "is not known; there are " + MainWindow::viewNames().join(QStringLiteral(", ")).toStdString());
+            throw Error("--view " + view,
+                        "is not known; there are " + MainWindow::viewNames().join(QStringLiteral(", ")).toStdString());
 
     Theme::apply(options.theme == "dark" ? Theme::Kind::Dark : Theme::Kind::Light);
     MainWindow window;
-    window.saver().setAsking(false);
+    window.setAsking(false);
     window.resize(options.size);
     window.show();
     openAndSettle(window, options);

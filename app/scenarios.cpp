@@ -9,7 +9,8 @@ const std::vector<Scenario> &scenarios()
     const auto tr = [](const char *text) { return QCoreApplication::translate("scenarios", text); };
     static const std::vector<Scenario> list{
         {tr("A drifting line too faint to see"),
-         tr("At −1 dB in a quarter of a second the input shows nothing; evidence gathered along the path shows it all."),
+         tr("At −1 dB in a quarter of a second the input shows nothing; evidence gathered along the path shows it "
+            "all."),
          QStringLiteral(":/scenarios/faint-drifting-line.json")},
         {tr("A wandering line that fades"),
          tr("It strays by 70 Hz and drops out for seconds; each time it comes back, it is found again."),

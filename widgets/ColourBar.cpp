@@ -162,7 +162,8 @@ void ColourBar::paintHistogram(QPainter &painter) const
 {
     if (m_counts.empty())
         return;
-    // Density, not count: the bytes of the upper nats are wider than those of the lower ones. Fourth root, to see tails.
+    // Density, not count: the bytes of the upper nats are wider than those of the lower ones. Fourth root, to see
+    // tails.
     const QRectF bar = barRect();
     const auto density = [&](int byte) {
         const double width = m_byteScale.value(byte) - m_byteScale.value(byte - 1);

@@ -10,8 +10,9 @@ namespace faintline {
 
 namespace {
 
-    // Viridis, magma, inferno: S. van der Walt and N. Smith (2015, CC0); cividis: J. Nuñez, C. Anderton, R. Renslow, PLOS ONE
-    // 13(7), 2018; every 15th of their 256 colours, which is within 5 of 255 everywhere. Blue-red: C. Brewer's RdBu.
+    // Viridis, magma, inferno: S. van der Walt and N. Smith (2015, CC0); cividis: J. Nuñez, C. Anderton, R. Renslow,
+    // PLOS ONE 13(7), 2018; every 15th of their 256 colours, which is within 5 of 255 everywhere. Blue-red: C. Brewer's
+    // RdBu.
     std::vector<ColourMap> makeMaps()
     {
         std::vector<ColourMap> maps;

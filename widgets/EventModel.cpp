@@ -95,7 +95,7 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
         return sortValue(event, index.column());
     case Qt::TextAlignmentRole:
         return QVariant::fromValue(
-            Qt::Alignment((index.column() == State ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter));
+            Qt::Alignment((index.column() == State ? Qt::AlignHCenter : Qt::AlignRight) | Qt::AlignVCenter));
     case Qt::AccessibleTextRole:
         return tr("%1: %2").arg(headerData(index.column(), Qt::Horizontal).toString(), text(event, index.column()));
     default:
@@ -109,7 +109,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         return {};
     if (role == Qt::TextAlignmentRole)
         return QVariant::fromValue(
-            Qt::Alignment((section == State ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter));
+            Qt::Alignment((section == State ? Qt::AlignHCenter : Qt::AlignRight) | Qt::AlignVCenter));
     const QString names[] = {tr("№"),      tr("Onset"),        tr("Detected"), tr("End"),
                              tr("f (Hz)"), tr("Drift (Hz/s)"), tr("D (nat)"),  tr("State")};
     const QString tips[] = {tr("Number, in order of detection"),

@@ -18,7 +18,8 @@ class EventProxy;
 
 /// The events of an analysis: sorted by any column, filtered by a line of text, and followed with N and Shift+N.
 ///
-/// The filter is an EventFilter: words ("open", "tentative") and comparisons ("f>1000", "stat>=25"), all of which must hold.
+/// The filter is an EventFilter: words ("open", "tentative") and comparisons ("f>1000", "stat>=25"), all of which must
+/// hold.
 class EventTable : public QWidget
 {
     Q_OBJECT

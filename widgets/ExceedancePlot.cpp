@@ -183,7 +183,7 @@ Span ExceedancePlot::natSpan() const
 void ExceedancePlot::restyle()
 {
     const Theme::Colours &colours = Theme::colours(*this);
-    setAxisTitle(QwtAxis::YLeft, isRate() ? tr("False alarms per hour") : tr("P(D > T) of a cell of noise"));
+    setAxisTitle(QwtAxis::YLeft, isRate() ? tr("False alarms/h") : tr("P(D > T) per cell"));
     Theme::style(*this);
     m_grid->setPen(colours.grid, 1.0);
     QColor area = colours.faintText;
@@ -310,6 +310,8 @@ void ExceedancePlot::step(int quarterNats)
 
 bool ExceedancePlot::eventFilter(QObject *watched, QEvent *event)
 {
+    if (watched == canvas() && event->type() == QEvent::Resize)
+        layAxes(); // ticks and colours depend on the canvas as laid out, not on the window
     if (watched == canvas() && m_calibration) {
         auto *mouse = static_cast<QMouseEvent *>(event);
         if (event->type() == QEvent::MouseButtonPress && mouse->button() == Qt::LeftButton) {
@@ -358,17 +360,23 @@ void ExceedancePlot::contextMenuEvent(QContextMenuEvent *event)
     menu.exec(event->globalPos());
 }
 
-void ExceedancePlot::resizeEvent(QResizeEvent *event)
-{
-    QwtPlot::resizeEvent(event);
-    layAxes();
-}
-
 void ExceedancePlot::changeEvent(QEvent *event)
 {
     QwtPlot::changeEvent(event);
     if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
         restyle();
+}
+
+void ExceedancePlot::focusInEvent(QFocusEvent *event)
+{
+    QwtPlot::focusInEvent(event);
+    Theme::frame(*this);
+}
+
+void ExceedancePlot::focusOutEvent(QFocusEvent *event)
+{
+    QwtPlot::focusOutEvent(event);
+    Theme::frame(*this);
 }
 
 } // namespace faintline

@@ -24,10 +24,10 @@ class LineLabel;
 
 /// Where the threshold is tuned: how often noise exceeds it, and what this recording does.
 ///
-/// Abscissa: the statistic in nats. Left ordinate, logarithmic: P(D > T) of a cell of noise (simulated for these settings, its
-/// exponential tail, a closed form where there is one, and the recording's own), or events on noise in false alarms
-/// per hour. Right ordinate: number of cells of this recording per quarter nat. The threshold line is dragged with the mouse
-/// (anywhere on the canvas) or moved with `,` and `.` by a quarter nat.
+/// Abscissa: the statistic in nats. Left ordinate, logarithmic: P(D > T) of a cell of noise (simulated for these
+/// settings, its exponential tail, a closed form where there is one, and the recording's own), or events on noise in
+/// false alarms per hour. Right ordinate: number of cells of this recording per quarter nat. The threshold line is
+/// dragged with the mouse (anywhere on the canvas) or moved with `,` and `.` by a quarter nat.
 class ExceedancePlot : public QwtPlot
 {
     Q_OBJECT
@@ -68,8 +68,9 @@ signals:
 protected:
     void keyPressEvent(QKeyEvent *event) override;
     void contextMenuEvent(QContextMenuEvent *event) override;
-    void resizeEvent(QResizeEvent *event) override;
     void changeEvent(QEvent *event) override;
+    void focusInEvent(QFocusEvent *event) override;
+    void focusOutEvent(QFocusEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:

@@ -51,7 +51,8 @@ public:
 
     static std::vector<Line> linesOf(const std::vector<Track> &followed, const Axis &time, const Axis &frequency);
     static std::vector<Line> linesOf(const std::vector<TruthLine> &known);
-    /// Boxes round the events' tracks where there are any, otherwise along their straight lines; at least a bin and a frame wide.
+    /// Boxes round the events' tracks where there are any, otherwise along their straight lines; at least a bin and a
+    /// frame wide.
     static std::vector<Mark> marksOf(const std::vector<Event> &events, const std::vector<Line> &lines,
                                      double frameSeconds, double binHz);
 

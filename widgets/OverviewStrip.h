@@ -17,9 +17,9 @@ namespace faintline {
 
 /// The whole recording in one thin picture, time from left to right, with what is visible as a box.
 ///
-/// Black and white level are its own: a pixel here is the maximum of many more cells than one of the waterfall's.
-/// Drag the box to scroll, its sides to zoom; click elsewhere to go there; wheel zooms in time; double-click shows all. Arrow keys
-/// scroll by a tenth of what is visible, + and - zoom.
+/// Black and white level are its own: a pixel here is the maximum of many more cells than one of the waterfall's. Drag
+/// the box to scroll, its sides to zoom; click elsewhere to go there; wheel zooms in time; double-click shows all.
+/// Arrow keys scroll by a tenth of what is visible, + and - zoom.
 class OverviewStrip : public QWidget
 {
     Q_OBJECT

@@ -18,9 +18,10 @@ namespace faintline {
 
 /// Draws a PeakPyramid on a plot's axes.
 ///
-/// Two caches, each kept as long as its key holds: the bytes of the pixels (picture, axes, size) and the image made from them
-/// (colours, range, threshold). Dragging a range or a threshold so costs a table look-up per pixel. Pixels lie on a grid that is
-/// fixed in time and frequency, so a picture that scrolls does not flicker; it is placed to the nearest half pixel.
+/// Two caches, each kept as long as its key holds: the bytes of the pixels (picture, axes, size) and the image made
+/// from them (colours, range, threshold). Dragging a range or a threshold so costs a table look-up per pixel. Pixels
+/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker; it is placed to the
+/// nearest half pixel.
 class RasterItem : public QwtPlotItem
 {
 public:
@@ -35,8 +36,8 @@ public:
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
               const QRectF &canvasRect) const override;
 
-    /// The image of a canvas of so many device pixels. x (from left to right) and y are frequency and time where time is vertical, time
-    /// and frequency otherwise; `isUpward`: y grows towards the top.
+    /// The image of a canvas of so many device pixels. x (from left to right) and y are frequency and time where time
+    /// is vertical, time and frequency otherwise; `isUpward`: y grows towards the top.
     QImage image(const Span &x, const Span &y, bool isUpward, const QSize &size) const;
 
 private:

@@ -15,7 +15,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int labelWidth = 116;
+    constexpr int labelWidth = 122;
 
     QString prefixOf(const QString &name)
     {

@@ -17,9 +17,9 @@ class SettingRow;
 
 /// A form made from AnalysisSettings::fields(): nobody writes a widget for a setting.
 ///
-/// One collapsible section per stage; a label in words, an editor of the field's kind, its unit; the field's sentence, range and
-/// default as tool tip; a bold label and a button to go back where the value differs from the default. Text that cannot be read
-/// is answered under the field and not emitted. Seldom-used fields are folded away under "More".
+/// One collapsible section per stage; a label in words, an editor of the field's kind, its unit; the field's sentence,
+/// range and default as tool tip; a bold label and a button to go back where the value differs from the default. Text
+/// that cannot be read is answered under the field and not emitted. Seldom-used fields are folded away under "More".
 class SettingsForm : public QWidget
 {
     Q_OBJECT
@@ -36,7 +36,8 @@ public:
     void setError(const QString &name, const QString &sentence);
     void clearErrors();
 
-    /// What an automatic value came to, shown under the field: setNote("spectrogram.windowSeconds", "automatic: 0.5 s").
+    /// What an automatic value came to, shown under the field: setNote("spectrogram.windowSeconds", "automatic: 0.5
+    /// s").
     void setNote(const QString &name, const QString &note);
 
     /// Scrolls to a field, unfolds its section and gives it the focus.

@@ -252,11 +252,9 @@ void StripPlot::restyle()
     m_key->textColour = colours.text;
     m_key->plate = colours.canvas;
     m_key->plate.setAlpha(200);
-    m_key->entries.clear();
-    for (std::size_t i = 0; i < m_series.size(); ++i) {
+    for (std::size_t i = 0; i < m_series.size(); ++i)
         m_series[i]->curve->setPen(colours.curves[i % std::size(colours.curves)], 1.2);
-        m_key->entries.push_back({m_series[i]->name, m_series[i]->curve->pen()});
-    }
+    nameCurves();
     layAxes();
 }
 
@@ -266,6 +264,24 @@ int StripPlot::widthOfRightAxis() const
     // Half a label of the time axis stands out into that room anyway.
     const int width = axisWidget(QwtAxis::YRight)->sizeHint().width() + static_cast<int>(plotLayout()->spacing());
     return std::max(width - axisWidget(QwtAxis::XBottom)->endBorderDist(), 0);
+}
+
+/// A curve that has an ordinate for itself lends it its colour; a key hides a part of the curves, so there is one only
+/// where it takes more.
+void StripPlot::nameCurves()
+{
+    m_key->entries.clear();
+    for (const Side side : {Side::Left, Side::Right}) {
+        std::vector<CurveKey::Entry> entries;
+        for (const auto &one : m_series)
+            if (one->side == side)
+                entries.push_back({one->name, one->curve->pen()});
+        if (entries.size() > 1)
+            m_key->entries.insert(m_key->entries.end(), entries.begin(), entries.end());
+        QwtText title = axisTitle(axisOf(side));
+        title.setColor(entries.size() == 1 ? entries.front().pen.color() : Theme::colours(*this).faintText);
+        setAxisTitle(axisOf(side), title);
+    }
 }
 
 void StripPlot::layAxes()
@@ -335,6 +351,8 @@ void StripPlot::followCursor()
 
 bool StripPlot::eventFilter(QObject *watched, QEvent *event)
 {
+    if (watched == canvas() && event->type() == QEvent::Resize)
+        followSpan(); // ticks and colours depend on the canvas as laid out, not on the window
     if (watched != canvas() || !m_viewport || m_viewport->isEmpty())
         return QwtPlot::eventFilter(watched, event);
     const auto mouse = [event] { return static_cast<QMouseEvent *>(event); };
@@ -390,17 +408,23 @@ void StripPlot::wheelEvent(QWheelEvent *event)
     event->accept();
 }
 
-void StripPlot::resizeEvent(QResizeEvent *event)
-{
-    QwtPlot::resizeEvent(event);
-    followSpan();
-}
-
 void StripPlot::changeEvent(QEvent *event)
 {
     QwtPlot::changeEvent(event);
     if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
         restyle();
+}
+
+void StripPlot::focusInEvent(QFocusEvent *event)
+{
+    QwtPlot::focusInEvent(event);
+    Theme::frame(*this);
+}
+
+void StripPlot::focusOutEvent(QFocusEvent *event)
+{
+    QwtPlot::focusOutEvent(event);
+    Theme::frame(*this);
 }
 
 } // namespace faintline

@@ -23,8 +23,8 @@ class CurveKey;
 
 /// Curves over time, linked with the waterfalls: ln K and the continued fraction, or the statistic at the cursor.
 ///
-/// Long curves are drawn by their minimum and maximum per pixel, so a peak of one frame is seen. Time runs from left to right.
-/// Wheel scrolls, Ctrl+wheel zooms in time, drag pans, click places the cursor.
+/// Long curves are drawn by their minimum and maximum per pixel, so a peak of one frame is seen. Time runs from left to
+/// right. Wheel scrolls, Ctrl+wheel zooms in time, drag pans, click places the cursor.
 class StripPlot : public QwtPlot
 {
     Q_OBJECT
@@ -63,8 +63,9 @@ signals:
 
 protected:
     void wheelEvent(QWheelEvent *event) override;
-    void resizeEvent(QResizeEvent *event) override;
     void changeEvent(QEvent *event) override;
+    void focusInEvent(QFocusEvent *event) override;
+    void focusOutEvent(QFocusEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
@@ -72,6 +73,7 @@ private:
 
     void restyle();
     void layAxes();
+    void nameCurves();
     int widthOfRightAxis() const;
     void followSpan();
     void followCursor();

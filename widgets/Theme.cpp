@@ -73,6 +73,7 @@ namespace {
         widget.setSpacing(3);
         QwtText title = widget.title();
         title.setFont(Theme::plotTitleFont());
+        title.setRenderFlags(Qt::AlignCenter); // never wrapped: that would move the canvas
         title.setColor(colours.faintText);
         widget.setTitle(title);
 
@@ -205,6 +206,16 @@ QFont Theme::plotTitleFont()
     return font(12);
 }
 
+void Theme::frame(QwtPlot &plot)
+{
+    auto *canvas = qobject_cast<QwtPlotCanvas *>(plot.canvas());
+    if (!canvas)
+        return;
+    QPalette palette = canvas->palette();
+    palette.setColor(QPalette::WindowText, plot.hasFocus() ? colours(plot).accent : colours(plot).frame);
+    canvas->setPalette(palette);
+}
+
 void Theme::style(QwtPlot &plot)
 {
     const Colours &c = colours(plot);
@@ -215,10 +226,8 @@ void Theme::style(QwtPlot &plot)
         canvas->setLineWidth(1);
         // Our items are cheap to paint; a second copy of the canvas costs more than it saves.
         canvas->setPaintAttribute(QwtPlotCanvas::BackingStore, false);
-        QPalette palette = canvas->palette();
-        palette.setColor(QPalette::WindowText, c.frame);
-        canvas->setPalette(palette);
     }
+    frame(plot);
     for (int axis = 0; axis < QwtAxis::AxisPositions; ++axis)
         styleAxis(plot, QwtAxisId(axis), c);
     plot.plotLayout()->setAlignCanvasToScales(true);

@@ -12,8 +12,8 @@ namespace faintline {
 
 /// How the program looks: Fusion, our own palettes, the bundled fonts; the same pixels on every machine.
 ///
-/// There is no current theme to ask for: the palette carries it, so a widget finds its colours with `Theme::colours(*this)`
-/// and restyles itself when its palette changes.
+/// There is no current theme to ask for: the palette carries it, so a widget finds its colours with
+/// `Theme::colours(*this)` and restyles itself when its palette changes.
 ///
 ///     Theme::prepareEnvironment();          // before QApplication
 ///     QApplication application(argc, argv);
@@ -45,7 +45,8 @@ public:
     /// Removes the environment variables that would change sizes or style. Call before QApplication is made.
     static void prepareEnvironment();
 
-    /// Style, palette, fonts, C locale, steady text cursor. May be called again to change the theme of a running program.
+    /// Style, palette, fonts, C locale, steady text cursor. May be called again to change the theme of a running
+    /// program.
     static void apply(Kind kind);
 
     static QPalette palette(Kind kind);
@@ -59,6 +60,9 @@ public:
     static QFont monoFont(int pixelSize = 13); ///< figures that must stay in their columns
     static QFont plotFont();                   ///< tick labels
     static QFont plotTitleFont();              ///< axis titles
+
+    /// The thin frame of a plot's canvas, in the accent's colour while the plot has the focus.
+    static void frame(QwtPlot &plot);
 
     /// Makes a Qwt plot look like the rest: canvas, thin frame, short ticks, our fonts, margins.
     static void style(QwtPlot &plot);

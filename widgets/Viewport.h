@@ -11,8 +11,8 @@ namespace faintline {
 
 /// What linked views look at together: the visible time and frequency, the cursor, the measured box.
 ///
-/// Views change it directly, for it is the state of the looking, not of the document. Everything is clamped to the extents.
-/// Seconds count from the recording's first sample.
+/// Views change it directly, for it is the state of the looking, not of the document. Everything is clamped to the
+/// extents. Seconds count from the recording's first sample.
 class Viewport : public QObject
 {
     Q_OBJECT
@@ -32,7 +32,8 @@ public:
 
     explicit Viewport(QObject *parent = nullptr);
 
-    /// A new recording: forgets history, cursor and selection, and shows all of it. The smallest spans bound zooming in.
+    /// A new recording: forgets history, cursor and selection, and shows all of it. The smallest spans bound zooming
+    /// in.
     void setExtents(const Span &time, const Span &frequency, double smallestSeconds = 0.0, double smallestHz = 0.0);
 
     bool isEmpty() const { return m_full.time.isEmpty() || m_full.frequency.isEmpty(); }

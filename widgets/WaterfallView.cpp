@@ -151,18 +151,16 @@ std::optional<double> WaterfallView::valueAt(double seconds, double hz) const
     return m_picture->scale().value(m_picture->row(0, row)[static_cast<std::size_t>(m_frequency.nearest(hz))]);
 }
 
-Span WaterfallView::visibleTime() const
+Viewport::Box WaterfallView::full() const
 {
     if (m_viewport && !m_viewport->isEmpty())
-        return m_viewport->time();
-    return m_picture ? extents(*m_picture, m_frequency).time : Span{0.0, 1.0};
+        return m_viewport->full();
+    return m_picture ? extents(*m_picture, m_frequency) : Viewport::Box{{0.0, 1.0}, {0.0, 1.0}};
 }
 
-Span WaterfallView::visibleHz() const
+Viewport::Box WaterfallView::visible() const
 {
-    if (m_viewport && !m_viewport->isEmpty())
-        return m_viewport->frequency();
-    return m_picture ? extents(*m_picture, m_frequency).frequency : Span{0.0, 1.0};
+    return m_viewport && !m_viewport->isEmpty() ? m_viewport->visible() : full();
 }
 
 Viewport::Point WaterfallView::pointAt(const QPointF &position) const
@@ -183,8 +181,7 @@ void WaterfallView::layAxes()
 {
     const bool isEmpty = !m_picture;
     auto *timeDraw = new TimeScaleDraw;
-    const Span fullTime = m_viewport && !m_viewport->isEmpty() ? m_viewport->full().time : visibleTime();
-    timeDraw->setClock(fullTime.high > longSeconds);
+    timeDraw->setClock(full().time.high > longSeconds);
     auto *hzDraw = new NumberScaleDraw;
     hzDraw->setUnit(shownUnit(m_frequency).hz);
     setAxisScaleDraw(timeAxis(), timeDraw);
@@ -211,7 +208,7 @@ void WaterfallView::layAxes()
 
 void WaterfallView::followSpan()
 {
-    const Span time = visibleTime(), hz = visibleHz();
+    const auto [time, hz] = visible();
     const QSize size = canvas()->contentsRect().size();
     const int along = isTimeVertical() ? size.height() : size.width();
     const int across = isTimeVertical() ? size.width() : size.height();
@@ -223,8 +220,7 @@ void WaterfallView::followSpan()
     setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
     setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
 
-    const Viewport::Box full = m_viewport && !m_viewport->isEmpty() ? m_viewport->full() : Viewport::Box{time, hz};
-    const QString timeLabel = timeDraw->widestLabel(full.time), hzLabel = hzDraw->widestLabel(full.frequency);
+    const QString timeLabel = timeDraw->widestLabel(full().time), hzLabel = hzDraw->widestLabel(full().frequency);
     steadyAxes(*this, isTimeVertical() ? timeLabel : hzLabel, isTimeVertical() ? hzLabel : timeLabel);
 
     countHistogram();
@@ -238,10 +234,10 @@ void WaterfallView::countHistogram()
     const QSize size = canvas()->contentsRect().size();
     if (!m_picture || size.isEmpty() || m_frequency.count == 0)
         return;
-    const double frames =
-        visibleTime().width() / m_picture->time().step / (isTimeVertical() ? size.height() : size.width());
-    const double cells = visibleHz().width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
-    // By powers of two in frequency and of four in time, so that colours change by steps while one zooms, not all the time.
+    const auto [time, hz] = visible();
+    const double frames = time.width() / m_picture->time().step / (isTimeVertical() ? size.height() : size.width());
+    const double cells = hz.width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
+    // By powers of two in frequency and of four in time: while one zooms, colours change now and then, not all along.
     const auto group = static_cast<Index>(std::exp2(std::round(std::log2(std::max(cells, 1.0)))));
     const std::pair key{m_picture->levelFor(std::max(frames, 1.0)), group};
     if (key == m_histogramKey)
@@ -383,8 +379,11 @@ void WaterfallView::setMeasuring(bool isOn)
 
 void WaterfallView::setHarmonics(bool isOn)
 {
+    if (m_hasHarmonics == isOn)
+        return;
     m_hasHarmonics = isOn;
     updateContent();
+    emit harmonicsChanged(isOn);
 }
 
 void WaterfallView::updateMarks()
@@ -424,6 +423,18 @@ QString WaterfallView::selectionText(const Viewport::Box &box) const
     QStringList words{tr("Δt %1").arg(secondsText(seconds, 0.01 * seconds)), tr("Δf %1").arg(hertzText(hz, 0.01 * hz))};
     if (seconds > 0.0)
         words << tr("%1 Hz/s").arg(powerText(hz / seconds, 3));
+    const auto cellsOf = [](const Axis &axis, Index count, const Span &span) {
+        const auto clamped = [count](double index) { return std::clamp<Index>(std::lround(index), 0, count - 1); };
+        return std::pair(clamped(axis.position(span.low)), clamped(axis.position(span.high)) + 1);
+    };
+    if (m_picture && m_picture->frameCount() > 0 && m_frequency.count > 0) {
+        const auto [firstFrame, endFrame] = cellsOf(m_picture->time(), m_picture->frameCount(), box.time);
+        const auto [firstCell, endCell] = cellsOf(m_frequency, m_frequency.count, box.frequency);
+        const BoxValues values = boxValues(*m_picture, firstFrame, endFrame, firstCell, endCell);
+        words << tr("peak %1 %2").arg(numberText(values.peak, 1), valueUnit());
+        if (values.mean)
+            words << tr("mean %1 dB").arg(numberText(*values.mean, 1));
+    }
     return words.join(QStringLiteral(" · "));
 }
 
@@ -461,6 +472,8 @@ int WaterfallView::eventAt(const QPointF &position) const
 
 bool WaterfallView::eventFilter(QObject *watched, QEvent *event)
 {
+    if (watched == canvas() && event->type() == QEvent::Resize)
+        followSpan(); // ticks and colours depend on the canvas as laid out, not on the window
     if (watched != canvas() || !m_picture || !m_viewport)
         return QwtPlot::eventFilter(watched, event);
     switch (event->type()) {
@@ -764,17 +777,23 @@ void WaterfallView::contextMenuEvent(QContextMenuEvent *event)
     menu.exec(event->globalPos());
 }
 
-void WaterfallView::resizeEvent(QResizeEvent *event)
-{
-    QwtPlot::resizeEvent(event);
-    followSpan();
-}
-
 void WaterfallView::changeEvent(QEvent *event)
 {
     QwtPlot::changeEvent(event);
     if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
         layAxes();
+}
+
+void WaterfallView::focusInEvent(QFocusEvent *event)
+{
+    QwtPlot::focusInEvent(event);
+    Theme::frame(*this);
+}
+
+void WaterfallView::focusOutEvent(QFocusEvent *event)
+{
+    QwtPlot::focusOutEvent(event);
+    Theme::frame(*this);
 }
 
 } // namespace faintline

@@ -32,10 +32,10 @@ class RasterItem;
 /// cell is a plain rectangle. Looking (zooming, colours, orientation) is the view's own affair and is told by signals
 /// that say `…Changed`; what touches the document is only asked for by signals that say `…Requested`.
 ///
-/// Mouse: wheel scrolls time, with Shift frequency, with Ctrl zooms about the pointer, over an axis zooms that axis; drag
-/// pans, Shift+drag zooms to a box, click places the cursor, double-click activates an event.
-/// Keys: arrows move the cursor by a cell (with Ctrl by ten), Backspace back, 0 all, O orientation, [ ] black level, { }
-/// white level, A automatic range, C colour map, `,` `.` threshold, M measure, H harmonics, Escape clears.
+/// Mouse: wheel scrolls time, with Shift frequency, with Ctrl zooms about the pointer, over an axis zooms that axis;
+/// drag pans, Shift+drag zooms to a box, click places the cursor, double-click activates an event. Keys: arrows move
+/// the cursor by a cell (with Ctrl by ten), Backspace back, 0 all, O orientation, [ ] black level, { } white level, A
+/// automatic range, C colour map, `,` `.` threshold, M measure, H harmonics, Escape clears.
 class WaterfallView : public QwtPlot
 {
     Q_OBJECT
@@ -92,6 +92,7 @@ public:
     Layers layers() const { return m_layers; }
     int selectedEvent() const { return m_selectedEvent; }
     bool isMeasuring() const { return m_isMeasuring; }
+    bool hasHarmonics() const { return m_hasHarmonics; }
 
     /// Pixel on the canvas ↔ time and frequency.
     Viewport::Point pointAt(const QPointF &canvasPosition) const;
@@ -135,6 +136,7 @@ signals:
     void thresholdChanged(double nats); ///< NaN: none
     void layersChanged();
     void measuringChanged(bool isOn);
+    void harmonicsChanged(bool isOn);
     /// `,` and `.`: so many steps of a quarter nat.
     void thresholdStepRequested(int steps);
     void eventActivated(int id);
@@ -145,8 +147,9 @@ protected:
     void keyPressEvent(QKeyEvent *event) override;
     void wheelEvent(QWheelEvent *event) override;
     void contextMenuEvent(QContextMenuEvent *event) override;
-    void resizeEvent(QResizeEvent *event) override;
     void changeEvent(QEvent *event) override;
+    void focusInEvent(QFocusEvent *event) override;
+    void focusOutEvent(QFocusEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
@@ -155,8 +158,8 @@ private:
     bool isTimeVertical() const { return m_orientation != Orientation::LeftToRight; }
     QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
     QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
-    Span visibleTime() const;
-    Span visibleHz() const;
+    Viewport::Box full() const;
+    Viewport::Box visible() const;
     void layAxes();
     void followSpan();
     void followCursor();

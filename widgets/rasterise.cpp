@@ -1,5 +1,7 @@
 #include "widgets/rasterise.h"
 
+#include "base/logmath.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -121,6 +123,32 @@ std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixe
         }
     }
     return counts;
+}
+
+BoxValues boxValues(const PeakPyramid &picture, Index beginFrame, Index endFrame, Index beginCell, Index endCell)
+{
+    constexpr double affordableCells = 4e6;
+    const auto frames = static_cast<double>(endFrame - beginFrame);
+    const int level = picture.levelFor(frames * static_cast<double>(endCell - beginCell) / affordableCells);
+    const Index perRow = picture.framesPerRow(level);
+    const Index endRow = std::min((endFrame + perRow - 1) / perRow, picture.rowCount(level));
+    std::vector<double> counts(256, 0.0);
+    for (Index row = beginFrame / perRow; row < endRow; ++row)
+        for (Index cell = beginCell; cell < endCell; ++cell)
+            counts[picture.row(level, row)[static_cast<std::size_t>(cell)]] += 1.0;
+
+    BoxValues values;
+    double power = 0.0, count = 0.0;
+    for (int byte = 0; byte < 256; ++byte) {
+        const double here = counts[static_cast<std::size_t>(byte)];
+        if (here > 0.0)
+            values.peak = picture.scale().value(byte);
+        power += here * ratioFromDb(picture.scale().value(byte));
+        count += here;
+    }
+    if (picture.scale().kind() == ByteScale::Kind::PowerDb && perRow == 1 && count > 0.0)
+        values.mean = dbFromRatio(power / count);
+    return values;
 }
 
 Span automaticRange(const ByteScale &scale, const std::vector<double> &counts)

@@ -4,8 +4,8 @@
 
 namespace faintline {
 
-/// Words for people, from the names that files and the command line use. What is not in the lists is made from the name itself, so a
-/// new setting needs no entry here.
+/// Words for people, from the names that files and the command line use. What is not in the lists is made from the name
+/// itself, so a new setting needs no entry here.
 
 /// "decide.falseAlarmsPerHour" → "False alarms per hour".
 QString settingLabel(const QString &name);

@@ -1,7 +1,5 @@
 #include "analysis/Calibration.h"
 
-#include "analysis/analyse.h"
-#include "analysis/chain.h"
 #include "base/Random.h"
 #include "recording/SimulatedRecording.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -30,7 +28,6 @@ namespace {
     constexpr Index framesAtOnce = 64;
     constexpr Index blockFrames = 128;
     constexpr Index blockCells = 64;
-    constexpr double rateToCount = 8e-6; ///< events per cell and frame at which the chain is counted
 
     /// Noise to calibrate on, in segments that can be made independently of each other.
     using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;
@@ -122,29 +119,6 @@ namespace {
         return tail;
     }
 
-    /// How many events the whole chain reports at a threshold in one segment of noise.
-    double countEvents(const NormalisedFramesPointer &noise, const MarkovModel &model, const AnalysisSettings &settings,
-                       const std::shared_ptr<const Calibration> &calibration, double threshold)
-    {
-        Analysis analysis;
-        analysis.settings = settings;
-        analysis.frames = noise;
-        analysis.model = model;
-        analysis.calibration = calibration;
-        analysis.threshold = threshold;
-        const auto chain = makeChain(analysis);
-        const Index cells = noise->grid().size();
-        std::vector<float> batch(static_cast<std::size_t>(framesAtOnce * cells));
-        std::vector<float> statistic(static_cast<std::size_t>(cells));
-        for (Index frame = 0; frame < noise->time().count; ++frame) {
-            if (frame % framesAtOnce == 0)
-                noise->read(frame, std::min(framesAtOnce, noise->time().count - frame), batch);
-            chain->update(frame, std::span(batch).subspan(static_cast<std::size_t>(frame % framesAtOnce * cells), statistic.size()), statistic);
-        }
-        chain->finish();
-        return static_cast<double>(chain->tracks().size());
-    }
-
     /// Calls work(number) for 0 … count-1, `threads` at a time, and take(result) in the order of the numbers.
     template <class Work, class Take>
     void inRounds(int count, const RunContext &context, Work work, Take take)
@@ -206,9 +180,8 @@ namespace {
     }
 
     std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
-                                                   const AnalysisSettings &settings, const RunContext &context)
+                                                   const SmdSettings &smd, const RunContext &context)
     {
-        const auto &smd = std::get<SmdSettings>(settings.detector);
         auto result = std::make_shared<Calibration>();
         context.checkpoint(0.0, "calibrating K on noise");
         const auto first = beginningOf(*segment(0), settlingFrames + regulationFrames);
@@ -221,12 +194,9 @@ namespace {
         if (smd.reset == SmdSettings::Reset::Mean)
             result->lnK = meanLnK;
 
-        // The first half of the segments tells how the rate falls with the threshold …
-        const int half = segmentCount / 2;
         Tail tail;
-        double cellFrames = 0.0;
         inRounds(
-            half, context.part(0.2, 0.6), [&](int number) { return measureTail(*segment(number), model, rule); },
+            segmentCount, context.part(0.2, 1.0), [&](int number) { return measureTail(*segment(number), model, rule); },
             [&](const Tail &part) {
                 for (std::size_t i = 0; i < tail.counts.size(); ++i)
                     tail.counts[i] += part.counts[i];
@@ -236,24 +206,6 @@ namespace {
         const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
         fitTail(std::move(tail.blockMaxima), static_cast<double>(blockFrames) * cells / columns, *result);
         fillExceedance(tail.counts, *result);
-
-        // … the second, how many events the whole chain makes of it: an excursion that lies in two blocks is still one.
-        const double threshold = result->thresholdForEventRate(rateToCount);
-        double counted = 0.0;
-        inRounds(
-            segmentCount - half, context.part(0.6, 1.0),
-            [&](int number) {
-                const NormalisedFramesPointer noise = segment(half + number);
-                const double size = cells * static_cast<double>(noise->time().count);
-                return std::pair(size, countEvents(noise, model, settings, result, threshold));
-            },
-            [&](const std::pair<double, double> &part) {
-                cellFrames += part.first;
-                counted += part.second;
-            });
-        result->anchorNats = threshold;
-        result->eventRate = std::max(counted, 1.0) / cellFrames;
-        result->relativeError = 1.0 / std::sqrt(std::max(counted, 1.0));
         return result;
     }
 
@@ -261,10 +213,8 @@ namespace {
     AnalysisSettings dimensionless(AnalysisSettings settings)
     {
         settings.selection = {};
-        const DecideSettings decide = settings.decide;
         settings.decide = {};
-        settings.decide.linkCells = decide.linkCells;
-        settings.decide.inhibitCells = decide.inhibitCells;
+        settings.track = {};
         settings.spectrogram.windowSeconds = windowSamples;
         return settings;
     }
@@ -348,7 +298,7 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
             * static_cast<double>(Fft::fastLength(windowSamples * bare.spectrogram.binsPerCell));
         const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / perSegment)));
         const MarkovModel model = makeModel(bare.model, segment(0)->grid());
-        return calibrateOn(segment, segments, model, bare, context);
+        return calibrateOn(segment, segments, model, std::get<SmdSettings>(bare.detector), context);
     });
 }
 
@@ -367,7 +317,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
         return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
     };
     const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / static_cast<double>(frames * grid.size()))));
-    return calibrateOn(segment, segments, model, settings, context);
+    return calibrateOn(segment, segments, model, std::get<SmdSettings>(settings.detector), context);
 }
 
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)

@@ -12,9 +12,10 @@ namespace faintline {
 /// How a detector answers to noise alone: found by simulation, the same noise through the same chain.
 ///
 /// The statistic's tail is exponential (for one-to-one transitions exactly so, Lindley's recursion: P(L > T) = σ e^{-(1-σ)T}). The
-/// slope θ of the rate of events comes from the maxima of space-time blocks, P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), fitted by
-/// maximum likelihood to the blocks whose maximum exceeds their lower 40 %; its height from counting the events that the
-/// whole chain reports at one threshold u. In between and beyond: rate(T) = rate(u) e^{-θ(T-u)}.
+/// rate of events, exceedances counted once per excursion, comes from the maxima of space-time blocks: with
+/// P(max ≤ T) = exp(-Λ e^{-θ(T-u)}) the two parameters are fitted by maximum likelihood to the blocks whose maximum
+/// exceeds u; Λ/block size is the number of events per cell and frame at threshold u. An excursion that lies in two blocks
+/// counts twice, so the rate is on the safe side, by up to a factor of two where events are dense.
 struct Calibration {
     double lnK = 0.0;               ///< ln K in force
     double continuedFraction = 0.0; ///< realised, of all states
@@ -40,11 +41,11 @@ struct Calibration {
 /// dimensionless part of the settings (windows, overlaps, model, detector), which is also the key under which results
 /// are kept for the life of the program. `cellFrames`: cells × frames to simulate for the tail.
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
-                                             double cellFrames = 6e7);
+                                             double cellFrames = 4e7);
 
 /// The same for ready-made frames: independent exponential cells on a grid of the model's shape (cut to a handy size).
 std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &model, const AnalysisSettings &settings,
-                                                               const RunContext &context = {}, double cellFrames = 6e7);
+                                                               const RunContext &context = {}, double cellFrames = 4e7);
 
 /// The threshold in nats that the decide settings ask for.
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour);

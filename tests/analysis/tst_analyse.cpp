@@ -182,13 +182,13 @@ void tst_analyse::calibratedKHalvesNoise()
 
 void tst_analyse::falseAlarmsAsOrdered()
 {
-    // Six minutes of noise at 600 false alarms an hour: 60 expected; the Poisson interval at 1 in 10⁴ is 33 … 93.
+    // An hour of noise at 60 false alarms an hour; the Poisson interval at 1 in 10⁴ is 33 … 93.
     LineScene scene;
     scene.sampleRateHz = 2000.0;
-    scene.durationSeconds = 360.0;
+    scene.durationSeconds = 3600.0;
     scene.seed = 41;
     AnalysisSettings s = settings();
-    s.decide.falseAlarmsPerHour = 600.0;
+    s.decide.falseAlarmsPerHour = 60.0;
     const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), s);
     const auto count = static_cast<int>(analysis->tracks.size());
     QVERIFY2(count >= 33 && count <= 93, qPrintable(QString::number(count)));

@@ -126,9 +126,7 @@ private slots:
         runner.start([&](const RunContext &) -> JobRunner::Delivery {
             return [&] {
                 delivered << "first";
-                runner.start([&](const RunContext &) -> JobRunner::Delivery {
-                    return [&] { delivered << "second"; };
-                });
+                runner.start([&](const RunContext &) -> JobRunner::Delivery { return [&] { delivered << "second"; }; });
             };
         });
         QVERIFY(finished.wait());

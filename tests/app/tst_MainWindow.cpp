@@ -6,7 +6,6 @@
 #include "app/KeysOverlay.h"
 #include "app/MessageBar.h"
 #include "app/ScenarioCard.h"
-#include "app/SessionSaver.h"
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
 #include "widgets/EventTable.h"
@@ -61,7 +60,8 @@ QByteArray wav(int rate, double seconds)
     header.writeRawData("RIFF", 4);
     header << quint32(36 + samples.size());
     header.writeRawData("WAVEfmt ", 8);
-    header << quint32(16) << quint16(1) << quint16(1) << quint32(rate) << quint32(2 * rate) << quint16(2) << quint16(16);
+    header << quint32(16) << quint16(1) << quint16(1) << quint32(rate) << quint32(2 * rate) << quint16(2)
+           << quint16(16);
     header.writeRawData("data", 4);
     header << quint32(samples.size());
     return file + samples;
@@ -115,7 +115,7 @@ class tst_MainWindow : public QObject
     {
         auto result = std::make_unique<MainWindow>(
             remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
-        result->saver().setAsking(false);
+        result->setAsking(false);
         result->resize(1400, 900);
         result->show();
         return result;
@@ -127,7 +127,8 @@ private slots:
         Theme::apply(Theme::Kind::Dark);
         m_scene = path("scene.json");
         writeFile(m_scene, R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
-            {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120, "driftHzPerSecond": 1},
+            {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120,
+             "driftHzPerSecond": 1},
             {"snrDb": 4, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 20, "frequencyHz": 350}]})");
         writeFile(path("tone.wav"), wav(1000, 60.0));
         writeFile(path("text.wav"), "This is no sound.");
@@ -231,7 +232,8 @@ private slots:
         auto window = this->window();
         QVERIFY(openAndSettle(*window, m_scene));
         const double threshold = window->document().analysis()->threshold;
-        for (const auto unit : {ExceedancePlot::Unit::PfaPerCell, ExceedancePlot::Unit::Nats, ExceedancePlot::Unit::FalseAlarmsPerHour}) {
+        for (const auto unit :
+             {ExceedancePlot::Unit::PfaPerCell, ExceedancePlot::Unit::Nats, ExceedancePlot::Unit::FalseAlarmsPerHour}) {
             emit window->thresholdPlot().unitChanged(unit);
             QVERIFY(settle(*window));
             QVERIFY(std::abs(window->document().analysis()->threshold - threshold) < 0.1);
@@ -283,7 +285,8 @@ private slots:
         QTest::keyClick(output, Qt::Key_J);
         QVERIFY(std::abs(document.viewport().cursor()->seconds - 10.0) < 1e-9);
         const double hz = document.viewport().cursor()->hz;
-        QTest::keyClick(output, output->orientation() == WaterfallView::Orientation::LeftToRight ? Qt::Key_Up : Qt::Key_Right);
+        QTest::keyClick(output,
+                        output->orientation() == WaterfallView::Orientation::LeftToRight ? Qt::Key_Up : Qt::Key_Right);
         QVERIFY(document.viewport().cursor()->hz > hz);
 
         QTest::keyClick(output, Qt::Key_Space);
@@ -412,7 +415,8 @@ private slots:
     void aRecordingThatIsTooShortSaysSoAndLeavesTheForm()
     {
         auto window = this->window();
-        window->open(path("short.wav"), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 1.0; });
+        window->open(path("short.wav"), {},
+                     [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 1.0; });
         QVERIFY(settle(*window));
         QVERIFY(!window->messages().text().isEmpty());
         QVERIFY(window->workbench().isVisible());
@@ -480,9 +484,11 @@ private slots:
         auto window = this->window();
         QVERIFY(openAndSettle(*window, m_scene));
         std::mt19937 random(9);
-        const std::vector<QString> names{"model.snr", "noise.blockWindows", "decide.thresholdNats", "spectrogram.windowSeconds"};
+        const std::vector<QString> names{"model.snr", "noise.blockWindows", "decide.thresholdNats",
+                                         "spectrogram.windowSeconds"};
         for (int i = 0; i < 200; ++i) {
-            window->controller().edit(names[random() % names.size()], 0.25 + 0.01 * static_cast<double>(random() % 100), "Change");
+            window->controller().edit(names[random() % names.size()], 0.25 + 0.01 * static_cast<double>(random() % 100),
+                                      "Change");
             if (i % 7 == 0)
                 QCoreApplication::processEvents();
         }

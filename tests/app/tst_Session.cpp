@@ -110,8 +110,10 @@ private slots:
         QVERIFY(refused(R"({"faintline": 99, "recording": {"path": "a"}})").contains("faintline"));
         QVERIFY(refused(R"({"faintline": 1})").contains("recording"));
         QVERIFY(refused(R"({"faintline": 1, "recording": {"path": 3}})").startsWith(path("bad.faintline")));
-        QVERIFY(refused(R"({"faintline": 1, "recording": {"path": "a"}, "settings": {"model.snr": -3}})").contains("model.snr"));
-        QVERIFY(refused(R"({"faintline": 1, "recording": {"path": "a"}, "view": {"cursor": [1]}})").startsWith(path("bad.faintline")));
+        QVERIFY(refused(R"({"faintline": 1, "recording": {"path": "a"}, "settings": {"model.snr": -3}})")
+                    .contains("model.snr"));
+        QVERIFY(refused(R"({"faintline": 1, "recording": {"path": "a"}, "view": {"cursor": [1]}})")
+                    .startsWith(path("bad.faintline")));
         QVERIFY(refused(R"({"faintline": 1, "recording": {"path": "a"}, "extra": 1})").contains("extra"));
         QVERIFY(!refusal(path("missing.faintline")).empty());
     }

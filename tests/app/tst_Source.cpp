@@ -28,7 +28,9 @@ class tst_Source : public QObject
 private slots:
     void aJsonFileIsAScenario()
     {
-        const Source source = sourceOf(file("a.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "lines": [{"frequencyHz": 20}]})"));
+        const Source source = sourceOf(
+            file("a.json",
+                 R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "lines": [{"frequencyHz": 20}]})"));
         QVERIFY(source.scene);
         QCOMPARE(source.name(), "a.json");
         const OpenedSource opened = openSource(source);
@@ -38,7 +40,8 @@ private slots:
 
     void aMistakeInAScenarioNamesFileAndKey()
     {
-        const QString path = file("b.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "moon": 1})");
+        const QString path =
+            file("b.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10, "moon": 1})");
         try {
             sourceOf(path);
             QFAIL("taken");

@@ -297,6 +297,9 @@ void tst_cli::isTheLibrary()
     const Explanation noise = explain(*analysis, 18.0, {400.0});
     QVERIFY(!noise.isTracked);
     QVERIFY(std::abs(noise.statistic - static_cast<double>(statistic[71 * 501 + 400])) < 1e-3);
+    QVERIFY(contains(errorOf([&] { explain(*analysis, 99.0, {100.0}); }), "time 99 s: must lie in 0.25 … 29.75 s"));
+    QVERIFY(contains(errorOf([&] { explain(*analysis, NAN, {100.0}); }), "time nan s: must lie in"));
+    QVERIFY(contains(errorOf([&] { explain(*analysis, 9.0, {NAN}); }), "frequency nan: must be a number"));
 }
 
 void tst_cli::explainsItsTerms()
@@ -498,8 +501,6 @@ void tst_cli::mistakes_data()
     row("longer than the recording", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=31"}, "shorter than one window of 31 s");
     row("unknown preset", {"detect", "line.wav", "--summary", "--preset", "x"}, "preset x: is not known; there are lines, billon");
     row("no session", {"detect", "line.wav", "--summary", "--session", "line.wav"}, "line.wav: is not valid JSON");
-    row("time outside", {"explain", "line.wav", "--time", "99", "--frequency", "100"}, "time 99 s: must lie in ");
-    row("frequency that is no number", {"explain", "line.wav", "--time", "9", "--frequency", "nan"}, "frequency nan: must be a number");
     row("no scene", {"simulate", "line.wav", "--out", "x.wav"}, "line.wav: is not valid JSON");
     row("no kind of recording", {"simulate", "scene.json", "--out", "x.xyz"}, "x.xyz: has no extension that says what to write");
     row("negative seed", {"simulate", "scene.json", "--out", "x.wav", "--seed", "-1"}, "command line: --seed");

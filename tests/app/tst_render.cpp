@@ -52,6 +52,9 @@ private slots:
         QFile text(path("text.wav"));
         QVERIFY(text.open(QIODevice::WriteOnly));
         text.write("This is no sound.");
+        QFile raw(path("raw.cf32"));
+        QVERIFY(raw.open(QIODevice::WriteOnly));
+        raw.write(QByteArray(80000, '\0'));
     }
 
     void twiceIsIdentical()
@@ -70,8 +73,9 @@ private slots:
     {
         const QStringList views{"window", "input", "output", "threshold", "events", "noise"};
         for (const QString &theme : {QString("light"), QString("dark")}) {
-            const Outcome outcome = run({"render", path("scene.json"), "--out", path(theme + ".png"), "--view", views.join(','), "--size",
-                                         "1200x700", "--theme", theme, "--time", "20", "--frequency", "220"});
+            const Outcome outcome =
+                run({"render", path("scene.json"), "--out", path(theme + ".png"), "--view", views.join(','), "--size",
+                     "1200x700", "--theme", theme, "--time", "20", "--frequency", "220"});
             QCOMPARE(outcome.error, QByteArray());
             for (const QString &view : views)
                 QCOMPARE(QImage(path(theme + "-" + view + ".png")).size(), QSize(1200, 700));
@@ -97,6 +101,7 @@ private slots:
         const QString out = path("never.png");
         QTest::newRow("no such file") << QStringList{"render", path("none.wav"), "--out", out} << "none.wav";
         QTest::newRow("no recording") << QStringList{"render", path("text.wav"), "--out", out} << "text.wav";
+        QTest::newRow("raw without its rate") << QStringList{"render", path("raw.cf32"), "--out", out} << "--raw-rate";
         QTest::newRow("no out") << QStringList{"render", scene} << "--out";
         QTest::newRow("view") << QStringList{"render", scene, "--out", out, "--view", "moon"} << "moon";
         QTest::newRow("size") << QStringList{"render", scene, "--out", out, "--size", "big"} << "--size";
@@ -106,7 +111,9 @@ private slots:
         QTest::newRow("no setting") << QStringList{"render", scene, "--out", out, "--set", "moon=1"} << "moon";
         QTest::newRow("preset") << QStringList{"render", scene, "--out", out, "--preset", "moon"} << "moon";
         QTest::newRow("option") << QStringList{"render", scene, "--out", out, "--moon"} << "--moon";
-        QTest::newRow("folder") << QStringList{"render", scene, "--out", path("no/such/folder.png"), "--size", "1200x700"} << "folder";
+        QTest::newRow("folder") << QStringList{"render", scene,     "--out", path("no/such/folder.png"),
+                                               "--size", "1200x700"}
+                                << "folder";
     }
 
     void mistakesAreOneLineAndTwo()

@@ -64,7 +64,8 @@ void tst_RasterItem::rangeAndMap()
 
 void tst_RasterItem::contour()
 {
-    // One cell of 5 × 5 above the threshold: its four neighbours are drawn in the contour's colour, the cell itself is not touched.
+    // One cell of 5 × 5 above the threshold: its four neighbours are drawn in the contour's colour, the cell itself is
+    // not touched.
     RasterItem item;
     item.setPicture(test::picture(5, 5, [](Index f, Index c) { return f == 2 && c == 2 ? 20.0f : 0.0f; }),
                     test::hzAxis(5));

@@ -1,9 +1,20 @@
 #include "widgets/Theme.h"
 
+#include "pictures.h"
+#include "widgets/ColourBar.h"
 #include "widgets/ColourMap.h"
+#include "widgets/EventTable.h"
+#include "widgets/ExceedancePlot.h"
+#include "widgets/OverviewStrip.h"
+#include "widgets/ReadOut.h"
+#include "widgets/SettingsForm.h"
+#include "widgets/StripPlot.h"
+#include "widgets/WaterfallView.h"
+#include "widgets/icon.h"
 
 #include <QApplication>
 #include <QDirIterator>
+#include <QGridLayout>
 #include <QRawFont>
 #include <QRegularExpression>
 #include <QSet>
@@ -28,6 +39,8 @@ private slots:
     void kindIsFoundInThePalette();
     void mapsAreEven();
     void mapsByName();
+    void aChangeOfThemeLeavesNothingBehind();
+    void iconsFollowTheTheme();
 
 private:
     static double luminance(const QColor &colour)
@@ -147,6 +160,98 @@ void tst_Theme::mapsByName()
     QCOMPARE(viridis.entries().back(), QRgb(0xfffde725));
     QCOMPARE(viridis.at(-3.0), viridis.at(0.0));
     QCOMPARE(viridis.at(7.0), viridis.at(1.0));
+}
+
+/// One of each widget, filled, in one window.
+class Sample : public QWidget
+{
+public:
+    Sample()
+    {
+        const auto picture = test::countingPicture(4, 30);
+        const Axis hz = test::hzAxis(30);
+        const Viewport::Box box = WaterfallView::extents(*picture, hz);
+        m_viewport.setExtents(box.time, box.frequency);
+        m_viewport.setCursor({1.5, 120.0});
+        auto *view = new WaterfallView("Statistic");
+        view->setViewport(&m_viewport);
+        view->setPicture(picture, hz);
+        view->setThreshold(15.0);
+        auto *bar = new ColourBar;
+        bar->attach(view);
+        auto *strip = new StripPlot("D (nat)");
+        strip->setViewport(&m_viewport);
+        strip->setProfile("D", picture, hz);
+        strip->setLevel(12.0, "threshold");
+        auto *calibration = new Calibration;
+        calibration->levels = {0.0, 5.0, 10.0};
+        calibration->exceedance = {0.5, 0.05, 0.005};
+        auto *exceedance = new ExceedancePlot;
+        exceedance->setCalibration(std::shared_ptr<const Calibration>(calibration), 1e6);
+        auto *overview = new OverviewStrip;
+        overview->setViewport(&m_viewport);
+        overview->setPicture(picture, hz);
+        auto *form = new SettingsForm;
+        form->setError("model.snr", "must be larger");
+        auto *table = new EventTable;
+        table->setEvents({test::event(1, 0.0, 2.0, 110.0)});
+        auto *layout = new QGridLayout(this);
+        const std::initializer_list<QWidget *> widgets{view, bar, strip, exceedance, overview, form, table, new ReadOut};
+        int i = 0;
+        for (QWidget *widget : widgets) {
+            layout->addWidget(widget, i / 2, i % 2);
+            ++i;
+        }
+        resize(900, 900);
+    }
+
+private:
+    Viewport m_viewport;
+};
+
+void tst_Theme::aChangeOfThemeLeavesNothingBehind()
+{
+    const auto settled = [](QWidget &widget) { // scroll bars follow their layouts some events later
+        widget.show();
+        QTest::qWait(50);
+        return widget.grab().toImage();
+    };
+    Theme::apply(Theme::Kind::Dark);
+    Sample fresh;
+    const QImage expected = settled(fresh);
+    fresh.hide();
+
+    Theme::apply(Theme::Kind::Light);
+    Sample changed;
+    QVERIFY(settled(changed) != expected);
+    Theme::apply(Theme::Kind::Dark);
+    const QImage actual = settled(changed);
+    if (actual != expected) {
+        expected.save("expected.png");
+        actual.save("actual.png");
+    }
+    QVERIFY2(actual == expected, "see expected.png and actual.png");
+    Theme::apply(Theme::Kind::Light);
+}
+
+void tst_Theme::iconsFollowTheTheme()
+{
+    const QIcon run = icon("run");
+    QVERIFY(!run.isNull());
+    QVERIFY(icon("no such icon").isNull());
+    const auto strongest = [&] {
+        const QImage image = run.pixmap(24, 24).toImage();
+        QColor result(Qt::transparent);
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x)
+                if (const QColor colour = image.pixelColor(x, y); colour.alpha() > result.alpha())
+                    result = colour;
+        return result.lightness();
+    };
+    Theme::apply(Theme::Kind::Dark);
+    QVERIFY(strongest() > 200);
+    Theme::apply(Theme::Kind::Light);
+    QVERIFY(strongest() < 60);
 }
 
 QTEST_MAIN(tst_Theme)

@@ -22,6 +22,7 @@ private slots:
     void theLastFrameIsShown();
     void emptyPicture();
     void rangeOfNoise();
+    void valuesOfABox();
 
 private:
     static std::vector<std::uint8_t> raster(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells)
@@ -130,6 +131,17 @@ void tst_rasterise::rangeOfNoise()
     QVERIFY(quiet.high > 8.0 && quiet.high < 15.0);
     QVERIFY(std::abs(quiet.low - loud.low) <= 0.5);
     QVERIFY(loud.high <= 15.0);
+}
+
+void tst_rasterise::valuesOfABox()
+{
+    const auto nats = test::countingPicture(5, 8); // cell + 10 · frame
+    QCOMPARE(boxValues(*nats, 1, 3, 2, 5).peak, 24.0);
+    QVERIFY(!boxValues(*nats, 1, 3, 2, 5).mean);
+    const auto power = test::picture(4, 4, [](Index f, Index c) { return f == 1 && c == 1 ? 100.0f : 1.0f; }, ByteScale::Kind::PowerDb);
+    QCOMPARE(boxValues(*power, 0, 4, 0, 4).peak, 20.0);
+    QVERIFY(std::abs(boxValues(*power, 0, 4, 0, 4).mean.value() - 10.0 * std::log10(115.0 / 16.0)) < 1e-9);
+    QCOMPARE(boxValues(*power, 2, 4, 0, 4).mean.value(), 0.0);
 }
 
 QTEST_MAIN(tst_rasterise)
