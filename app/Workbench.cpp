@@ -105,7 +105,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     m_rows->addWidget(m_statistic);
     m_rows->addWidget(m_regulation);
     m_rows->setStretchFactor(0, 1);
-    m_rows->setSizes({600, 125, 115});
+    m_rows->setSizes({590, 125, 125});
     for (QSplitter *splitter : {m_pictures, m_rows})
         splitter->setChildrenCollapsible(false);
     for (QwtPlot *plot : std::initializer_list<QwtPlot *>{m_input, m_output, m_statistic, m_regulation})
@@ -115,7 +115,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
 
-    m_regulation->setRightTitle(tr("reset fraction"));
+    m_regulation->setRightTitle(tr("resets"));
     m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
     m_input->setObjectName(QStringLiteral("input"));
     m_output->setObjectName(QStringLiteral("output"));

@@ -31,6 +31,29 @@ EventTable::EventTable(QWidget *parent)
     m_filter->setAccessibleName(tr("Filter events"));
     connect(m_filter, &QLineEdit::textChanged, this, &EventTable::applyFilter);
 
+    setUpTable();
+    m_empty->setAlignment(Qt::AlignCenter);
+    m_empty->setWordWrap(true);
+    m_empty->setForegroundRole(QPalette::PlaceholderText);
+    m_empty->setMargin(16);
+    auto *stack = new QStackedLayout;
+    stack->addWidget(m_empty);
+    stack->addWidget(m_table);
+    m_count->setForegroundRole(QPalette::PlaceholderText);
+
+    auto *top = new QHBoxLayout;
+    top->addWidget(m_filter, 1);
+    top->addWidget(m_count);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(4, 4, 4, 4);
+    layout->setSpacing(4);
+    layout->addLayout(top);
+    layout->addLayout(stack, 1);
+    updateCount();
+}
+
+void EventTable::setUpTable()
+{
     m_table->setModel(m_proxy);
     m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
     m_table->setSelectionMode(QAbstractItemView::SingleSelection);
@@ -50,25 +73,6 @@ EventTable::EventTable(QWidget *parent)
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) { activate(index.row()); });
-
-    m_empty->setAlignment(Qt::AlignCenter);
-    m_empty->setWordWrap(true);
-    m_empty->setForegroundRole(QPalette::PlaceholderText);
-    m_empty->setMargin(16);
-    auto *stack = new QStackedLayout;
-    stack->addWidget(m_empty);
-    stack->addWidget(m_table);
-    m_count->setForegroundRole(QPalette::PlaceholderText);
-
-    auto *top = new QHBoxLayout;
-    top->addWidget(m_filter, 1);
-    top->addWidget(m_count);
-    auto *layout = new QVBoxLayout(this);
-    layout->setContentsMargins(4, 4, 4, 4);
-    layout->setSpacing(4);
-    layout->addLayout(top);
-    layout->addLayout(stack, 1);
-    updateCount();
 }
 
 void EventTable::setEvents(const std::vector<Event> &events)

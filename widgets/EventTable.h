@@ -53,6 +53,7 @@ protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
+    void setUpTable();
     void step(int by);
     void activate(int proxyRow);
     void applyFilter(const QString &text);

@@ -214,39 +214,53 @@ void ExceedancePlot::restyle()
 
 void ExceedancePlot::updateCurves()
 {
-    QPolygonF simulated, tail, measured, closedForm;
-    QList<QwtIntervalSample> bars;
-    const Span span = natSpan();
+    drawNoise();
+    drawRecording();
+    nameCurves();
+    layAxes();
+}
+
+void ExceedancePlot::drawNoise()
+{
+    QPolygonF simulated, tail, closedForm;
     if (m_calibration) {
-        if (!isRate())
-            for (std::size_t i = 0; i < m_calibration->levels.size(); ++i)
-                if (isCountedWell(i))
-                    simulated << QPointF(m_calibration->levels[i], std::log10(m_calibration->exceedance[i]));
+        for (std::size_t i = 0; i < m_calibration->levels.size() && !isRate(); ++i)
+            if (isCountedWell(i))
+                simulated << QPointF(m_calibration->levels[i], std::log10(m_calibration->exceedance[i]));
         // The fitted law of events only holds in the tail.
-        const double anchor = isRate() || simulated.isEmpty() ? m_calibration->anchorNats : simulated.back().x();
-        for (const double nats : {anchor, span.high})
+        const double anchor = simulated.isEmpty() ? m_calibration->anchorNats : simulated.back().x();
+        for (const double nats : {anchor, natSpan().high})
             tail << QPointF(nats, ordinate(nats));
-        if (!isRate())
-            for (const QPointF &point : m_closedFormPoints)
-                closedForm << QPointF(point.x(), log10OrFloor(point.y()));
+        for (const QPointF &point : isRate() ? QPolygonF() : m_closedFormPoints)
+            closedForm << QPointF(point.x(), log10OrFloor(point.y()));
     }
-    double above = std::accumulate(m_counts.begin(), m_counts.end(), 0.0);
-    const double total = above;
+    m_simulated->setSamples(simulated);
+    m_tail->setSamples(tail);
+    m_closedForm->setSamples(closedForm);
+}
+
+void ExceedancePlot::drawRecording()
+{
+    QPolygonF measured;
+    QList<QwtIntervalSample> bars;
+    const double total = std::accumulate(m_counts.begin(), m_counts.end(), 0.0);
+    const double highest = natSpan().high;
+    double above = total;
     for (std::size_t i = 0; i < m_counts.size() && m_calibration; ++i) {
         const double nats = lowestNats + quarterNat * static_cast<double>(i);
         if (above > 0.0 && !isRate())
             measured << QPointF(nats, std::log10(above / total));
         above -= m_counts[i];
-        if (m_counts[i] > 0.0 && nats < span.high)
+        if (m_counts[i] > 0.0 && nats < highest)
             bars << QwtIntervalSample(std::log10(m_counts[i]), nats, nats + quarterNat);
     }
-    m_simulated->setSamples(simulated);
-    m_tail->setSamples(tail);
-    m_closedForm->setSamples(closedForm);
     m_measured->setSamples(measured);
     m_histogram->setBaseline(-0.3);
     m_histogram->setSamples(bars);
+}
 
+void ExceedancePlot::nameCurves()
+{
     m_key->entries.clear();
     const auto name = [this](const QwtPlotCurve &curve, const QString &text) {
         if (curve.dataSize() > 0)
@@ -256,9 +270,8 @@ void ExceedancePlot::updateCurves()
     name(*m_tail, isRate() ? tr("noise, fitted law") : tr("its exponential tail"));
     name(*m_closedForm, tr("closed form"));
     name(*m_measured, tr("this recording"));
-    if (!bars.isEmpty())
+    if (m_histogram->dataSize() > 0)
         m_key->entries.push_back({tr("its cells"), QPen(m_histogram->brush().color()), true});
-    layAxes();
 }
 
 void ExceedancePlot::layAxes()

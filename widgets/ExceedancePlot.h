@@ -77,6 +77,9 @@ private:
     void restyle();
     void layAxes();
     void updateCurves();
+    void drawNoise();
+    void drawRecording();
+    void nameCurves();
     void updateThresholdLine();
     void dragTo(double canvasX);
     void step(int quarterNats);

@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace faintline {
 
@@ -635,80 +636,49 @@ void WaterfallView::moveCursor(int right, int up, int cells)
 
 void WaterfallView::keyPressEvent(QKeyEvent *event)
 {
-    if (!m_picture || !m_viewport) {
-        QwtPlot::keyPressEvent(event);
-        return;
-    }
     const int cells = event->modifiers().testFlag(Qt::ControlModifier) ? 10 : 1;
-    switch (event->key()) {
-    case Qt::Key_Left:
-        moveCursor(-1, 0, cells);
-        return;
-    case Qt::Key_Right:
-        moveCursor(1, 0, cells);
-        return;
-    case Qt::Key_Up:
-        moveCursor(0, 1, cells);
-        return;
-    case Qt::Key_Down:
-        moveCursor(0, -1, cells);
-        return;
-    default:
-        break;
-    }
-    if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier)) {
+    const std::pair<int, std::function<void()>> cursorKeys[] = {
+        {Qt::Key_Left, [=, this] { moveCursor(-1, 0, cells); }},
+        {Qt::Key_Right, [=, this] { moveCursor(1, 0, cells); }},
+        {Qt::Key_Up, [=, this] { moveCursor(0, 1, cells); }},
+        {Qt::Key_Down, [=, this] { moveCursor(0, -1, cells); }},
+    };
+    const std::pair<int, std::function<void()>> plainKeys[] = {
+        {Qt::Key_Backspace, [this] { m_viewport->zoomBack(); }},
+        {Qt::Key_0, [this] { m_viewport->showAll(); }},
+        {Qt::Key_O, [this] { cycleOrientation(); }},
+        {Qt::Key_BracketLeft, [this] { stepBlack(-1); }},
+        {Qt::Key_BracketRight, [this] { stepBlack(1); }},
+        {Qt::Key_BraceLeft, [this] { stepWhite(-1); }},
+        {Qt::Key_BraceRight, [this] { stepWhite(1); }},
+        {Qt::Key_A, [this] { setAutomaticRange(); }},
+        {Qt::Key_C, [this] { cycleColourMap(); }},
+        {Qt::Key_Comma, [this] { emit thresholdStepRequested(-1); }},
+        {Qt::Key_Period, [this] { emit thresholdStepRequested(1); }},
+        {Qt::Key_M, [this] { setMeasuring(!m_isMeasuring); }},
+        {Qt::Key_H, [this] { setHarmonics(!m_hasHarmonics); }},
+        {Qt::Key_Escape, [this] { clearMarks(); }},
+    };
+    const bool isPlain = !(event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
+    const auto act = [&](const auto &keys) {
+        const auto isPressed = [&](const auto &entry) { return entry.first == event->key(); };
+        const auto found = std::find_if(std::begin(keys), std::end(keys), isPressed);
+        if (found == std::end(keys))
+            return false;
+        found->second();
+        return true;
+    };
+    const bool isDone = m_picture && m_viewport && (act(cursorKeys) || (isPlain && act(plainKeys)));
+    if (!isDone)
         QwtPlot::keyPressEvent(event);
-        return;
-    }
-    switch (event->key()) {
-    case Qt::Key_Backspace:
-        m_viewport->zoomBack();
-        return;
-    case Qt::Key_0:
-        m_viewport->showAll();
-        return;
-    case Qt::Key_O:
-        cycleOrientation();
-        return;
-    case Qt::Key_BracketLeft:
-        stepBlack(-1);
-        return;
-    case Qt::Key_BracketRight:
-        stepBlack(1);
-        return;
-    case Qt::Key_BraceLeft:
-        stepWhite(-1);
-        return;
-    case Qt::Key_BraceRight:
-        stepWhite(1);
-        return;
-    case Qt::Key_A:
-        setAutomaticRange();
-        return;
-    case Qt::Key_C:
-        cycleColourMap();
-        return;
-    case Qt::Key_Comma:
-        emit thresholdStepRequested(-1);
-        return;
-    case Qt::Key_Period:
-        emit thresholdStepRequested(1);
-        return;
-    case Qt::Key_M:
-        setMeasuring(!m_isMeasuring);
-        return;
-    case Qt::Key_H:
-        setHarmonics(!m_hasHarmonics);
-        return;
-    case Qt::Key_Escape:
-        setMeasuring(false);
-        setHarmonics(false);
-        m_viewport->clearSelection();
-        m_viewport->clearCursor();
-        return;
-    default:
-        QwtPlot::keyPressEvent(event);
-    }
+}
+
+void WaterfallView::clearMarks()
+{
+    setMeasuring(false);
+    setHarmonics(false);
+    m_viewport->clearSelection();
+    m_viewport->clearCursor();
 }
 
 // ---- menu, look ----------------------------------------------------------------------------------------------------

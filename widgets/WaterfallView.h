@@ -170,6 +170,7 @@ private:
     QString selectionText(const Viewport::Box &box) const;
     int eventAt(const QPointF &canvasPosition) const;
     void moveCursor(int right, int up, int cells);
+    void clearMarks();
     void scroll(Qt::Orientation direction, double notches);
     void pressed(const QMouseEvent &event);
     void moved(const QMouseEvent &event);

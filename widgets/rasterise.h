@@ -39,7 +39,7 @@ Span automaticRange(const ByteScale &scale, const std::vector<double> &counts);
 
 /// What a box of whole cells holds.
 struct BoxValues {
-    double peak = 0.0;           ///< dB or nat
+    double peak = 0.0;          ///< dB or nat
     std::optional<double> mean; ///< dB of the mean power; nothing for nats, or where frames have been merged
 };
 

@@ -579,6 +579,7 @@ void tst_cli::interruptLeavesNothing()
     QProcess process;
     process.setWorkingDirectory(m_folder.path());
     process.start(program, arguments);
+    QVERIFY(process.waitForStarted(patience));
     const auto halfWritten = [&] { return QDir(m_folder.path()).entryList({"endless*.part", ".endless*"}, QDir::Files | QDir::Hidden); };
     QTRY_VERIFY_WITH_TIMEOUT(!halfWritten().isEmpty() || process.state() == QProcess::NotRunning, patience);
     QVERIFY2(process.state() == QProcess::Running, process.readAllStandardError().data());

@@ -196,7 +196,8 @@ public:
         auto *table = new EventTable;
         table->setEvents({test::event(1, 0.0, 2.0, 110.0)});
         auto *layout = new QGridLayout(this);
-        const std::initializer_list<QWidget *> widgets{view, bar, strip, exceedance, overview, form, table, new ReadOut};
+        const std::initializer_list<QWidget *> widgets{view,     bar,  strip, exceedance,
+                                                       overview, form, table, new ReadOut};
         int i = 0;
         for (QWidget *widget : widgets) {
             layout->addWidget(widget, i / 2, i % 2);

@@ -138,7 +138,8 @@ void tst_rasterise::valuesOfABox()
     const auto nats = test::countingPicture(5, 8); // cell + 10 · frame
     QCOMPARE(boxValues(*nats, 1, 3, 2, 5).peak, 24.0);
     QVERIFY(!boxValues(*nats, 1, 3, 2, 5).mean);
-    const auto power = test::picture(4, 4, [](Index f, Index c) { return f == 1 && c == 1 ? 100.0f : 1.0f; }, ByteScale::Kind::PowerDb);
+    const auto power = test::picture(
+        4, 4, [](Index f, Index c) { return f == 1 && c == 1 ? 100.0f : 1.0f; }, ByteScale::Kind::PowerDb);
     QCOMPARE(boxValues(*power, 0, 4, 0, 4).peak, 20.0);
     QVERIFY(std::abs(boxValues(*power, 0, 4, 0, 4).mean.value() - 10.0 * std::log10(115.0 / 16.0)) < 1e-9);
     QCOMPARE(boxValues(*power, 2, 4, 0, 4).mean.value(), 0.0);
