@@ -43,7 +43,8 @@ int main(int argc, char **argv)
         ->check(CLI::IsMember({"auto", "json", "none"}))
         ->capture_default_str();
     for (const auto add : {faintline::cli::addInfo, faintline::cli::addDescribe, faintline::cli::addDetect,
-                           faintline::cli::addStatistic, faintline::cli::addExplain, faintline::cli::addSimulate})
+                           faintline::cli::addStatistic, faintline::cli::addExplain, faintline::cli::addSimulate,
+                           faintline::cli::addReproduce})
         add(app, common);
     try {
         app.parse(argc, argv);

@@ -48,6 +48,7 @@ void addDetect(CLI::App &app, Common &common);
 void addStatistic(CLI::App &app, Common &common);
 void addExplain(CLI::App &app, Common &common);
 void addSimulate(CLI::App &app, Common &common);
+void addReproduce(CLI::App &app, Common &common);
 
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);

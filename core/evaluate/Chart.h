@@ -1,0 +1,38 @@
+#pragma once
+
+#include "evaluate/Interval.h"
+
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// One curve of a chart.
+struct Curve {
+    enum class Kind {
+        Measured, ///< simulated here: points joined by a line, with their interval
+        Theory,   ///< a line
+        Paper     ///< read from a publication: hollow points
+    };
+    struct Point {
+        double x = 0.0;
+        double y = 0.0;
+        Interval interval; ///< empty (low = high = 0) where there is none
+    };
+
+    std::string name;
+    Kind kind = Kind::Measured;
+    std::vector<Point> points;
+};
+
+/// A diagram as a value, for whoever draws it: the window, or a file.
+struct Chart {
+    std::string title;
+    std::string xLabel; ///< with its unit: "SNR (dB)"
+    std::string yLabel;
+    bool isLogarithmicX = false;
+    bool isLogarithmicY = false;
+    std::vector<Curve> curves;
+};
+
+} // namespace faintline

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+namespace faintline {
+
+/// A 95 % confidence interval.
+struct Interval {
+    double low = 0.0;
+    double high = 0.0;
+
+    bool contains(double value) const { return low <= value && value <= high; }
+    bool operator==(const Interval &) const = default;
+};
+
+/// Of a probability, from `successes` in `trials` independent ones (Wilson 1927): never empty, never outside of 0 … 1.
+Interval wilsonInterval(std::int64_t successes, std::int64_t trials);
+
+/// Of a Poisson mean from one count, exact (Garwood 1936, by χ² quantiles).
+Interval poissonInterval(std::int64_t count);
+
+/// Of a mean, from its standard error: ± 1.96 errors.
+Interval normalInterval(double mean, double standardError);
+
+} // namespace faintline

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "base/RunContext.h"
+#include "evaluate/Chart.h"
+#include "evaluate/Interval.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace faintline {
+
+/// One number of a publication beside ours.
+struct ReproducedCell {
+    std::string row;
+    std::string column;
+    std::optional<double> paper;     ///< as printed; nothing where the publication leaves the cell empty
+    std::optional<double> reference; ///< from an independent program or a closed form: what ours is judged by
+    double tolerance = 0.0;          ///< largest |ours - reference|
+    double ours = 0.0;
+    Interval interval;               ///< 95 %, of ours; empty (low = high) for exact values
+
+    bool isJudged() const { return reference.has_value(); }
+    bool isInside() const;
+    /// ours - paper, in standard errors of ours; nothing without a paper's figure or an interval.
+    std::optional<double> z() const;
+};
+
+/// A table or figure of a publication, made again.
+struct Reproduction {
+    std::string name;  ///< "billon:table1"
+    std::string title; ///< what it shows, with the source
+    std::string quantity; ///< what the cells hold: "Pd", "ASN (stages)"
+    std::vector<ReproducedCell> cells;
+    std::vector<Chart> charts;
+    std::vector<std::string> notes; ///< known misfits, conventions, what the reader should know
+
+    bool isInside() const; ///< every judged cell is
+};
+
+struct ReproduceOptions {
+    bool quick = false; ///< about a tenth of the trials, for a look; tolerances widen accordingly by 1/√(share)
+    std::uint64_t seed = 1;
+};
+
+/// A table or figure that can be made.
+struct Reproducible {
+    std::string name;
+    std::string title;
+    std::function<Reproduction(const ReproduceOptions &, const RunContext &)> run;
+};
+
+/// All of them, in the order of publication.
+const std::vector<Reproducible> &reproducibles();
+
+/// The one of that name; throws Error naming all.
+const Reproducible &reproducible(std::string_view name);
+
+} // namespace faintline
