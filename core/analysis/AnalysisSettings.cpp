@@ -4,6 +4,7 @@
 #include "base/json.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace faintline {
 
@@ -26,12 +27,31 @@ namespace {
         table.insert(table.end(), fields.begin(), fields.end());
     }
 
-    template <class Alternative>
-    void appendDetector(std::vector<Field<AnalysisSettings>> &table, const std::string &prefix)
+    /// Which detector; choosing another kind brings its default settings.
+    Field<AnalysisSettings> detectorKind()
     {
-        auto fields = within<AnalysisSettings>(prefix, Alternative::fields(),
-                                               [](auto &settings) { return std::get_if<Alternative>(&settings.detector); });
-        table.insert(table.end(), fields.begin(), fields.end());
+        Field<AnalysisSettings> kind;
+        kind.name = "detector.kind";
+        kind.sentence = "The detector: sequential Markov, P out of N, integrator, single-frame energy, fixed-window Viterbi, Shiryaev-Roberts.";
+        kind.kind = FieldKind::Choice;
+        kind.choices.assign(detectorNames.begin(), detectorNames.end());
+        kind.get = [](const AnalysisSettings &settings) { return std::string(detectorNames[settings.detector.index()]); };
+        kind.set = [](AnalysisSettings &settings, const FieldValue &value) {
+            const auto found = std::find(detectorNames.begin(), detectorNames.end(), std::get<std::string>(value));
+            const auto index = static_cast<std::size_t>(found - detectorNames.begin());
+            if (index < detectorNames.size() && index != settings.detector.index())
+                settings.detector = detectorOfKind(index);
+        };
+        return kind;
+    }
+
+    template <std::size_t... I>
+    void appendDetectors(std::vector<Field<AnalysisSettings>> &table, std::index_sequence<I...>)
+    {
+        const auto append = [&](const auto &fields) { table.insert(table.end(), fields.begin(), fields.end()); };
+        (append(within<AnalysisSettings>(std::string(detectorNames[I]), std::variant_alternative_t<I, DetectorSettings>::fields(),
+                                         [](auto &settings) { return std::get_if<I>(&settings.detector); })),
+         ...);
     }
 
     std::size_t editDistance(std::string_view a, std::string_view b)
@@ -69,17 +89,6 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
     return table;
 }
 
-const std::vector<Field<SmdSettings>> &SmdSettings::fields()
-{
-    using S = SmdSettings;
-    static const std::vector<Field<S>> table{
-        field(&S::reset, "reset", S::resetNames,
-              "How K is found: calibrated on noise for a 50 % reset probability, fixed, regulated to 50 %, or Parsons' mean law."),
-        field(&S::lnK, "lnK", "nat", -100.0, 100.0, "ln K where it is fixed."),
-    };
-    return table;
-}
-
 const std::vector<Field<DecideSettings>> &DecideSettings::fields()
 {
     using S = DecideSettings;
@@ -109,7 +118,8 @@ const std::vector<Field<AnalysisSettings>> &AnalysisSettings::fields()
         append(all, "spectrogram", &S::spectrogram);
         append(all, "noise", &S::noise);
         append(all, "model", &S::model);
-        appendDetector<SmdSettings>(all, "smd");
+        all.push_back(detectorKind());
+        appendDetectors(all, std::make_index_sequence<detectorNames.size()>());
         append(all, "decide", &S::decide);
         append(all, "track", &S::track);
         return all;
@@ -133,6 +143,8 @@ void setSetting(AnalysisSettings &settings, std::string_view name, std::string_v
 {
     const auto &f = settingField(name);
     f.set(settings, parseFieldValue(f, text));
+    if (!f.get(settings))
+        throw Error(std::string(name), "belongs to another detector than the one chosen; choose it first with detector.kind");
 }
 
 void checkSettings(const AnalysisSettings &settings)

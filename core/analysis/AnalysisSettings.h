@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Field.h"
-#include "detect/Smd.h"
+#include "detect/makeDetector.h"
 #include "model/MarkovModel.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Spectrogram.h"
@@ -10,7 +10,6 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace faintline {
@@ -27,20 +26,6 @@ struct ModelSettings {
     static const std::vector<Field<ModelSettings>> &fields();
     bool operator==(const ModelSettings &) const = default;
 };
-
-/// The sequential Markov detector's own settings.
-struct SmdSettings {
-    enum class Reset { Calibrated, Fixed, Half, Mean };
-    static constexpr std::array<std::string_view, 4> resetNames{"calibrated", "fixed", "half", "mean"};
-
-    Reset reset = Reset::Calibrated; ///< how K is found
-    double lnK = 0.0;                ///< Fixed
-
-    static const std::vector<Field<SmdSettings>> &fields();
-    bool operator==(const SmdSettings &) const = default;
-};
-
-using DetectorSettings = std::variant<SmdSettings>;
 
 /// When a statistic becomes an event.
 struct DecideSettings {

@@ -22,15 +22,23 @@ namespace {
     constexpr int regulationFrames = 1500;
     constexpr int windowSamples = 256; ///< of the simulated recording; its noise does not depend on it
     constexpr int segmentWindows = 4096;
-    constexpr float levelStep = 0.25f;
-    constexpr float lowestLevel = -2.0f;
     constexpr std::size_t levelCount = 2000;
+    constexpr double levelsInView = 300.0; ///< of them, below the largest statistic of the first frames
     constexpr Index framesAtOnce = 64;
     constexpr Index blockFrames = 128;
     constexpr Index blockCells = 64;
 
     /// Noise to calibrate on, in segments that can be made independently of each other.
     using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;
+
+    /// A detector on noise, made afresh for every segment.
+    using DetectorMaker = std::function<std::unique_ptr<Detector>()>;
+
+    /// Levels at which a statistic's exceedance is counted.
+    struct Levels {
+        float lowest = 0.0f;
+        float step = 1.0f;
+    };
 
     struct Tail {
         std::vector<double> counts = std::vector<double>(levelCount, 0.0); ///< cells per level bin
@@ -83,9 +91,28 @@ namespace {
         return 0.5 * (low + high);
     }
 
-    Tail measureTail(const NormalisedFrames &noise, const MarkovModel &model, const ResetRule &rule)
+    /// Levels that suit the statistic's own unit.
+    Levels levelsOf(const NormalisedFrames &noise, Detector &detector)
     {
-        Smd detector(model, rule);
+        const auto cells = static_cast<std::size_t>(noise.grid().size());
+        std::vector<float> y(cells);
+        std::vector<float> statistic(cells);
+        float least = std::numeric_limits<float>::infinity();
+        float largest = -least;
+        for (Index frame = 0; frame < noise.time().count; ++frame) {
+            noise.read(frame, 1, y);
+            detector.update(y, statistic);
+            if (frame < settlingFrames)
+                continue;
+            const auto [low, high] = std::minmax_element(statistic.begin(), statistic.end());
+            least = std::min(least, *low);
+            largest = std::max(largest, *high);
+        }
+        return {least, std::max((largest - least) / static_cast<float>(levelsInView), 1e-6f)};
+    }
+
+    Tail measureTail(const NormalisedFrames &noise, Detector &detector, const Levels &levels)
+    {
         const Index cells = noise.grid().size();
         const Index columns = std::max<Index>(1, cells / blockCells);
         std::vector<float> batch(static_cast<std::size_t>(framesAtOnce * cells));
@@ -100,7 +127,7 @@ namespace {
             if (frame < settlingFrames)
                 continue;
             for (float value : statistic) {
-                const float position = (value - lowestLevel) / levelStep;
+                const float position = (value - levels.lowest) / levels.step;
                 tail.counts[static_cast<std::size_t>(std::clamp(position, 0.0f, static_cast<float>(levelCount - 1)))] += 1.0;
             }
             if (inBlock == 0)
@@ -168,35 +195,55 @@ namespace {
         result.eventRate = n / blocks(theta) / cellFramesPerBlock;
     }
 
-    void fillExceedance(const std::vector<double> &counts, Calibration &result)
+    void fillExceedance(const std::vector<double> &counts, const Levels &levels, Calibration &result)
     {
         const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
         double above = total;
         for (std::size_t i = 0; i < counts.size() && above > 0.0; ++i) {
-            result.levels.push_back(static_cast<double>(lowestLevel) + static_cast<double>(levelStep) * static_cast<double>(i));
+            result.levels.push_back(static_cast<double>(levels.lowest) + static_cast<double>(levels.step) * static_cast<double>(i));
             result.exceedance.push_back(above / total);
             above -= counts[i];
         }
     }
 
+    /// ln K in force and the fraction it continues.
+    struct ResetFit {
+        double lnK = 0.0;
+        double continuedFraction = 0.0;
+    };
+
+    ResetFit fitReset(const NormalisedFrames &noise, const MarkovModel &model, const SmdSettings &smd)
+    {
+        ResetFit fit{smd.lnK, 0.0};
+        if (smd.reset == SmdSettings::Reset::Calibrated || smd.reset == SmdSettings::Reset::Half)
+            fit.lnK = lnKForHalf(noise, model);
+        double meanLnK = 0.0;
+        fit.continuedFraction = continuedFraction(noise, model, resetRule(smd, fit.lnK), &meanLnK);
+        if (smd.reset == SmdSettings::Reset::Mean)
+            fit.lnK = meanLnK;
+        return fit;
+    }
+
     std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
-                                                   const SmdSettings &smd, const RunContext &context)
+                                                   const DetectorSettings &settings, const FrameGeometry &geometry,
+                                                   const RunContext &context)
     {
         auto result = std::make_shared<Calibration>();
         context.checkpoint(0.0, "calibrating K on noise");
         const auto first = beginningOf(*segment(0), settlingFrames + regulationFrames);
-        result->lnK = smd.lnK;
-        if (smd.reset == SmdSettings::Reset::Calibrated || smd.reset == SmdSettings::Reset::Half)
-            result->lnK = lnKForHalf(*first, model);
-        const ResetRule rule = resetRule(smd, *result);
-        double meanLnK = 0.0;
-        result->continuedFraction = continuedFraction(*first, model, rule, &meanLnK);
-        if (smd.reset == SmdSettings::Reset::Mean)
-            result->lnK = meanLnK;
+        ResetRule rule;
+        if (const auto *smd = std::get_if<SmdSettings>(&settings)) {
+            const ResetFit fit = fitReset(*first, model, *smd);
+            result->lnK = fit.lnK;
+            result->continuedFraction = fit.continuedFraction;
+            rule = resetRule(*smd, fit.lnK);
+        }
+        const DetectorMaker make = [&] { return makeDetector(settings, model, first->grid(), geometry, rule); };
+        const Levels levels = levelsOf(*first, *make());
 
         Tail tail;
         inRounds(
-            segmentCount, context.part(0.2, 1.0), [&](int number) { return measureTail(*segment(number), model, rule); },
+            segmentCount, context.part(0.2, 1.0), [&](int number) { return measureTail(*segment(number), *make(), levels); },
             [&](const Tail &part) {
                 for (std::size_t i = 0; i < tail.counts.size(); ++i)
                     tail.counts[i] += part.counts[i];
@@ -205,7 +252,7 @@ namespace {
         const double cells = static_cast<double>(first->grid().size());
         const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
         fitTail(std::move(tail.blockMaxima), static_cast<double>(blockFrames) * cells / columns, *result);
-        fillExceedance(tail.counts, *result);
+        fillExceedance(tail.counts, levels, *result);
         return result;
     }
 
@@ -217,6 +264,18 @@ namespace {
         settings.track = {};
         settings.spectrogram.windowSeconds = windowSamples;
         return settings;
+    }
+
+    NormalisedFramesPointer noiseSegment(const AnalysisSettings &bare, int number)
+    {
+        LineScene scene;
+        scene.sampleRateHz = 1.0;
+        scene.durationSeconds = static_cast<double>(segmentWindows) * windowSamples;
+        scene.isComplex = true;
+        scene.noise.deviation = 1.0;
+        scene.seed = 1000 + number;
+        const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), bare.spectrogram);
+        return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, bare.noise), bare.noise);
     }
 
     std::shared_ptr<const Calibration> kept(const std::string &key, const std::function<std::shared_ptr<const Calibration>()> &make)
@@ -262,7 +321,7 @@ double Calibration::exceedanceAt(double nats) const
         return exceedance.front();
     if (nats >= levels[last])
         return exceedance[last] * std::exp(-tailSlope * (nats - levels[last]));
-    const double position = (nats - levels.front()) / static_cast<double>(levelStep);
+    const double position = (nats - levels.front()) / (levels[1] - levels[0]);
     const auto lower = static_cast<std::size_t>(position);
     const double fraction = position - static_cast<double>(lower);
     return std::exp((1.0 - fraction) * std::log(exceedance[lower]) + fraction * std::log(exceedance[lower + 1]));
@@ -283,22 +342,12 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
 {
     const AnalysisSettings bare = dimensionless(settings);
     return kept(settingsToJson(bare) + formatNumber(cellFrames), [&] {
-        LineScene scene;
-        scene.sampleRateHz = 1.0;
-        scene.durationSeconds = static_cast<double>(segmentWindows) * windowSamples;
-        scene.isComplex = true;
-        scene.noise.deviation = 1.0;
-        const auto segment = [&](int number) -> NormalisedFramesPointer {
-            LineScene own = scene;
-            own.seed = 1000 + number;
-            const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(own), bare.spectrogram);
-            return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, bare.noise), bare.noise);
-        };
         const double perSegment = static_cast<double>(segmentWindows) * bare.spectrogram.stepsPerWindow
             * static_cast<double>(Fft::fastLength(windowSamples * bare.spectrogram.binsPerCell));
         const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / perSegment)));
-        const MarkovModel model = makeModel(bare.model, segment(0)->grid());
-        return calibrateOn(segment, segments, model, std::get<SmdSettings>(bare.detector), context);
+        const MarkovModel model = makeModel(bare.model, noiseSegment(bare, 0)->grid());
+        return calibrateOn([&](int number) { return noiseSegment(bare, number); }, segments, model, bare.detector,
+                           frameGeometry(bare.spectrogram), context);
     });
 }
 
@@ -317,7 +366,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
         return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
     };
     const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / static_cast<double>(frames * grid.size()))));
-    return calibrateOn(segment, segments, model, std::get<SmdSettings>(settings.detector), context);
+    return calibrateOn(segment, segments, model, settings.detector, {}, context);
 }
 
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)
@@ -333,18 +382,41 @@ double thresholdNats(const DecideSettings &decide, const Calibration &calibratio
     return decide.thresholdNats;
 }
 
-ResetRule resetRule(const SmdSettings &settings, const Calibration &calibration)
+ResetRule calibratedReset(const AnalysisSettings &settings, const RunContext &context)
+{
+    AnalysisSettings bare = dimensionless(settings);
+    const auto &smd = std::get<SmdSettings>(bare.detector);
+    if (smd.reset == SmdSettings::Reset::Fixed || smd.reset == SmdSettings::Reset::Mean)
+        return resetRule(smd, smd.lnK);
+    const auto fitted = kept("reset " + settingsToJson(bare), [&] {
+        context.checkpoint(0.0, "calibrating K on noise");
+        const auto noise = beginningOf(*noiseSegment(bare, 0), settlingFrames + regulationFrames);
+        const ResetFit fit = fitReset(*noise, makeModel(bare.model, noise->grid()), smd);
+        auto calibration = std::make_shared<Calibration>();
+        calibration->lnK = fit.lnK;
+        calibration->continuedFraction = fit.continuedFraction;
+        return std::shared_ptr<const Calibration>(calibration);
+    });
+    return resetRule(smd, fitted->lnK);
+}
+
+ResetRule resetRule(const SmdSettings &settings, double lnK)
 {
     switch (settings.reset) {
     case SmdSettings::Reset::Calibrated:
     case SmdSettings::Reset::Fixed:
-        return {ResetLaw::Fixed, calibration.lnK};
+        return {ResetLaw::Fixed, lnK};
     case SmdSettings::Reset::Half:
-        return {ResetLaw::Half, calibration.lnK};
+        return {ResetLaw::Half, lnK};
     case SmdSettings::Reset::Mean:
         return {ResetLaw::Mean};
     }
     return {};
+}
+
+FrameGeometry frameGeometry(const SpectrogramSettings &settings)
+{
+    return {static_cast<double>(settings.stepsPerWindow), static_cast<double>(settings.binsPerCell)};
 }
 
 } // namespace faintline

@@ -50,7 +50,14 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
 /// The threshold in nats that the decide settings ask for.
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour);
 
-/// The reset rule the detector settings ask for.
-ResetRule resetRule(const SmdSettings &settings, const Calibration &calibration);
+/// The reset rule of a sequential Markov detector alone, K calibrated where the settings say so: what `calibrate` finds, without the
+/// tail. Precondition: the settings hold that detector.
+ResetRule calibratedReset(const AnalysisSettings &settings, const RunContext &context = {});
+
+/// The reset rule that the settings ask for, given the ln K that was found.
+ResetRule resetRule(const SmdSettings &settings, double lnK);
+
+/// k_t and k_f of a spectrogram, for detectors stated in windows and cells.
+FrameGeometry frameGeometry(const SpectrogramSettings &settings);
 
 } // namespace faintline

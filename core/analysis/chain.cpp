@@ -60,8 +60,11 @@ namespace {
 
 std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
 {
-    const auto &smd = std::get<SmdSettings>(analysis.settings.detector);
-    auto detector = std::make_unique<Smd>(analysis.model, resetRule(smd, *analysis.calibration));
+    const AnalysisSettings &settings = analysis.settings;
+    const auto *smd = std::get_if<SmdSettings>(&settings.detector);
+    const FrameGeometry geometry = analysis.recording ? frameGeometry(settings.spectrogram) : FrameGeometry{};
+    auto detector = makeDetector(settings.detector, analysis.model, analysis.grid(), geometry,
+                                 smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
     return std::make_unique<DetectionChain>(analysis.model, analysis.grid(), std::move(detector), chainSettings(analysis));
 }
 

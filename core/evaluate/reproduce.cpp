@@ -1,6 +1,7 @@
 #include "evaluate/reproduce.h"
 
 #include "base/Error.h"
+#include "evaluate/reproduceBillon.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ bool ReproducedCell::isInside() const
 std::optional<double> ReproducedCell::z() const
 {
     constexpr double errorsPerInterval = 2.0 * 1.959963984540054;
-    const double standardError = (interval.high - interval.low) / errorsPerInterval;
+    const double standardError = std::hypot((interval.high - interval.low) / errorsPerInterval, paperError);
     if (!paper || !(standardError > 0.0))
         return std::nullopt;
     return (ours - *paper) / standardError;
@@ -30,6 +31,8 @@ const std::vector<Reproducible> &reproducibles()
 {
     static const std::vector<Reproducible> list = [] {
         std::vector<Reproducible> all;
+        for (const auto &paper : {billonReproducibles()})
+            all.insert(all.end(), paper.begin(), paper.end());
         return all;
     }();
     return list;

@@ -18,6 +18,7 @@ struct ReproducedCell {
     std::string row;
     std::string column;
     std::optional<double> paper;     ///< as printed; nothing where the publication leaves the cell empty
+    double paperError = 0.0;         ///< standard error of the paper's figure, where it can be told
     std::optional<double> reference; ///< from an independent program or a closed form: what ours is judged by
     double tolerance = 0.0;          ///< largest |ours - reference|
     double ours = 0.0;
@@ -25,7 +26,7 @@ struct ReproducedCell {
 
     bool isJudged() const { return reference.has_value(); }
     bool isInside() const;
-    /// ours - paper, in standard errors of ours; nothing without a paper's figure or an interval.
+    /// ours - paper, in standard errors of the difference; nothing without a paper's figure or where neither error is known.
     std::optional<double> z() const;
 };
 

@@ -1,0 +1,32 @@
+#include "detect/BlockViterbi.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+const std::vector<Field<BlockViterbiSettings>> &BlockViterbiSettings::fields()
+{
+    using S = BlockViterbiSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::durationWindows, "durationWindows", "windows", 0.0, 1e5,
+              "Length of a block in windows of the spectrogram; a decision falls at the end of each."),
+    };
+    return table;
+}
+
+BlockViterbi::BlockViterbi(const MarkovModel &model, Index framesPerBlock)
+    : m_smd(model, {ResetLaw::None}), m_beginning(m_smd.memory()), m_framesPerBlock(std::max<Index>(1, framesPerBlock))
+{
+}
+
+void BlockViterbi::update(std::span<const float> y, std::span<float> statistic)
+{
+    if (m_frame == 0)
+        m_smd.restore(m_beginning);
+    m_smd.update(y, statistic);
+    m_frame = (m_frame + 1) % m_framesPerBlock;
+    if (m_frame != 0)
+        std::fill(statistic.begin(), statistic.end(), 0.0f);
+}
+
+} // namespace faintline

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "base/Field.h"
+#include "detect/Detector.h"
+#include "detect/Smd.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// The length of the window of fixed-window detection.
+struct BlockViterbiSettings {
+    double durationWindows = 50.0; ///< in windows of the spectrogram (frames on ready-made frames)
+
+    static const std::vector<Field<BlockViterbiSettings>> &fields();
+    bool operator==(const BlockViterbiSettings &) const = default;
+};
+
+/// Fixed-window hidden-Markov-model detection: today's Viterbi line searches, block after block.
+///
+///   u(n, t0) = λ(n, t0),   u(n, t) = λ(n, t) + max_m [ ln P(n|m) + u(m, t-1) ],   t0 < t < t0 + B
+///
+/// The recursion of the sequential Markov detector without reset, begun afresh every B frames. The decision falls at a block's
+/// end: D = max over a cell's rates there, and 0 in the frames between. Source: Billon 2005 section 2. Oracle: enumeration of all
+/// paths of a block.
+class BlockViterbi final : public Detector
+{
+public:
+    BlockViterbi(const MarkovModel &model, Index framesPerBlock);
+
+    void update(std::span<const float> y, std::span<float> statistic) override;
+    /// The cells' paths so far begin again with no evidence.
+    void forget(const Grid &grid, const CellBox &box) override { m_smd.forget(grid, box); }
+
+private:
+    Smd m_smd;
+    Smd::Memory m_beginning;
+    Index m_framesPerBlock;
+    Index m_frame = 0; ///< in the block
+};
+
+} // namespace faintline

@@ -1,0 +1,73 @@
+#include "detect/Integrator.h"
+
+#include "base/multiversion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    FAINTLINE_MULTIVERSION
+    void slide(double *sum, float *oldest, const float *y, double scale, Index n, float *statistic)
+    {
+        for (Index i = 0; i < n; ++i) {
+            sum[i] += static_cast<double>(y[i]) - static_cast<double>(oldest[i]);
+            oldest[i] = y[i];
+            statistic[i] = static_cast<float>(sum[i] * scale);
+        }
+    }
+
+    FAINTLINE_MULTIVERSION
+    void fade(double *mean, const float *y, double decay, Index n, float *statistic)
+    {
+        for (Index i = 0; i < n; ++i) {
+            mean[i] = (1.0 - decay) * static_cast<double>(y[i]) + decay * mean[i];
+            statistic[i] = static_cast<float>(mean[i]);
+        }
+    }
+
+} // namespace
+
+const std::vector<Field<IntegratorSettings>> &IntegratorSettings::fields()
+{
+    using S = IntegratorSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::shape, "shape", S::shapeNames, "A sliding mean, or an exponentially fading one."),
+        field(&S::durationWindows, "durationWindows", "windows", 0.0, 1e5,
+              "Length of the mean, or its time constant, in windows of the spectrogram."),
+    };
+    return table;
+}
+
+Integrator::Integrator(Index cells, IntegratorSettings::Shape shape, Index frames)
+    : m_frames(std::max<Index>(1, frames)), m_decay(std::exp(-1.0 / static_cast<double>(m_frames))),
+      m_sum(static_cast<std::size_t>(cells), 0.0)
+{
+    if (shape == IntegratorSettings::Shape::Boxcar)
+        m_past.assign(static_cast<std::size_t>(m_frames), std::vector<float>(static_cast<std::size_t>(cells), 0.0f));
+}
+
+void Integrator::update(std::span<const float> y, std::span<float> statistic)
+{
+    const auto cells = static_cast<Index>(y.size());
+    if (m_past.empty()) {
+        fade(m_sum.data(), y.data(), m_decay, cells, statistic.data());
+        return;
+    }
+    slide(m_sum.data(), m_past[m_next].data(), y.data(), 1.0 / static_cast<double>(m_frames), cells, statistic.data());
+    m_next = (m_next + 1) % m_past.size();
+}
+
+void Integrator::forget(const Grid &grid, const CellBox &box)
+{
+    box.forEachCell(grid, [&](Index cell) {
+        const auto i = static_cast<std::size_t>(cell);
+        m_sum[i] = 0.0;
+        for (std::vector<float> &frame : m_past)
+            frame[i] = 0.0f;
+    });
+}
+
+} // namespace faintline

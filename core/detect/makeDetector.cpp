@@ -1,0 +1,82 @@
+#include "detect/makeDetector.h"
+
+#include "detect/SumDetector.h"
+
+#include <cmath>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    template <class... F>
+    struct Overloaded : F... {
+        using F::operator()...;
+    };
+
+    Index framesOf(double windows, const FrameGeometry &geometry)
+    {
+        return static_cast<Index>(std::lround(windows * geometry.framesPerWindow));
+    }
+
+} // namespace
+
+const std::vector<Field<SmdSettings>> &SmdSettings::fields()
+{
+    using S = SmdSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::reset, "reset", S::resetNames,
+              "How K is found: calibrated on noise for a 50 % reset probability, fixed, regulated to 50 %, or Parsons' mean law."),
+        field(&S::lnK, "lnK", "nat", -100.0, 100.0, "ln K where it is fixed."),
+    };
+    return table;
+}
+
+const std::vector<Field<EnergySettings>> &EnergySettings::fields()
+{
+    static const std::vector<Field<EnergySettings>> none;
+    return none;
+}
+
+const std::vector<Field<ShiryaevRobertsSettings>> &ShiryaevRobertsSettings::fields()
+{
+    using S = ShiryaevRobertsSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::lnK, "lnK", "nat", -100.0, 0.0, "How fast old evidence fades; 0 is the classical procedure."),
+    };
+    return table;
+}
+
+DetectorSettings detectorOfKind(std::size_t index)
+{
+    return [index]<std::size_t... I>(std::index_sequence<I...>) {
+        DetectorSettings settings;
+        ((I == index ? void(settings.emplace<I>()) : void()), ...);
+        return settings;
+    }(std::make_index_sequence<std::variant_size_v<DetectorSettings>>());
+}
+
+std::unique_ptr<Detector> makeDetector(const DetectorSettings &settings, const MarkovModel &model, const Grid &grid,
+                                       const FrameGeometry &geometry, const ResetRule &rule)
+{
+    using Made = std::unique_ptr<Detector>;
+    const auto integrator = [&](IntegratorSettings::Shape shape, Index frames) {
+        return std::make_unique<Integrator>(grid.size(), shape, frames);
+    };
+    return std::visit(
+        Overloaded{
+            [&](const SmdSettings &) -> Made { return std::make_unique<Smd>(model, rule); },
+            [&](const PofNSettings &s) -> Made { return std::make_unique<PofN>(grid, s, geometry.binsPerCell); },
+            [&](const IntegratorSettings &s) -> Made { return integrator(s.shape, framesOf(s.durationWindows, geometry)); },
+            [&](const EnergySettings &) -> Made { return integrator(IntegratorSettings::Shape::Boxcar, 1); },
+            [&](const BlockViterbiSettings &s) -> Made {
+                return std::make_unique<BlockViterbi>(model, framesOf(s.durationWindows, geometry));
+            },
+            [&](const ShiryaevRobertsSettings &s) -> Made {
+                return std::make_unique<SumDetector>(model, ResetRule{ResetLaw::Fixed, s.lnK});
+            },
+        },
+        settings);
+}
+
+} // namespace faintline

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "base/Field.h"
+#include "detect/BlockViterbi.h"
+#include "detect/Detector.h"
+#include "detect/Integrator.h"
+#include "detect/PofN.h"
+#include "detect/Smd.h"
+
+#include <array>
+#include <memory>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace faintline {
+
+/// The sequential Markov detector's own settings.
+struct SmdSettings {
+    enum class Reset { Calibrated, Fixed, Half, Mean };
+    static constexpr std::array<std::string_view, 4> resetNames{"calibrated", "fixed", "half", "mean"};
+
+    Reset reset = Reset::Calibrated; ///< how K is found
+    double lnK = 0.0;                ///< Fixed
+
+    static const std::vector<Field<SmdSettings>> &fields();
+    bool operator==(const SmdSettings &) const = default;
+};
+
+/// The energy detector: D = y, one frame.
+struct EnergySettings {
+    static const std::vector<Field<EnergySettings>> &fields();
+    bool operator==(const EnergySettings &) const = default;
+};
+
+/// The Shiryaev-Roberts detector: SumDetector with a reset, all paths count.
+struct ShiryaevRobertsSettings {
+    double lnK = 0.0; ///< 0: the classical procedure
+
+    static const std::vector<Field<ShiryaevRobertsSettings>> &fields();
+    bool operator==(const ShiryaevRobertsSettings &) const = default;
+};
+
+/// Any detector's settings; the alternatives are named by `detectorNames`, in order.
+using DetectorSettings =
+    std::variant<SmdSettings, PofNSettings, IntegratorSettings, EnergySettings, BlockViterbiSettings, ShiryaevRobertsSettings>;
+
+inline constexpr std::array<std::string_view, std::variant_size_v<DetectorSettings>> detectorNames{
+    "smd", "pOfN", "integrator", "energy", "blockViterbi", "shiryaevRoberts"};
+
+/// The default settings of the alternative of that index.
+DetectorSettings detectorOfKind(std::size_t index);
+
+/// What the frames are made of, for settings that are stated independently of it.
+struct FrameGeometry {
+    double framesPerWindow = 1.0; ///< k_t
+    double binsPerCell = 1.0;     ///< k_f
+};
+
+/// The detector that the settings describe. `rule`: the reset of the sequential Markov detector, as calibrated.
+std::unique_ptr<Detector> makeDetector(const DetectorSettings &settings, const MarkovModel &model, const Grid &grid,
+                                       const FrameGeometry &geometry, const ResetRule &rule);
+
+} // namespace faintline
