@@ -55,7 +55,8 @@ namespace {
         return std::make_shared<FrameArray>(time, noise.grid(), std::move(values));
     }
 
-    double continuedFraction(const NormalisedFrames &noise, const MarkovModel &model, const ResetRule &rule, double *meanLnK)
+    /// Fraction of states continued, and mean ln K, of one field of noise.
+    ResetFit measureReset(const NormalisedFrames &noise, const MarkovModel &model, const ResetRule &rule)
     {
         Smd detector(model, rule);
         const auto cells = static_cast<std::size_t>(noise.grid().size());
@@ -74,19 +75,28 @@ namespace {
             sumLnK += detector.regulation().lnK;
             counted += 1.0;
         }
-        if (meanLnK)
-            *meanLnK = sumLnK / counted;
-        return sum / counted;
+        return {sumLnK / counted, sum / counted};
+    }
+
+    ResetFit measureReset(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model, const ResetRule &rule)
+    {
+        ResetFit mean;
+        for (const NormalisedFramesPointer &field : noise) {
+            const ResetFit fit = measureReset(*field, model, rule);
+            mean.lnK += fit.lnK / static_cast<double>(noise.size());
+            mean.continuedFraction += fit.continuedFraction / static_cast<double>(noise.size());
+        }
+        return mean;
     }
 
     /// ln K at which half of the states go on, by bisection: the fraction rises with K.
-    double lnKForHalf(const NormalisedFrames &noise, const MarkovModel &model)
+    double lnKForHalf(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model)
     {
         double low = -20.0;
         double high = 20.0;
         while (high - low > 5e-4) {
             const double middle = 0.5 * (low + high);
-            (continuedFraction(noise, model, {ResetLaw::Fixed, middle}, nullptr) > 0.5 ? high : low) = middle;
+            (measureReset(noise, model, {ResetLaw::Fixed, middle}).continuedFraction > 0.5 ? high : low) = middle;
         }
         return 0.5 * (low + high);
     }
@@ -206,24 +216,6 @@ namespace {
         }
     }
 
-    /// ln K in force and the fraction it continues.
-    struct ResetFit {
-        double lnK = 0.0;
-        double continuedFraction = 0.0;
-    };
-
-    ResetFit fitReset(const NormalisedFrames &noise, const MarkovModel &model, const SmdSettings &smd)
-    {
-        ResetFit fit{smd.lnK, 0.0};
-        if (smd.reset == SmdSettings::Reset::Calibrated || smd.reset == SmdSettings::Reset::Half)
-            fit.lnK = lnKForHalf(noise, model);
-        double meanLnK = 0.0;
-        fit.continuedFraction = continuedFraction(noise, model, resetRule(smd, fit.lnK), &meanLnK);
-        if (smd.reset == SmdSettings::Reset::Mean)
-            fit.lnK = meanLnK;
-        return fit;
-    }
-
     std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
                                                    const DetectorSettings &settings, const FrameGeometry &geometry,
                                                    const RunContext &context)
@@ -233,7 +225,7 @@ namespace {
         const auto first = beginningOf(*segment(0), settlingFrames + regulationFrames);
         ResetRule rule;
         if (const auto *smd = std::get_if<SmdSettings>(&settings)) {
-            const ResetFit fit = fitReset(*first, model, *smd);
+            const ResetFit fit = fitReset({first}, model, *smd);
             result->lnK = fit.lnK;
             result->continuedFraction = fit.continuedFraction;
             rule = resetRule(*smd, fit.lnK);
@@ -382,22 +374,12 @@ double thresholdNats(const DecideSettings &decide, const Calibration &calibratio
     return decide.thresholdNats;
 }
 
-ResetRule calibratedReset(const AnalysisSettings &settings, const RunContext &context)
+ResetFit fitReset(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model, const SmdSettings &smd)
 {
-    AnalysisSettings bare = dimensionless(settings);
-    const auto &smd = std::get<SmdSettings>(bare.detector);
-    if (smd.reset == SmdSettings::Reset::Fixed || smd.reset == SmdSettings::Reset::Mean)
-        return resetRule(smd, smd.lnK);
-    const auto fitted = kept("reset " + settingsToJson(bare), [&] {
-        context.checkpoint(0.0, "calibrating K on noise");
-        const auto noise = beginningOf(*noiseSegment(bare, 0), settlingFrames + regulationFrames);
-        const ResetFit fit = fitReset(*noise, makeModel(bare.model, noise->grid()), smd);
-        auto calibration = std::make_shared<Calibration>();
-        calibration->lnK = fit.lnK;
-        calibration->continuedFraction = fit.continuedFraction;
-        return std::shared_ptr<const Calibration>(calibration);
-    });
-    return resetRule(smd, fitted->lnK);
+    const bool isFound = smd.reset == SmdSettings::Reset::Calibrated || smd.reset == SmdSettings::Reset::Half;
+    const double lnK = isFound ? lnKForHalf(noise, model) : smd.lnK;
+    const ResetFit measured = measureReset(noise, model, resetRule(smd, lnK));
+    return {smd.reset == SmdSettings::Reset::Mean ? measured.lnK : lnK, measured.continuedFraction};
 }
 
 ResetRule resetRule(const SmdSettings &settings, double lnK)

@@ -2,6 +2,7 @@
 
 #include "analysis/AnalysisSettings.h"
 #include "base/RunContext.h"
+#include "spectrum/NormalisedFrames.h"
 
 #include <memory>
 #include <string>
@@ -50,9 +51,15 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
 /// The threshold in nats that the decide settings ask for.
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour);
 
-/// The reset rule of a sequential Markov detector alone, K calibrated where the settings say so: what `calibrate` finds, without the
-/// tail. Precondition: the settings hold that detector.
-ResetRule calibratedReset(const AnalysisSettings &settings, const RunContext &context = {});
+/// ln K in force, and the fraction of all states that go on with it.
+struct ResetFit {
+    double lnK = 0.0;
+    double continuedFraction = 0.0;
+};
+
+/// Finds ln K on fields of noise, after the first 300 frames of each: by bisection for half of the states continued where the
+/// settings ask for that, or measures what the given law does. Cost: about fifteen passes over the fields.
+ResetFit fitReset(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model, const SmdSettings &smd);
 
 /// The reset rule that the settings ask for, given the ln K that was found.
 ResetRule resetRule(const SmdSettings &settings, double lnK);

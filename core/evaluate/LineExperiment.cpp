@@ -115,18 +115,22 @@ namespace {
         return sum / points;
     }
 
+    void makeNoise(const LineExperiment &experiment, int run, Transform &transform, NoisyField &field)
+    {
+        std::vector<float> samples(static_cast<std::size_t>(2 * recordingInfo(experiment).sampleCount));
+        Random(static_cast<std::uint64_t>(experiment.seed), static_cast<std::uint64_t>(run) * streamsPerRun)
+            .normals(samples, static_cast<float>(std::sqrt(0.5)));
+        transform.run(samples, field.noise);
+    }
+
     NoisyField makeField(const LineExperiment &experiment, int run, Transform &transform)
     {
+        NoisyField field;
+        makeNoise(experiment, run, transform, field);
         const RecordingInfo info = recordingInfo(experiment);
         const auto seed = static_cast<std::uint64_t>(experiment.seed);
-        const auto stream = static_cast<std::uint64_t>(run) * streamsPerRun;
         std::vector<float> samples(static_cast<std::size_t>(2 * info.sampleCount));
-        Random(seed, stream).normals(samples, static_cast<float>(std::sqrt(0.5)));
-        NoisyField field;
-        transform.run(samples, field.noise);
-
-        std::fill(samples.begin(), samples.end(), 0.0f);
-        Random places(seed, stream + 1);
+        Random places(seed, static_cast<std::uint64_t>(run) * streamsPerRun + 1);
         const double amplitude = toneAmplitude(0.0, 1.0, LineExperiment::windowSamples, true);
         const double blockCells = static_cast<double>(experiment.blockBins) / experiment.binsPerCell;
         const double travel = experiment.driftCellsPerWindow * experiment.durationWindows;
@@ -199,19 +203,40 @@ namespace {
         return {{Axis{"frequency", "cells", 0.0, 1.0 / experiment.binsPerCell, experiment.bins(), false}}};
     }
 
+    /// Fields of the experiment's own noise, of runs that no experiment reaches, to find K on.
+    std::vector<NormalisedFramesPointer> calibrationNoise(const LineExperiment &experiment, const RunContext &context)
+    {
+        constexpr int fields = 4;
+        std::vector<NormalisedFramesPointer> noise(fields);
+        parallelFor(fields, context, "calibrating K on noise", [&] {
+            return [&, transform = std::make_shared<Transform>(experiment)](Index i) {
+                NoisyField field;
+                makeNoise(experiment, std::numeric_limits<int>::max() - static_cast<int>(i), *transform, field);
+                field.signal.assign(field.noise.size(), Complex());
+                std::vector<float> y(field.noise.size());
+                const Index bins = experiment.bins();
+                for (Index frame = 0; frame < experiment.frames; ++frame)
+                    powerOf(field, bins, frame, 0.0f, std::span(y).subspan(static_cast<std::size_t>(frame * bins), static_cast<std::size_t>(bins)));
+                const Axis time{"time", "windows", 0.0, 1.0 / experiment.stepsPerWindow, experiment.frames, false};
+                noise[static_cast<std::size_t>(i)] = std::make_shared<FrameArray>(time, gridOf(experiment), std::move(y));
+            };
+        });
+        return noise;
+    }
+
     std::vector<Recipe> recipesOf(const LineExperiment &experiment, const RunContext &context)
     {
         std::vector<Recipe> recipes;
-        for (const Contestant &contestant : experiment.detectors) {
-            AnalysisSettings settings = contestant.settings;
-            settings.spectrogram.stepsPerWindow = experiment.stepsPerWindow;
-            settings.spectrogram.binsPerCell = experiment.binsPerCell;
-            settings.spectrogram.window = experiment.window;
-            Recipe recipe{makeModel(settings.model, gridOf(experiment)), settings.detector, {}};
-            if (std::holds_alternative<SmdSettings>(settings.detector))
-                recipe.rule = calibratedReset(settings, context);
-            recipes.push_back(std::move(recipe));
-        }
+        for (const Contestant &contestant : experiment.detectors)
+            recipes.push_back({makeModel(contestant.settings.model, gridOf(experiment)), contestant.settings.detector, {}});
+        const auto noise = calibrationNoise(experiment, context);
+        parallelFor(std::ssize(recipes), context, "calibrating K on noise", [&] {
+            return [&](Index i) {
+                Recipe &recipe = recipes[static_cast<std::size_t>(i)];
+                if (const auto *smd = std::get_if<SmdSettings>(&recipe.detector))
+                    recipe.rule = resetRule(*smd, fitReset(noise, recipe.model, *smd).lnK);
+            };
+        });
         return recipes;
     }
 
@@ -362,6 +387,15 @@ Json toJson(const LineExperiment &experiment)
     whole.update(json);
     whole["detectors"] = detectors;
     return whole;
+}
+
+std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context)
+{
+    checkExperiment(experiment);
+    std::vector<ResetRule> rules;
+    for (const Recipe &recipe : recipesOf(experiment, context))
+        rules.push_back(recipe.rule);
+    return rules;
 }
 
 std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs, const RunContext &context,

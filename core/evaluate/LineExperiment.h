@@ -72,6 +72,9 @@ struct RunOutcome {
     bool operator==(const RunOutcome &) const = default;
 };
 
+/// The reset rule of every detector of the experiment, K found on the experiment's own noise (default for those without one).
+std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context = {});
+
 /// Called with every finished run, in any order, from one thread at a time.
 using RunSink = std::function<void(const RunOutcome &)>;
 

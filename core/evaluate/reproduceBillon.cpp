@@ -1,6 +1,5 @@
 #include "evaluate/reproduceBillon.h"
 
-#include "analysis/Calibration.h"
 #include "base/logmath.h"
 #include "evaluate/PdCurve.h"
 #include "evaluate/theory.h"
@@ -228,9 +227,7 @@ namespace {
         const LineTrial noise = remakeTrial(experiment, -200.0, 0, 0);
         const Grid &grid = trial.frames->grid();
         const MarkovModel model = makeModel(experiment.detectors.front().settings.model, grid);
-        AnalysisSettings settings = experiment.detectors.front().settings;
-        settings.spectrogram = {0.0, experiment.stepsPerWindow, experiment.binsPerCell, experiment.window};
-        const ResetRule rule = calibratedReset(settings, context);
+        const ResetRule rule = calibratedResets(experiment, context).front();
 
         Curve along{"on the line", Curve::Kind::Measured, {}};
         Curve elsewhere{"largest of the block without the line", Curve::Kind::Measured, {}};
