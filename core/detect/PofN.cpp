@@ -4,10 +4,15 @@
 #include "base/multiversion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
 
 namespace faintline {
 
 namespace {
+
+    constexpr int maximumFrames = 64;
 
     FAINTLINE_MULTIVERSION
     void raise(float *to, const float *from, Index n)
@@ -16,24 +21,51 @@ namespace {
             to[i] = from[i] > to[i] ? from[i] : to[i];
     }
 
-    /// One insertion into a descending order: `rank` keeps the larger, `rest` goes on with the smaller.
+    constexpr Index laneCount = 16;
+    using Lanes [[gnu::vector_size(laneCount * sizeof(float))]] = float;
+
+    /// The mean and the smallest of each cell's P largest, from the window's rows, oldest first; `n` a multiple of the lanes. Only the
+    /// shorter end of the order is sorted out: the P largest, or the N-P+1 smallest, whose last one is the P-th largest too.
     FAINTLINE_MULTIVERSION
-    void insert(float *rank, float *rest, Index n)
+    void largest(std::span<const float *const> rows, int p, Index n, float *means, float *smallest)
     {
-        for (Index i = 0; i < n; ++i) {
-            const float larger = rest[i] > rank[i] ? rest[i] : rank[i];
-            const float smaller = rest[i] > rank[i] ? rank[i] : rest[i];
-            rank[i] = larger;
-            rest[i] = smaller;
+        const int others = static_cast<int>(rows.size()) - p;
+        const bool keepsLargest = p <= others + 1;
+        const int ranks = keepsLargest ? p : others + 1;
+        const float worst = keepsLargest ? 0.0f : std::numeric_limits<float>::infinity();
+        const float oneOverP = 1.0f / static_cast<float>(p);
+        Lanes rank[maximumFrames];
+        for (Index i = 0; i < n; i += laneCount) {
+            for (int r = 0; r < ranks; ++r)
+                rank[r] = Lanes{} + worst;
+            Lanes total{};
+            for (const float *row : rows) {
+                Lanes rest;
+                std::memcpy(&rest, row + i, sizeof rest);
+                total += rest;
+                for (int r = 0; r < ranks; ++r) {
+                    const Lanes kept = rank[r];
+                    const auto better = keepsLargest ? rest > kept : rest < kept;
+                    rank[r] = better ? rest : kept;
+                    rest = better ? kept : rest;
+                }
+            }
+            Lanes sum{};
+            for (int r = ranks - 1; r >= 0; --r)
+                if (keepsLargest || r + 1 < ranks)
+                    sum += rank[r];
+            const Lanes mean = (keepsLargest ? sum : total - sum) * oneOverP;
+            std::memcpy(means + i, &mean, sizeof mean);
+            std::memcpy(smallest + i, &rank[ranks - 1], sizeof mean);
         }
     }
 
     FAINTLINE_MULTIVERSION
-    void decide(const float *sum, const float *smallest, float r1, float r2, float oneOverP, Index n, float *statistic)
+    void decide(const float *means, const float *smallest, float r1, float r2, Index n, float *statistic)
     {
         for (Index i = 0; i < n; ++i) {
-            const float mean = sum[i] * oneOverP;
-            statistic[i] = (smallest[i] > r1) & (mean > r2) ? mean : 0.0f;
+            const float enough = smallest[i] > r1 ? means[i] : 0.0f;
+            statistic[i] = means[i] > r2 ? enough : 0.0f;
         }
     }
 
@@ -43,8 +75,8 @@ const std::vector<Field<PofNSettings>> &PofNSettings::fields()
 {
     using S = PofNSettings;
     static const std::vector<Field<S>> table{
-        field(&S::p, "p", "frames", 1.0, 64.0, "Frames that must have an event."),
-        field(&S::n, "n", "frames", 1.0, 64.0, "Frames in the window."),
+        field(&S::p, "p", "frames", 1.0, maximumFrames, "Frames that must have an event."),
+        field(&S::n, "n", "frames", 1.0, maximumFrames, "Frames in the window."),
         field(&S::r1, "r1", "", 0.0, 1e6, "A frame has an event where the largest y in the band exceeds this; noise has mean 1."),
         field(&S::r2, "r2", "", 0.0, 1e6, "Second threshold, on the mean of the P largest; 0: none."),
         field(&S::widthCells, "widthCells", "cells", 0.0, 1000.0, "Bandwidth of the window in resolution cells."),
@@ -58,9 +90,9 @@ PofN::PofN(const Grid &grid, const PofNSettings &settings, double binsPerCell)
 {
     if (settings.p > settings.n)
         throw Error("pOfN.p = " + std::to_string(settings.p), "must not exceed pOfN.n = " + std::to_string(settings.n));
-    const auto cells = static_cast<std::size_t>(grid.size());
-    m_maxima.assign(static_cast<std::size_t>(settings.n), std::vector<float>(cells, 0.0f));
-    m_largest.resize(cells * static_cast<std::size_t>(settings.p));
+    m_means.resize(static_cast<std::size_t>((grid.size() + laneCount - 1) / laneCount * laneCount));
+    m_smallest.resize(m_means.size());
+    m_maxima.assign(static_cast<std::size_t>(settings.n), std::vector<float>(m_means.size(), 0.0f));
 }
 
 void PofN::update(std::span<const float> y, std::span<float> statistic)
@@ -76,19 +108,11 @@ void PofN::update(std::span<const float> y, std::span<float> statistic)
                 raise(newest.data() + row + std::max<Index>(0, -shift), y.data() + row + std::max<Index>(0, shift), overlap);
     }
 
-    std::fill(m_largest.begin(), m_largest.end(), 0.0f);
-    const auto rank = [&](int i) { return m_largest.data() + i * cells; };
-    for (const std::vector<float> &maxima : m_maxima) {
-        std::copy(maxima.begin(), maxima.end(), statistic.begin());
-        for (int i = 0; i < m_settings.p; ++i)
-            insert(rank(i), statistic.data(), cells);
-    }
-    // In ascending order of rank, so that the sum's rounding does not depend on where the window's frames stand in memory.
-    std::fill(statistic.begin(), statistic.end(), 0.0f);
-    for (int i = m_settings.p - 1; i >= 0; --i)
-        std::transform(statistic.begin(), statistic.end(), rank(i), statistic.begin(), std::plus<>());
-    decide(statistic.data(), rank(m_settings.p - 1), static_cast<float>(m_settings.r1), static_cast<float>(m_settings.r2),
-           1.0f / static_cast<float>(m_settings.p), cells, statistic.data());
+    std::vector<const float *> rows; // from the oldest, so that rounding does not depend on where they stand in memory
+    for (std::size_t i = 0; i < m_maxima.size(); ++i)
+        rows.push_back(m_maxima[(m_next + i) % m_maxima.size()].data());
+    largest(rows, m_settings.p, std::ssize(m_means), m_means.data(), m_smallest.data());
+    decide(m_means.data(), m_smallest.data(), static_cast<float>(m_settings.r1), static_cast<float>(m_settings.r2), cells, statistic.data());
 }
 
 void PofN::forget(const Grid &grid, const CellBox &box)

@@ -12,9 +12,9 @@ namespace faintline {
 
 namespace {
 
-    constexpr int runs = 20;
-    constexpr int quickRuns = 2;
-    constexpr double tolerance = 0.04; ///< at `runs` runs
+    constexpr int runs = 60;
+    constexpr int quickRuns = 6;
+    constexpr double tolerance = 0.04; ///< what 20 runs allow
     constexpr double paperSignals = 90.0;
     constexpr double none = -1.0;      ///< a cell the table leaves empty
 
@@ -198,7 +198,7 @@ namespace {
                 }
                 if (c < row.reference.size()) {
                     cell.reference = row.reference[c];
-                    cell.tolerance = tolerance * (options.quick ? std::sqrt(static_cast<double>(runs) / quickRuns) : 1.0);
+                    cell.tolerance = tolerance * (options.quick ? std::sqrt(20.0 / quickRuns) : 1.0);
                 }
                 cell.ours = points[d][c].pd;
                 cell.interval = points[d][c].interval;

@@ -1,12 +1,14 @@
 #include "model/Likelihood.h"
 
 #include "base/Error.h"
+#include "base/fastmath.h"
 #include "base/Field.h"
 #include "base/multiversion.h"
 
 #include <boost/math/special_functions/bessel.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,25 +17,12 @@ namespace faintline {
 
 namespace {
 
-    // Cubic pieces over 0 ≤ x < 160, x = 2√(r0·y).
-    constexpr float piecesPerUnit = 16.0f;
-    constexpr float tableEnd = 160.0f;
-    constexpr int pieceCount = 160 * 16;
-
     double lnBesselI0(double x)
     {
         if (x < 500.0)
             return std::log(boost::math::cyl_bessel_i(0, x));
         const double inverse = 1.0 / x;
         return x - 0.5 * std::log(2.0 * std::numbers::pi * x) + std::log1p(inverse * (0.125 + inverse * 0.0703125));
-    }
-
-    /// d/dx ln I0(x) = I1(x)/I0(x)
-    double slopeOfLnBesselI0(double x)
-    {
-        if (x < 500.0)
-            return boost::math::cyl_bessel_i(1, x) / boost::math::cyl_bessel_i(0, x);
-        return 1.0 - 0.5 / x - 0.125 / (x * x);
     }
 
     FAINTLINE_MULTIVERSION
@@ -47,41 +36,75 @@ namespace {
         }
     }
 
-    /// -r0 + ln I0(x) by Hermite's cubic through both ends' values and slopes, four coefficients a piece. r0 is subtracted
-    /// here, in double precision, because the two terms cancel.
-    std::vector<float> makeRiceTable(double snr)
+    // With z = r0·y and w = √(z + c), c = the negative of ln I0(2√z)'s singularity nearest to 0,
+    //
+    //   ln I0(2√z) = 2w - ½ ln w + g(1/w),
+    //
+    // where g is smooth on all of 0 < 1/w ≤ 1/√c: a polynomial of degree 12 is right to 1.4e-7 there.
+    constexpr double singularity = 1.4457964907366961; ///< (first zero of J0 / 2)²
+    constexpr int degree = 12;
+    using Polynomial = std::array<float, degree + 1>; ///< in powers of t = 2√c/w - 1
+
+    /// g's polynomial, by interpolation in Chebyshev's nodes.
+    Polynomial fitPolynomial()
     {
-        std::vector<float> table(4 * static_cast<std::size_t>(pieceCount));
-        const double width = 1.0 / static_cast<double>(piecesPerUnit);
-        for (int piece = 0; piece < pieceCount; ++piece) {
-            const double left = piece * width;
-            const double v0 = lnBesselI0(left) - snr;
-            const double v1 = lnBesselI0(left + width) - snr;
-            const double d0 = slopeOfLnBesselI0(left) * width;
-            const double d1 = slopeOfLnBesselI0(left + width) * width;
-            float *c = table.data() + 4 * piece;
-            c[0] = static_cast<float>(v0);
-            c[1] = static_cast<float>(d0);
-            c[2] = static_cast<float>(3.0 * (v1 - v0) - 2.0 * d0 - d1);
-            c[3] = static_cast<float>(2.0 * (v0 - v1) + d0 + d1);
+        constexpr int n = degree + 1;
+        std::array<double, n> chebyshev{};
+        for (int node = 0; node < n; ++node) {
+            const double angle = std::numbers::pi * (node + 0.5) / n;
+            const double w = 2.0 * std::sqrt(singularity) / (1.0 + std::cos(angle));
+            const double z = std::max(0.0, w * w - singularity);
+            const double g = lnBesselI0(2.0 * std::sqrt(z)) - 2.0 * w + 0.5 * std::log(w);
+            for (int k = 0; k < n; ++k)
+                chebyshev[static_cast<std::size_t>(k)] += (k == 0 ? 1.0 : 2.0) / n * g * std::cos(k * angle);
         }
-        return table;
+        // Chebyshev's series to powers of t, by T_k+1 = 2t·T_k - T_k-1.
+        std::array<double, n> sum{};
+        std::array<double, n> before{};
+        std::array<double, n> now{};
+        now[0] = 1.0;
+        for (std::size_t k = 0; k < n; ++k) {
+            for (std::size_t i = 0; i < n; ++i)
+                sum[i] += chebyshev[k] * now[i];
+            std::array<double, n> next{};
+            for (std::size_t i = 0; i < n; ++i)
+                next[i] = (i > 0 ? (k == 0 ? 1.0 : 2.0) * now[i - 1] : 0.0) - (k == 0 ? 0.0 : before[i]);
+            before = now;
+            now = next;
+        }
+        Polynomial result{};
+        std::transform(sum.begin(), sum.end(), result.begin(), [](double value) { return static_cast<float>(value); });
+        return result;
     }
 
-    /// The table at x = 2√(r0·y), held at its end beyond it.
-    FAINTLINE_MULTIVERSION
-    void rice(const float *y, std::size_t n, const float *table, float snr, float *out)
+    const Polynomial &smoothPart()
     {
-        constexpr float last = static_cast<float>(pieceCount) - 0.001f;
-        const float scale = 4.0f * snr * piecesPerUnit * piecesPerUnit;
+        static const Polynomial fitted = fitPolynomial();
+        return fitted;
+    }
+
+    /// -r0 + 2w would cancel where it matters; instead, with 4w² - r0² = 4·r0·(y - r0/4) + 4c,
+    /// λ = (4w² - r0²)/(2w + r0) - ½ ln w + g, the difference taken from y in two parts.
+    FAINTLINE_MULTIVERSION
+    void rice(const float *y, std::size_t n, const Polynomial &g, double snr, float *out)
+    {
+        constexpr float largest = 1e30f;
+        constexpr float c = static_cast<float>(singularity);
+        const auto scale = static_cast<float>(2.0 * std::sqrt(singularity));
+        const auto r0 = static_cast<float>(snr);
+        const auto quarter = static_cast<float>(0.25 * snr);
+        const auto rest = static_cast<float>(0.25 * snr - static_cast<double>(quarter));
         for (std::size_t i = 0; i < n; ++i) {
-            const float value = y[i] > 0.0f ? y[i] : 0.0f;
-            float position = std::sqrt(scale * value);
-            position = position < last ? position : last;
-            const int piece = static_cast<int>(position);
-            const float x = position - static_cast<float>(piece);
-            const float *c = table + 4 * piece;
-            out[i] = c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+            float value = y[i] > 0.0f ? y[i] : 0.0f;
+            value = value <= largest ? value : 0.0f;
+            const float square = r0 * value + c;
+            const float w = std::sqrt(square);
+            const float t = scale / w - 1.0f;
+            float sum = g[degree];
+            for (int k = degree - 1; k >= 0; --k)
+                sum = sum * t + g[static_cast<std::size_t>(k)];
+            const float difference = 4.0f * (r0 * ((value - quarter) - rest) + c);
+            out[i] = difference / (2.0f * w + r0) + (sum - 0.25f * fastLn(square));
         }
     }
 
@@ -93,8 +116,6 @@ Likelihood::Likelihood(LikelihoodKind kind, double snr) : m_kind(kind), m_snr(sn
         throw Error(std::string("likelihood ") + std::string(likelihoodNames[static_cast<std::size_t>(kind)]) + ", SNR "
                         + formatNumber(snr),
                     "must be a power ratio above 0");
-    if (kind == LikelihoodKind::Rice)
-        m_riceTable = std::make_shared<const std::vector<float>>(makeRiceTable(snr));
 }
 
 double Likelihood::at(double y) const
@@ -116,7 +137,7 @@ void Likelihood::apply(std::span<const float> y, std::span<float> out) const
 {
     switch (m_kind) {
     case LikelihoodKind::Rice:
-        applyRice(y, out);
+        rice(y.data(), y.size(), smoothPart(), m_snr, out.data());
         break;
     case LikelihoodKind::Exponential:
         affine(y.data(), y.size(), static_cast<float>(m_snr / (1.0 + m_snr)), static_cast<float>(-std::log1p(m_snr)), out.data());
@@ -125,15 +146,6 @@ void Likelihood::apply(std::span<const float> y, std::span<float> out) const
         affine(y.data(), y.size(), 1.0f, 0.0f, out.data());
         break;
     }
-}
-
-void Likelihood::applyRice(std::span<const float> y, std::span<float> out) const
-{
-    rice(y.data(), y.size(), m_riceTable->data(), static_cast<float>(m_snr), out.data());
-    const auto largestY = static_cast<float>(static_cast<double>(tableEnd) * static_cast<double>(tableEnd) / (4.0 * m_snr));
-    for (std::size_t i = 0; i < y.size(); ++i)
-        if (!(y[i] < largestY))
-            out[i] = static_cast<float>(at(static_cast<double>(y[i])));
 }
 
 } // namespace faintline

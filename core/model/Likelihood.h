@@ -1,10 +1,8 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <span>
 #include <string_view>
-#include <vector>
 
 namespace faintline {
 
@@ -19,8 +17,8 @@ inline constexpr std::array<std::string_view, 3> likelihoodNames{"rice", "expone
 ///   exponential  fluctuating, mean SNR ρ:        λ = yρ/(1+ρ) - ln(1+ρ)            Parsons 2008 eq. 9, Grossi and Lops 2006 eq. 10
 ///   linear       the exponential one rescaled:   λ = y                             Parsons 2008 eq. 10
 ///
-/// `apply` works in single precision: |error| ≤ 1e-6 · max(1, |λ|) for 0 ≤ y ≤ 1e4, right to rounding beyond; rice uses a table of
-/// cubic pieces of ln I0, then the asymptotic series. Oracle: Boost.Math's Bessel function. Thread-safe.
+/// `apply` works in single precision: |error| ≤ 1e-6 · max(1, |λ|) for 0 ≤ y ≤ 1e4 and beyond; rice is one polynomial behind a square
+/// root and a logarithm, without a branch. Oracle: Boost.Math's Bessel function. Thread-safe.
 class Likelihood
 {
 public:
@@ -39,11 +37,8 @@ public:
     bool operator==(const Likelihood &other) const { return m_kind == other.m_kind && m_snr == other.m_snr; }
 
 private:
-    void applyRice(std::span<const float> y, std::span<float> out) const;
-
     LikelihoodKind m_kind;
     double m_snr;
-    std::shared_ptr<const std::vector<float>> m_riceTable; ///< -r0 + ln I0(x), four coefficients a piece
 };
 
 } // namespace faintline
