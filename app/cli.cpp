@@ -44,7 +44,8 @@ int main(int argc, char **argv)
         ->capture_default_str();
     for (const auto add : {faintline::cli::addInfo, faintline::cli::addDescribe, faintline::cli::addDetect,
                            faintline::cli::addStatistic, faintline::cli::addExplain, faintline::cli::addSimulate,
-                           faintline::cli::addReproduce})
+                           faintline::cli::addReproduce, faintline::cli::addEvaluate, faintline::cli::addMerge,
+                           faintline::cli::addCalibrate, faintline::cli::addInject})
         add(app, common);
     try {
         app.parse(argc, argv);

@@ -49,6 +49,10 @@ void addStatistic(CLI::App &app, Common &common);
 void addExplain(CLI::App &app, Common &common);
 void addSimulate(CLI::App &app, Common &common);
 void addReproduce(CLI::App &app, Common &common);
+void addEvaluate(CLI::App &app, Common &common);
+void addMerge(CLI::App &app, Common &common);
+void addCalibrate(CLI::App &app, Common &common);
+void addInject(CLI::App &app, Common &common);
 
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);

@@ -1,5 +1,6 @@
 #include "analysis/Calibration.h"
 
+#include "base/Error.h"
 #include "base/Random.h"
 #include "recording/SimulatedRecording.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -27,6 +28,7 @@ namespace {
     constexpr Index framesAtOnce = 64;
     constexpr Index blockFrames = 128;
     constexpr Index blockCells = 64;
+    constexpr std::size_t leastMaxima = 100;
 
     /// Noise to calibrate on, in segments that can be made independently of each other.
     using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;
@@ -114,10 +116,14 @@ namespace {
             detector.update(y, statistic);
             if (frame < settlingFrames)
                 continue;
-            const auto [low, high] = std::minmax_element(statistic.begin(), statistic.end());
-            least = std::min(least, *low);
-            largest = std::max(largest, *high);
+            for (const float value : statistic)
+                if (std::isfinite(value)) {
+                    least = std::min(least, value);
+                    largest = std::max(largest, value);
+                }
         }
+        if (!(least <= largest))
+            return {}; // never decided anything
         return {least, std::max((largest - least) / static_cast<float>(levelsInView), 1e-6f)};
     }
 
@@ -241,9 +247,15 @@ namespace {
                     tail.counts[i] += part.counts[i];
                 tail.blockMaxima.insert(tail.blockMaxima.end(), part.blockMaxima.begin(), part.blockMaxima.end());
             });
+        // A detector that decides in blocks of its own has blocks of ours without a decision.
+        const auto blocks = static_cast<double>(tail.blockMaxima.size());
+        std::erase_if(tail.blockMaxima, [](float maximum) { return !std::isfinite(maximum); });
+        if (tail.blockMaxima.size() < leastMaxima)
+            throw Error("detector", "decides too seldom to be calibrated on noise; choose a shorter window");
         const double cells = static_cast<double>(first->grid().size());
         const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
-        fitTail(std::move(tail.blockMaxima), static_cast<double>(blockFrames) * cells / columns, *result);
+        const double perMaximum = static_cast<double>(blockFrames) * cells / columns * blocks / static_cast<double>(tail.blockMaxima.size());
+        fitTail(std::move(tail.blockMaxima), perMaximum, *result);
         fillExceedance(tail.counts, levels, *result);
         return result;
     }

@@ -1,6 +1,7 @@
 #include "detect/BlockViterbi.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace faintline {
 
@@ -26,7 +27,7 @@ void BlockViterbi::update(std::span<const float> y, std::span<float> statistic)
     m_smd.update(y, statistic);
     m_frame = (m_frame + 1) % m_framesPerBlock;
     if (m_frame != 0)
-        std::fill(statistic.begin(), statistic.end(), 0.0f);
+        std::fill(statistic.begin(), statistic.end(), -std::numeric_limits<float>::infinity());
 }
 
 } // namespace faintline

@@ -30,7 +30,7 @@ class Detector
 public:
     virtual ~Detector() = default;
 
-    /// Takes one frame of cellCount values; writes the statistic D of every cell.
+    /// Takes one frame of cellCount values; writes the statistic D of every cell, -∞ where this frame decides nothing.
     virtual void update(std::span<const float> y, std::span<float> statistic) = 0;
 
     /// Forgets the evidence of the past in a box of cells, as if only noise had been there.
@@ -38,6 +38,9 @@ public:
 
     /// The scores of all states after the last frame (StateSpace order), empty for detectors without states.
     virtual std::span<const float> scores() const { return {}; }
+
+    /// Whether the statistic is the score of one path, which can be traced (tracePath) and followed on.
+    virtual bool hasPaths() const { return false; }
 
     /// What the detector's regulation did in the last frame.
     struct Regulation {

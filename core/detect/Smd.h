@@ -48,6 +48,7 @@ public:
     void update(std::span<const float> y, std::span<float> statistic) override;
     void forget(const Grid &grid, const CellBox &box) override;
     std::span<const float> scores() const override { return m_scores; }
+    bool hasPaths() const override { return true; }
     Regulation regulation() const override { return m_regulation; }
 
     /// What is to be added to a score to get the statistic: K(t) under Mean, 0 otherwise.

@@ -355,13 +355,12 @@ void checkExperiment(const LineExperiment &experiment)
         checkSettings(contestant.settings);
 }
 
-LineExperiment lineExperimentFromJson(const Json &json, const std::string &where)
+std::vector<Contestant> contestantsFromJson(const Json &json, const std::string &where)
 {
-    LineExperiment experiment;
-    readFields(json, LineExperiment::fields(), experiment, where, {"kind", "detectors"});
     const auto list = json.find("detectors");
-    if (list == json.end() || !list->is_array())
+    if (list == json.end() || !list->is_array() || list->empty())
         throw Error(jsonName(where, "detectors"), "must be a list of {\"name\": …, \"settings\": {…}}");
+    std::vector<Contestant> contestants;
     for (std::size_t i = 0; i < list->size(); ++i) {
         const std::string name = jsonName(where, "detectors[" + std::to_string(i) + "]");
         const Json &entry = (*list)[i];
@@ -371,21 +370,33 @@ LineExperiment lineExperimentFromJson(const Json &json, const std::string &where
         Contestant contestant{entry["name"].get<std::string>(), {}};
         if (entry.contains("settings"))
             contestant.settings = settingsFromJson(entry["settings"].dump(), jsonName(name, "settings"));
-        experiment.detectors.push_back(std::move(contestant));
+        contestants.push_back(std::move(contestant));
     }
+    return contestants;
+}
+
+Json toJson(const std::vector<Contestant> &contestants)
+{
+    Json list = Json::array();
+    for (const Contestant &contestant : contestants)
+        list.push_back({{"name", contestant.name}, {"settings", Json::parse(settingsToJson(contestant.settings))}});
+    return list;
+}
+
+LineExperiment lineExperimentFromJson(const Json &json, const std::string &where)
+{
+    LineExperiment experiment;
+    readFields(json, LineExperiment::fields(), experiment, where, {"kind", "detectors"});
+    experiment.detectors = contestantsFromJson(json, where);
     checkExperiment(experiment);
     return experiment;
 }
 
 Json toJson(const LineExperiment &experiment)
 {
-    Json json = writeFields(experiment, LineExperiment::fields());
-    Json detectors = Json::array();
-    for (const Contestant &contestant : experiment.detectors)
-        detectors.push_back({{"name", contestant.name}, {"settings", Json::parse(settingsToJson(contestant.settings))}});
     Json whole{{"kind", "lines"}};
-    whole.update(json);
-    whole["detectors"] = detectors;
+    whole.update(writeFields(experiment, LineExperiment::fields()));
+    whole["detectors"] = toJson(experiment.detectors);
     return whole;
 }
 

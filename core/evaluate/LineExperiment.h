@@ -20,6 +20,10 @@ struct Contestant {
     bool operator==(const Contestant &) const = default;
 };
 
+/// The list under the key "detectors", [{"name": …, "settings": {…}}]; throws Error.
+std::vector<Contestant> contestantsFromJson(const Json &json, const std::string &where);
+Json toJson(const std::vector<Contestant> &contestants);
+
 /// Detection of simulated lines in white noise, as in Billon 2005 section 5.
 ///
 /// A *run* is a field of `frames` × `bins` cells of noise alone and the same noise with one line in each of its blocks of

@@ -1,0 +1,67 @@
+#include "app/cli/commands.h"
+
+#include "analysis/Calibration.h"
+#include "base/json.h"
+#include "spectrum/Spectrogram.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace faintline::cli {
+
+void addCalibrate(CLI::App &app, Common &common)
+{
+    struct Options {
+        AnalysisOptions analysis;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App *command = app.add_subcommand("calibrate", "K for a 50 % reset probability, and thresholds with their intervals, on simulated noise");
+    options->analysis.addTo(*command);
+    command->get_option("FILE")->required(false);
+    command->add_flag("--json", options->json, "As JSON");
+    command->callback([options, &common] {
+        const AnalysisSettings settings = options->analysis.settings();
+        const auto calibration = calibrate(settings, common.context());
+        Json json{{"detector", std::string(detectorNames[settings.detector.index()])},
+                  {"lnK", calibration->lnK},
+                  {"continuedFraction", calibration->continuedFraction},
+                  {"tailSlopePerNat", calibration->tailSlope}};
+        Json pfa = Json::array();
+        for (const double probability : {1e-3, 1e-4, 1e-5, 1e-6})
+            pfa.push_back({{"pfaPerCell", probability}, {"thresholdNats", calibration->thresholdForPfa(probability)}});
+        json["thresholds"] = pfa;
+        if (!options->analysis.file.empty()) {
+            const Spectrogram spectrogram(options->analysis.recording(), settings.spectrogram, settings.selection);
+            const double cellFramesPerHour = static_cast<double>(spectrogram.frequency().count) * 3600.0 / spectrogram.time().step;
+            const double nats = thresholdNats(settings.decide, *calibration, cellFramesPerHour);
+            const double rate = calibration->eventRateAt(nats);
+            const double half = calibration->thresholdUncertainty(rate);
+            json["recording"] = {{"thresholdNats", nats},
+                                 {"intervalNats", {nats - half, nats + half}},
+                                 {"pfaPerCell", calibration->exceedanceAt(nats)},
+                                 {"falseAlarmsPerHour", rate * cellFramesPerHour},
+                                 {"falseAlarmsPerHourInterval",
+                                  {calibration->eventRateAt(nats + half) * cellFramesPerHour, calibration->eventRateAt(nats - half) * cellFramesPerHour}}};
+        }
+        if (options->json) {
+            std::printf("%s\n", json.dump(2).c_str());
+            return;
+        }
+        std::printf("detector           %s\n", json["detector"].get<std::string>().c_str());
+        if (std::holds_alternative<SmdSettings>(settings.detector))
+            std::printf("ln K               %.4f (K = %.4f), %.1f %% of the states continued on noise\n", calibration->lnK, std::exp(calibration->lnK),
+                        100.0 * calibration->continuedFraction);
+        for (const Json &entry : pfa)
+            std::printf("Pfa per cell %.0e  threshold %.3f\n", entry["pfaPerCell"].get<double>(), entry["thresholdNats"].get<double>());
+        if (const auto found = json.find("recording"); found != json.end())
+            std::printf("on this recording  threshold %.3f (95 %%: %.3f … %.3f), Pfa per cell %.2e, %.3g false alarms per hour (95 %%: %.3g … %.3g)\n",
+                        (*found)["thresholdNats"].get<double>(), (*found)["intervalNats"][0].get<double>(), (*found)["intervalNats"][1].get<double>(),
+                        (*found)["pfaPerCell"].get<double>(), (*found)["falseAlarmsPerHour"].get<double>(),
+                        (*found)["falseAlarmsPerHourInterval"][0].get<double>(), (*found)["falseAlarmsPerHourInterval"][1].get<double>());
+    });
+}
+
+} // namespace faintline::cli

@@ -1,0 +1,109 @@
+#include "app/cli/commands.h"
+
+#include "base/Error.h"
+#include "base/json.h"
+#include "exchange/CampaignFile.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace faintline::cli {
+
+namespace {
+
+    struct Shard {
+        int index = 0;
+        int count = 1;
+    };
+
+    /// "2/8": counted from 0 or from 1, whichever suits the job scheduler.
+    Shard shardFrom(const std::string &text)
+    {
+        const std::size_t slash = text.find('/');
+        const std::optional<double> index = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(0, slash));
+        const std::optional<double> count = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(slash + 1));
+        const auto isWhole = [](double value) { return value == std::floor(value); };
+        if (!index || !count || !isWhole(*index) || !isWhole(*count) || *count < 1.0 || *count > 1e6 || *index < 0.0 || *index > *count)
+            throw Error("--shard " + text, "must be I/N with 0 ≤ I ≤ N (0 and N name the same shard)");
+        return {static_cast<int>(*index), static_cast<int>(*count)};
+    }
+
+    void mergeFiles(const std::vector<std::string> &paths, const std::string &out)
+    {
+        std::vector<Campaign> parts;
+        for (const std::string &path : paths)
+            parts.push_back(readCampaign(path));
+        writeCurve(merge(std::move(parts)), out);
+    }
+
+    void print(const Campaign &campaign)
+    {
+        std::printf("%-28s %8s %8s   %-17s %8s\n", "detector", "SNR (dB)", "Pd", "95 % interval", "trials");
+        for (const CurvePoint &point : pdCurve(campaign))
+            std::printf("%-28s %8s %8.4f   %.4f … %.4f   %8lld\n", point.detector.c_str(), formatNumber(point.snrDb).c_str(), point.pd,
+                        point.interval.low, point.interval.high, static_cast<long long>(point.trials));
+    }
+
+} // namespace
+
+void addEvaluate(CLI::App &app, Common &common)
+{
+    struct Options {
+        std::vector<std::string> files;
+        std::string out;
+        std::string shard;
+        int seed = -1;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App *command = app.add_subcommand("evaluate", "Monte-Carlo detection probability of an experiment; resumes where it was interrupted");
+    command->add_option("EXPERIMENT", options->files, "The experiment, JSON; or: merge SHARD…")->required();
+    command->add_option("--out", options->out, "Curve to write, .csv; with --shard the shard's runs");
+    command->add_option("--shard", options->shard, "Only part I of N, for 'merge'");
+    command->add_option("--seed", options->seed, "Seed in place of the experiment's own")->check(CLI::Range(0, 2147483647));
+    command->callback([options, &common] {
+        if (options->files.front() == "merge") {
+            if (options->files.size() < 2 || options->out.empty())
+                throw Error("evaluate merge", "needs shards and --out");
+            mergeFiles({options->files.begin() + 1, options->files.end()}, options->out);
+            return;
+        }
+        if (options->files.size() > 1)
+            throw Error("evaluate " + options->files[1], "one experiment at a time; to put shards together: evaluate merge SHARD…");
+        Experiment experiment = experimentFromJson(readJsonFile(options->files.front()), options->files.front());
+        if (options->seed >= 0)
+            setSeed(experiment, options->seed);
+        const Shard shard = options->shard.empty() ? Shard{} : shardFrom(options->shard);
+        const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
+        if (options->out.empty()) {
+            if (!options->shard.empty())
+                throw Error("--shard", "needs --out for the shard's runs");
+            Campaign campaign = begin(experiment, common.context());
+            carryOut(campaign, runs, common.context());
+            print(campaign);
+            return;
+        }
+        const Campaign campaign = carryOutResumably(experiment, runs, options->out, common.context());
+        if (options->shard.empty())
+            writeCurve(campaign, options->out);
+        else
+            writeCampaign(campaign, options->out);
+        removeParts(options->out);
+    });
+}
+
+void addMerge(CLI::App &app, Common &)
+{
+    struct Options {
+        std::vector<std::string> shards;
+        std::string out;
+    };
+    const auto options = std::make_shared<Options>();
+    CLI::App *command = app.add_subcommand("merge", "Put the shards of an experiment together: the same bytes as without shards");
+    command->add_option("SHARD", options->shards, "Shards, in any order")->required();
+    command->add_option("--out", options->out, "Curve to write, .csv")->required();
+    command->callback([options] { mergeFiles(options->shards, options->out); });
+}
+
+} // namespace faintline::cli

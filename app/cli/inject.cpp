@@ -1,0 +1,68 @@
+#include "app/cli/commands.h"
+
+#include "base/AtomicFile.h"
+#include "base/Error.h"
+#include "recording/InjectedRecording.h"
+#include "recording/writeRecording.h"
+#include "spectrum/NoiseNormaliser.h"
+#include "spectrum/Spectrogram.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <memory>
+
+namespace faintline::cli {
+
+void addInject(CLI::App &app, Common &common)
+{
+    struct Options {
+        AnalysisOptions analysis;
+        LineSettings line;
+        std::string fading = "none";
+        std::string out;
+        std::string truth;
+        std::string type = "float32";
+        int seed = 1;
+    };
+    const auto options = std::make_shared<Options>();
+    options->line.referenceSeconds = 0.0;
+    LineSettings &line = options->line;
+    CLI::App *command = app.add_subcommand("inject", "Add a known line to a recording");
+    options->analysis.addTo(*command);
+    command->add_option("--snr", line.snrDb, "SNR over the noise at the line's place, dB in a window of --reference seconds")->required();
+    command->add_option("--reference", line.referenceSeconds, "Window the SNR refers to, s; by default the spectrogram's");
+    command->add_option("--start", line.startSeconds, "Start, s")->capture_default_str();
+    command->add_option("--duration", line.durationSeconds, "Duration, s; 0: to the end")->capture_default_str();
+    command->add_option("--frequency", line.frequencyHz, "Frequency at the start, Hz")->required();
+    command->add_option("--drift", line.driftHzPerSecond, "Drift, Hz/s")->capture_default_str();
+    command->add_option("--wander", line.wanderHz, "Standard deviation of the wander, Hz")->capture_default_str();
+    command->add_option("--wander-time", line.wanderSeconds, "Correlation time of the wander, s")->capture_default_str();
+    command->add_option("--fading", options->fading, "Fading")->check(CLI::IsMember({"none", "rayleigh"}))->capture_default_str();
+    command->add_option("--fading-time", line.fadingSeconds, "Correlation time of the fading, s")->capture_default_str();
+    command->add_option("--seed", options->seed, "Seed of phase, wander and fading")->check(CLI::Range(0, 2147483647))->capture_default_str();
+    command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
+    command->add_option("--out", options->out, "Recording to write")->required();
+    command->add_option("--truth", options->truth, "Write the truth, .json");
+    command->callback([options, &common] {
+        const RecordingPointer recording = options->analysis.recording();
+        const AnalysisSettings settings = options->analysis.settings();
+        InjectedLine injected{options->line, 0.0};
+        injected.line.fading = options->fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
+        const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
+        const RecordingInfo &info = recording->info();
+        if (injected.line.referenceSeconds <= 0.0)
+            injected.line.referenceSeconds = static_cast<double>(spectrogram.windowSamples()) / info.sampleRateHz;
+        checkLine(injected.line, info, "line");
+        const auto background = estimateBackground(spectrogram, settings.noise, common.context().part(0.0, 0.3));
+        const double end = injected.line.durationSeconds > 0.0 ? injected.line.startSeconds + injected.line.durationSeconds : info.durationSeconds();
+        const double noise = std::exp(background->lnPowerAt(0.5 * (injected.line.startSeconds + end), injected.line.frequencyHz - info.centreHz));
+        injected.amplitude = toneAmplitude(injected.line.snrDb, noise, injected.line.referenceSeconds * info.sampleRateHz, info.isComplex);
+        const InjectedRecording made(recording, {injected}, settings.selection.channel, static_cast<std::uint64_t>(options->seed));
+        writeRecording(made, options->out, options->type == "int16" ? WrittenType::Int16 : WrittenType::Float32, common.context().part(0.3, 1.0));
+        if (!options->truth.empty())
+            writeTextFile(options->truth, toJson(made.truth()).dump(2) + "\n");
+    });
+}
+
+} // namespace faintline::cli

@@ -1,0 +1,154 @@
+#include "evaluate/Campaign.h"
+
+#include "base/Error.h"
+#include "evaluate/PdCurve.h"
+#include "recording/openRecording.h"
+
+#include <algorithm>
+#include <set>
+
+namespace faintline {
+
+namespace {
+
+    template <class... F>
+    struct Overloaded : F... {
+        using F::operator()...;
+    };
+
+    InjectionTrials trialsOf(const InjectionExperiment &experiment, const RunContext &context)
+    {
+        OpenOptions options;
+        options.iq = experiment.iq;
+        return InjectionTrials(experiment, openRecording(experiment.recording, options), context);
+    }
+
+    /// Pd among the trials whose place was free of detections without the line.
+    CurvePoint injectionPoint(const InjectionExperiment &experiment, const Campaign &campaign, std::size_t detector, std::size_t snr)
+    {
+        const double threshold = campaign.thresholds[detector];
+        CurvePoint point{experiment.detectors[detector].name, experiment.snrDb[snr], 0.0, {}, 0, threshold};
+        std::int64_t detections = 0;
+        for (const RunOutcome &outcome : campaign.outcomes) {
+            if (static_cast<double>(outcome.noise[detector].front()) > threshold)
+                continue;
+            ++point.trials;
+            detections += static_cast<double>(outcome.signal[detector][snr].front()) > threshold ? 1 : 0;
+        }
+        point.pd = point.trials > 0 ? static_cast<double>(detections) / static_cast<double>(point.trials) : 0.0;
+        point.interval = wilsonInterval(detections, point.trials);
+        return point;
+    }
+
+    bool inRunOrder(const RunOutcome &a, const RunOutcome &b)
+    {
+        return a.run < b.run;
+    }
+
+} // namespace
+
+Experiment experimentFromJson(const Json &json, const std::string &where)
+{
+    if (!json.is_object())
+        throw Error(where, "must be a JSON object");
+    const std::string kind = json.value("kind", std::string("lines"));
+    if (kind == "lines")
+        return lineExperimentFromJson(json, where);
+    if (kind == "injection")
+        return injectionExperimentFromJson(json, where);
+    throw Error(jsonName(where, "kind") + " = " + kind, "must be lines or injection");
+}
+
+Json toJson(const Experiment &experiment)
+{
+    return std::visit([](const auto &one) { return toJson(one); }, experiment);
+}
+
+int runCount(const Experiment &experiment)
+{
+    return std::visit(Overloaded{[](const LineExperiment &lines) { return lines.runs; },
+                                 [](const InjectionExperiment &injection) { return injection.trials; }},
+                      experiment);
+}
+
+void setSeed(Experiment &experiment, int seed)
+{
+    std::visit([seed](auto &one) { one.seed = seed; }, experiment);
+}
+
+std::vector<CurvePoint> pdCurve(const Campaign &campaign)
+{
+    std::vector<CurvePoint> curve;
+    if (campaign.outcomes.empty())
+        return curve;
+    std::visit(
+        [&](const auto &experiment) {
+            for (std::size_t d = 0; d < experiment.detectors.size(); ++d)
+                for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
+                    if constexpr (std::is_same_v<std::decay_t<decltype(experiment)>, LineExperiment>) {
+                        const PdPoint point = pdAgainstBlocks(experiment, campaign.outcomes, d, s);
+                        curve.push_back({experiment.detectors[d].name, point.snrDb, point.pd, point.interval, point.trials, {}});
+                    } else {
+                        curve.push_back(injectionPoint(experiment, campaign, d, s));
+                    }
+                }
+        },
+        campaign.experiment);
+    return curve;
+}
+
+Campaign begin(const Experiment &experiment, const RunContext &context)
+{
+    Campaign campaign{experiment, {}, {}};
+    if (const auto *injection = std::get_if<InjectionExperiment>(&experiment))
+        campaign.thresholds = trialsOf(*injection, context).thresholds();
+    return campaign;
+}
+
+void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context, const RunSink &sink)
+{
+    std::set<int> done;
+    for (const RunOutcome &outcome : campaign.outcomes)
+        done.insert(outcome.run);
+    std::vector<int> open;
+    std::copy_if(runs.begin(), runs.end(), std::back_inserter(open), [&](int run) { return !done.contains(run); });
+    const auto outcomes = std::visit(
+        Overloaded{[&](const LineExperiment &lines) { return runExperiment(lines, open, context, sink); },
+                   [&](const InjectionExperiment &injection) {
+                       return trialsOf(injection, context.part(0.0, 0.1)).run(open, context.part(0.1, 1.0), sink);
+                   }},
+        campaign.experiment);
+    campaign.outcomes.insert(campaign.outcomes.end(), outcomes.begin(), outcomes.end());
+    std::sort(campaign.outcomes.begin(), campaign.outcomes.end(), inRunOrder);
+}
+
+std::vector<int> runsOfShard(const Experiment &experiment, int index, int count)
+{
+    std::vector<int> runs;
+    for (int run = 0; run < runCount(experiment); ++run)
+        if (run % count == index % count)
+            runs.push_back(run);
+    return runs;
+}
+
+Campaign merge(std::vector<Campaign> parts)
+{
+    if (parts.empty())
+        throw Error("merge", "needs at least one part");
+    Campaign whole = std::move(parts.front());
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        if (!(parts[i].experiment == whole.experiment) || parts[i].thresholds != whole.thresholds)
+            throw Error("merge: part " + std::to_string(i + 1), "belongs to another experiment than the first");
+        whole.outcomes.insert(whole.outcomes.end(), parts[i].outcomes.begin(), parts[i].outcomes.end());
+    }
+    std::stable_sort(whole.outcomes.begin(), whole.outcomes.end(), inRunOrder);
+    for (std::size_t i = 1; i < whole.outcomes.size(); ++i)
+        if (whole.outcomes[i].run == whole.outcomes[i - 1].run)
+            throw Error("merge", "run " + std::to_string(whole.outcomes[i].run) + " is in two parts");
+    for (int run = 0; run < runCount(whole.experiment); ++run)
+        if (static_cast<std::size_t>(run) >= whole.outcomes.size() || whole.outcomes[static_cast<std::size_t>(run)].run != run)
+            throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(runCount(whole.experiment)) + " is in no part: a shard is missing");
+    return whole;
+}
+
+} // namespace faintline

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "evaluate/InjectionExperiment.h"
+#include "evaluate/Interval.h"
+#include "evaluate/LineExperiment.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace faintline {
+
+/// Any experiment that yields detection probabilities.
+using Experiment = std::variant<LineExperiment, InjectionExperiment>;
+
+/// By its "kind"; throws Error.
+Experiment experimentFromJson(const Json &json, const std::string &where);
+Json toJson(const Experiment &experiment);
+
+/// How many runs (fields, or single trials) the experiment consists of.
+int runCount(const Experiment &experiment);
+void setSeed(Experiment &experiment, int seed);
+
+/// An experiment with as many of its runs as have been done: a part of a campaign, or all of it.
+struct Campaign {
+    Experiment experiment;
+    std::vector<double> thresholds;   ///< of each detector; empty where every noise block's maximum is one
+    std::vector<RunOutcome> outcomes; ///< ascending in run
+};
+
+/// One point of a detection-probability curve.
+struct CurvePoint {
+    std::string detector;
+    double snrDb = 0.0;
+    double pd = 0.0;
+    Interval interval;
+    std::int64_t trials = 0;
+    std::optional<double> threshold; ///< nothing where every noise block's maximum is one
+};
+
+/// The curves of a campaign, detector by detector, in the order of its SNRs.
+std::vector<CurvePoint> pdCurve(const Campaign &campaign);
+
+/// Does those of `runs` that `campaign` does not hold yet and adds them; `sink` sees every new one. For a new campaign only the
+/// experiment is set. Results do not depend on how the work is divided. Throws Error, Cancelled.
+void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context = {}, const RunSink &sink = {});
+
+/// Prepares a campaign: calibrates thresholds where the experiment asks for them.
+Campaign begin(const Experiment &experiment, const RunContext &context = {});
+
+/// The runs that belong to shard `index` of `count`: those with run ≡ index (mod count).
+std::vector<int> runsOfShard(const Experiment &experiment, int index, int count);
+
+/// One campaign from parts of the same experiment. Throws Error where they differ, overlap or leave a run out.
+Campaign merge(std::vector<Campaign> parts);
+
+} // namespace faintline

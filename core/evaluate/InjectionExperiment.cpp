@@ -1,0 +1,217 @@
+#include "evaluate/InjectionExperiment.h"
+
+#include "analysis/Calibration.h"
+#include "base/Error.h"
+#include "base/parallel.h"
+#include "base/Random.h"
+#include "recording/InjectedRecording.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index framesBefore = 100; ///< for detectors to settle before the line begins
+    constexpr double cellsAside = 24.0; ///< of the band looked at, beyond the line's own travel
+    constexpr float lowest = -std::numeric_limits<float>::infinity();
+
+    AnalysisSettings merged(const AnalysisSettings &base, const AnalysisSettings &contestant)
+    {
+        AnalysisSettings settings = base;
+        settings.model = contestant.model;
+        settings.detector = contestant.detector;
+        return settings;
+    }
+
+} // namespace
+
+struct InjectionTrials::Shared {
+    RecordingPointer recording;
+    std::shared_ptr<const Spectrogram> spectrogram; ///< of the whole selection
+    std::shared_ptr<const NoiseBackground> background;
+    std::vector<ResetRule> rules;
+};
+
+const std::vector<Field<InjectionExperiment>> &InjectionExperiment::fields()
+{
+    using S = InjectionExperiment;
+    static const std::vector<Field<S>> table{
+        field(&S::iq, "iq", "Take two channels as I and Q."),
+        field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
+        field(&S::trials, "trials", "", 1.0, 1e7, "Lines to add, one at a time."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratios in a frame of a rectangular window."),
+        field(&S::durationSeconds, "durationSeconds", "s", 1e-6, 1e7, "Duration of a line."),
+        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line."),
+        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander."),
+        field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e7, "Correlation time of the wander."),
+        field(&S::falseAlarmsPerHour, "falseAlarmsPerHour", "1/h", 1e-9, 1e9, "False alarms per hour of the whole selection."),
+    };
+    return table;
+}
+
+InjectionExperiment injectionExperimentFromJson(const Json &json, const std::string &where)
+{
+    InjectionExperiment experiment;
+    readFields(json, InjectionExperiment::fields(), experiment, where, {"kind", "recording", "settings", "detectors"});
+    if (!json.contains("recording") || !json["recording"].is_string())
+        throw Error(jsonName(where, "recording"), "must be the path of a recording");
+    experiment.recording = json["recording"].get<std::string>();
+    const Json base = json.contains("settings") ? json["settings"] : Json::object();
+    experiment.settings = settingsFromJson(base.dump(), jsonName(where, "settings"));
+    experiment.detectors = contestantsFromJson(json, where);
+    if (experiment.snrDb.empty())
+        throw Error(jsonName(where, "snrDb"), "must hold at least one value");
+    return experiment;
+}
+
+Json toJson(const InjectionExperiment &experiment)
+{
+    Json whole{{"kind", "injection"}, {"recording", experiment.recording}};
+    whole.update(writeFields(experiment, InjectionExperiment::fields()));
+    whole["settings"] = Json::parse(settingsToJson(experiment.settings));
+    whole["detectors"] = toJson(experiment.detectors);
+    return whole;
+}
+
+InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording, const RunContext &context)
+    : m_experiment(experiment)
+{
+    auto shared = std::make_unique<Shared>();
+    shared->recording = std::move(recording);
+    shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram, experiment.settings.selection);
+    const Axis &time = shared->spectrogram->time();
+    if (experiment.durationSeconds >= static_cast<double>(time.count) * time.step)
+        throw Error("durationSeconds = " + formatNumber(experiment.durationSeconds),
+                    "must be shorter than the selection, " + formatNumber(static_cast<double>(time.count) * time.step) + " s");
+    shared->background = estimateBackground(*shared->spectrogram, experiment.settings.noise, context.part(0.0, 0.3));
+    const double cellFramesPerHour = static_cast<double>(shared->spectrogram->frequency().count) * 3600.0 / time.step;
+    for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
+        const AnalysisSettings settings = merged(experiment.settings, experiment.detectors[d].settings);
+        const auto n = static_cast<double>(experiment.detectors.size());
+        const auto calibration =
+            calibrate(settings, context.part(0.3 + 0.7 * static_cast<double>(d) / n, 0.3 + 0.7 * static_cast<double>(d + 1) / n));
+        const auto *smd = std::get_if<SmdSettings>(&settings.detector);
+        shared->rules.push_back(smd ? resetRule(*smd, calibration->lnK) : ResetRule{});
+        m_thresholds.push_back(calibration->thresholdForEventRate(experiment.falseAlarmsPerHour / cellFramesPerHour));
+    }
+    m_shared = std::move(shared);
+}
+
+InjectionTrials::~InjectionTrials() = default;
+
+InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
+{
+    const Spectrogram &spectrogram = *m_shared->spectrogram;
+    const RecordingInfo &info = m_shared->recording->info();
+    const auto seed = static_cast<std::uint64_t>(m_experiment.seed);
+    Random places(seed, static_cast<std::uint64_t>(trial));
+    const Axis &time = spectrogram.time();
+    const Axis &frequency = spectrogram.frequency();
+    const double window = static_cast<double>(spectrogram.windowSamples()) / info.sampleRateHz;
+    const double begin = time.first - 0.5 * window;
+    const double room = static_cast<double>(time.count - 1) * time.step + window - m_experiment.durationSeconds;
+    const double travel = m_experiment.driftHzPerSecond * m_experiment.durationSeconds;
+    const double margin = 2.0 / window + 4.0 * m_experiment.wanderHz;
+    const double low = frequency.first + margin + std::max(0.0, -travel);
+    const double high = frequency.last() - margin - std::max(0.0, travel);
+    if (!(low < high))
+        throw Error("driftHzPerSecond, wanderHz", "a line must stay within the selected band of "
+                        + formatNumber(frequency.last() - frequency.first) + " Hz");
+    InjectedLine injected;
+    LineSettings &line = injected.line;
+    line.snrDb = snrDb;
+    line.referenceSeconds = window;
+    line.startSeconds = begin + places.uniform() * room;
+    line.durationSeconds = m_experiment.durationSeconds;
+    const double offsetHz = low + places.uniform() * (high - low);
+    line.frequencyHz = info.centreHz + offsetHz;
+    line.driftHzPerSecond = m_experiment.driftHzPerSecond;
+    line.wanderHz = m_experiment.wanderHz;
+    line.wanderSeconds = m_experiment.wanderSeconds;
+    const double middle = line.startSeconds + 0.5 * line.durationSeconds;
+    const double noisePower = std::exp(m_shared->background->lnPowerAt(middle, offsetHz + 0.5 * travel));
+    injected.amplitude = toneAmplitude(snrDb, noisePower, static_cast<double>(spectrogram.windowSamples()), info.isComplex);
+    // The tone's phase and wander belong to the trial too.
+    const std::uint64_t own = seed * 1000003 + static_cast<std::uint64_t>(trial);
+    const auto made = std::make_shared<InjectedRecording>(m_shared->recording, std::vector{injected}, m_experiment.settings.selection.channel, own);
+    return {made, made->truth().lines.front()};
+}
+
+std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, const RunContext &context, const RunSink &sink) const
+{
+    const Spectrogram &whole = *m_shared->spectrogram;
+    const double centreHz = m_shared->recording->info().centreHz;
+    const double cellHz = whole.frequency().step * whole.binsPerCell();
+    const std::size_t detectors = m_experiment.detectors.size();
+
+    /// The largest statistic of every detector on the line's path.
+    const auto largestOn = [&](const Made &made, bool hasLine) {
+        const TruthLine &truth = made.truth;
+        const auto [low, high] = std::minmax_element(truth.frequencyHz.begin(), truth.frequencyHz.end());
+        SelectionSettings selection = m_experiment.settings.selection;
+        const Axis &frequency = whole.frequency();
+        selection.lowHz = std::max(frequency.first, *low - centreHz - cellsAside * cellHz);
+        selection.highHz = std::min(frequency.last(), *high - centreHz + cellsAside * cellHz);
+        const Axis &time = whole.time();
+        const Index lastNeeded = std::min(time.count - 1, static_cast<Index>(std::ceil(time.position(truth.endSeconds))));
+        const Index firstNeeded = std::max<Index>(0, static_cast<Index>(std::floor(time.position(truth.startSeconds))) - framesBefore);
+        NormaliserSettings noise = m_experiment.settings.noise;
+        noise.followLevel = false; // levels are in the background; clicks are judged by the whole band only
+        const auto spectrogram = std::make_shared<Spectrogram>(hasLine ? made.recording : m_shared->recording, whole.settings(), selection);
+        const NormalisedSpectrogram frames(spectrogram, m_shared->background, noise);
+        const Grid &grid = frames.grid();
+        std::vector<std::unique_ptr<Detector>> contestants;
+        for (std::size_t d = 0; d < detectors; ++d) {
+            const AnalysisSettings settings = merged(m_experiment.settings, m_experiment.detectors[d].settings);
+            contestants.push_back(makeDetector(settings.detector, makeModel(settings.model, grid), grid, frameGeometry(settings.spectrogram),
+                                         m_shared->rules[d]));
+        }
+        std::vector<float> largest(detectors, lowest);
+        std::vector<float> y(static_cast<std::size_t>(grid.size()));
+        std::vector<float> statistic(y.size());
+        const Axis &axis = grid.axes.front();
+        const auto aside = static_cast<Index>(std::floor(0.5 * whole.binsPerCell()));
+        for (Index frame = firstNeeded; frame <= lastNeeded; ++frame) {
+            frames.read(frame, 1, y);
+            const double seconds = time.value(static_cast<double>(frame));
+            const Index bin = axis.nearest(truth.frequencyAt(seconds) - centreHz);
+            for (std::size_t d = 0; d < detectors; ++d) {
+                contestants[d]->update(y, statistic);
+                if (seconds < truth.startSeconds || seconds > truth.endSeconds)
+                    continue;
+                for (Index i = std::max<Index>(0, bin - aside); i <= std::min(axis.count - 1, bin + aside); ++i)
+                    largest[d] = std::max(largest[d], statistic[static_cast<std::size_t>(i)]);
+            }
+        }
+        return largest;
+    };
+
+    std::vector<RunOutcome> outcomes(trials.size());
+    std::mutex guard;
+    parallelFor(std::ssize(trials), context, "injecting lines", [&] {
+        return [&](Index i) {
+            RunOutcome &outcome = outcomes[static_cast<std::size_t>(i)];
+            outcome.run = trials[static_cast<std::size_t>(i)];
+            outcome.signal.assign(detectors, std::vector<std::vector<float>>(m_experiment.snrDb.size()));
+            for (const float value : largestOn(remake(outcome.run, 0.0), false))
+                outcome.noise.push_back({value});
+            for (std::size_t s = 0; s < m_experiment.snrDb.size(); ++s) {
+                const std::vector<float> largest = largestOn(remake(outcome.run, m_experiment.snrDb[s]), true);
+                for (std::size_t d = 0; d < detectors; ++d)
+                    outcome.signal[d][s] = {largest[d]};
+            }
+            if (sink) {
+                const std::lock_guard lock(guard);
+                sink(outcome);
+            }
+        };
+    });
+    return outcomes;
+}
+
+} // namespace faintline

@@ -1,0 +1,158 @@
+#include "exchange/CampaignFile.h"
+
+#include "base/AtomicFile.h"
+#include "base/Error.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int fileVersion = 1;
+    constexpr const char *versionKey = "faintlineCampaign";
+
+    std::string headOf(const Campaign &campaign)
+    {
+        return Json{{versionKey, fileVersion}, {"experiment", toJson(campaign.experiment)}, {"thresholds", campaign.thresholds}}.dump();
+    }
+
+    std::string lineOf(const RunOutcome &outcome)
+    {
+        return Json{{"run", outcome.run}, {"noise", outcome.noise}, {"signal", outcome.signal}}.dump();
+    }
+
+    /// JSON has no infinity; a maximum over nothing is written as null.
+    float floatFrom(const Json &value)
+    {
+        return value.is_null() ? -std::numeric_limits<float>::infinity() : value.get<float>();
+    }
+
+    std::vector<float> floatsFrom(const Json &list)
+    {
+        std::vector<float> values;
+        for (const Json &value : list)
+            values.push_back(floatFrom(value));
+        return values;
+    }
+
+    RunOutcome outcomeFrom(const Json &json)
+    {
+        RunOutcome outcome;
+        outcome.run = json.at("run").get<int>();
+        for (const Json &detector : json.at("noise"))
+            outcome.noise.push_back(floatsFrom(detector));
+        for (const Json &detector : json.at("signal")) {
+            outcome.signal.emplace_back();
+            for (const Json &snr : detector)
+                outcome.signal.back().push_back(floatsFrom(snr));
+        }
+        return outcome;
+    }
+
+    struct Close {
+        void operator()(std::FILE *file) const { std::fclose(file); }
+    };
+    using File = std::unique_ptr<std::FILE, Close>;
+
+    File openToAppend(const std::string &path)
+    {
+        File file(std::fopen(path.c_str(), "a"));
+        if (!file)
+            throw Error(path, std::string("cannot be written: ") + std::strerror(errno), Error::Kind::Failure);
+        return file;
+    }
+
+    void appendLine(std::FILE *file, const std::string &path, const std::string &line)
+    {
+        if (std::fputs((line + "\n").c_str(), file) < 0 || std::fflush(file) != 0)
+            throw Error(path, std::string("cannot be written: ") + std::strerror(errno), Error::Kind::Failure);
+    }
+
+    std::string partsPath(const std::string &path)
+    {
+        return path + ".part";
+    }
+
+} // namespace
+
+void writeCampaign(const Campaign &campaign, const std::string &path)
+{
+    std::string text = headOf(campaign) + "\n";
+    for (const RunOutcome &outcome : campaign.outcomes)
+        text += lineOf(outcome) + "\n";
+    writeTextFile(path, text);
+}
+
+Campaign readCampaign(const std::string &path)
+{
+    std::ifstream file(path);
+    if (!file)
+        throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
+    std::string line;
+    std::getline(file, line);
+    const Json head = parseJson(line, path + ", line 1");
+    if (!head.is_object() || head.value(versionKey, 0) != fileVersion || !head.contains("experiment") || !head.contains("thresholds"))
+        throw Error(path, "is no campaign: its first line must hold " + std::string(versionKey) + ", experiment and thresholds");
+    Campaign campaign{experimentFromJson(head["experiment"], path), head["thresholds"].get<std::vector<double>>(), {}};
+    for (int number = 2; std::getline(file, line); ++number) {
+        if (file.eof())
+            break; // no line end: cut off
+        try {
+            campaign.outcomes.push_back(outcomeFrom(parseJson(line, path + ", line " + std::to_string(number))));
+        } catch (const nlohmann::json::exception &) {
+            throw Error(path + ", line " + std::to_string(number), "must be {\"run\": …, \"noise\": [[…]], \"signal\": [[[…]]]}");
+        }
+    }
+    return campaign;
+}
+
+bool isCampaignFile(const std::string &path)
+{
+    std::ifstream file(path);
+    std::string beginning(64, '\0');
+    file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    return beginning.find(versionKey) != std::string::npos;
+}
+
+void writeCurve(const Campaign &campaign, const std::string &path)
+{
+    std::string csv = "detector,snr_db,pd,pd_low,pd_high,trials,threshold\n";
+    for (const CurvePoint &point : pdCurve(campaign))
+        csv += "\"" + point.detector + "\"," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + "," + formatNumber(point.interval.low) + ","
+            + formatNumber(point.interval.high) + "," + std::to_string(point.trials) + ","
+            + (point.threshold ? formatNumber(*point.threshold) : std::string()) + "\n";
+    writeTextFile(path, csv);
+}
+
+Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> &runs, const std::string &path, const RunContext &context)
+{
+    const std::string parts = partsPath(path);
+    Campaign campaign;
+    if (std::filesystem::exists(parts)) {
+        campaign = readCampaign(parts);
+        if (!(campaign.experiment == experiment))
+            throw Error(parts, "holds runs of another experiment; remove it or choose another name for the result");
+        writeCampaign(campaign, parts); // without a line that was cut off
+    } else {
+        campaign = begin(experiment, context.part(0.0, 0.1));
+        writeCampaign(campaign, parts);
+    }
+    const File file = openToAppend(parts);
+    carryOut(campaign, runs, context.part(0.1, 1.0), [&](const RunOutcome &outcome) { appendLine(file.get(), parts, lineOf(outcome)); });
+    return campaign;
+}
+
+void removeParts(const std::string &path)
+{
+    std::error_code ignored;
+    std::filesystem::remove(partsPath(path), ignored);
+}
+
+} // namespace faintline
