@@ -1,5 +1,6 @@
 #include "analysis/Calibration.h"
 
+#include "analysis/CalibrationStore.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "recording/SimulatedRecording.h"
@@ -291,7 +292,12 @@ namespace {
             if (const auto found = known.find(key); found != known.end())
                 return found->second;
         }
-        auto made = make();
+        const CalibrationStore store(CalibrationStore::usualFolder());
+        auto made = store.load(key);
+        if (!made) {
+            made = make();
+            store.save(key, *made);
+        }
         const std::scoped_lock lock(mutex);
         return known.emplace(key, std::move(made)).first->second;
     }

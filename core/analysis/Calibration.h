@@ -36,11 +36,13 @@ struct Calibration {
     double thresholdForPfa(double probability) const;
     /// 95 % half-width, in nats, of the threshold for an event rate.
     double thresholdUncertainty(double eventsPerCellFrame) const;
+
+    bool operator==(const Calibration &) const = default;
 };
 
 /// Simulates white noise through spectrogram, normaliser and detector and measures the answer. Depends on nothing but the
 /// dimensionless part of the settings (windows, overlaps, model, detector), which is also the key under which results
-/// are kept for the life of the program. `cellFrames`: cells × frames to simulate for the tail.
+/// are kept, for the life of the program and in the `CalibrationStore`. `cellFrames`: cells × frames to simulate for the tail.
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
                                              double cellFrames = 4e7);
 

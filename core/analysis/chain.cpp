@@ -37,6 +37,17 @@ namespace {
         };
     }
 
+    /// A real recording's spectrum overlaps with its mirror image at 0 Hz, where there is often a constant as well, and at half
+    /// the rate: y has other statistics there (χ² of one degree of freedom) and a line none to itself. Not so in a band that was asked for.
+    std::vector<std::vector<Index>> blindPlaces(const Spectrogram &spectrogram, Index inhibitBins)
+    {
+        const SelectionSettings &selection = spectrogram.selection();
+        const Index bins = spectrogram.frequency().count;
+        if (spectrogram.recording().info().isComplex || selection.lowHz < selection.highHz || bins < 8 * inhibitBins)
+            return {};
+        return {{0}, {bins - 1}};
+    }
+
     ChainSettings chainSettings(const Analysis &analysis)
     {
         const AnalysisSettings &settings = analysis.settings;
@@ -46,13 +57,14 @@ namespace {
         chain.linkCells = perAxis(settings.decide.linkCells, analysis.grid());
         chain.track = settings.track;
         double binsPerCell = 1.0;
+        const auto inhibitBins = [&] { return static_cast<Index>(std::ceil(settings.decide.inhibitCells * binsPerCell)); };
         if (const auto *spectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get())) {
             binsPerCell = spectral->spectrogram().binsPerCell();
             chain.spill = spillOf(spectral->spectrogram());
             chain.skirtStep = static_cast<Index>(std::ceil(binsPerCell));
+            chain.blind = blindPlaces(spectral->spectrogram(), inhibitBins());
         }
-        chain.inhibitCells.assign(analysis.grid().axes.size(),
-                                  static_cast<Index>(std::ceil(settings.decide.inhibitCells * binsPerCell)));
+        chain.inhibitCells.assign(analysis.grid().axes.size(), inhibitBins());
         return chain;
     }
 

@@ -47,25 +47,33 @@ namespace {
         /// Global cell of every local one.
         const std::vector<Index> &cells() const { return m_cells; }
 
+        /// Local cell of a global one, or -1 outside of the corridor.
+        Index localCell(Index cell) const
+        {
+            Index local = 0;
+            Index stride = 1;
+            for (std::size_t axis = m_origin.size(); axis-- > 0;) {
+                const Axis &a = m_grid.axes[axis];
+                Index offset = cell % a.count - m_origin[axis];
+                cell /= a.count;
+                if (a.cyclic)
+                    offset = (offset % a.count + a.count) % a.count;
+                if (offset < 0 || offset >= space.axes()[axis].cells)
+                    return -1;
+                local += offset * stride;
+                stride *= space.axes()[axis].cells;
+            }
+            return local;
+        }
+
         Index toLocal(const StateSpace &whole, Index state) const
         {
-            StateSpace::Coordinates c = whole.coordinates(state);
-            for (std::size_t i = 0; i < c.cells.size(); ++i) {
-                c.cells[i] -= m_origin[i];
-                if (c.cells[i] < 0)
-                    c.cells[i] += m_grid.axes[i].count;
-                if (c.cells[i] >= m_grid.axes[i].count)
-                    c.cells[i] -= m_grid.axes[i].count;
-            }
-            return space.state(c);
+            return whole.planeOf(state) * space.cellCount() + localCell(whole.cellOf(state));
         }
 
         Index toGlobal(const StateSpace &whole, Index local) const
         {
-            StateSpace::Coordinates c = space.coordinates(local);
-            const Index cell = m_cells[static_cast<std::size_t>(space.cellOf(local))];
-            c.cells = m_grid.coordinates(cell);
-            return whole.state(c);
+            return space.planeOf(local) * whole.cellCount() + m_cells[static_cast<std::size_t>(space.cellOf(local))];
         }
 
         StateSpace space;
@@ -78,6 +86,17 @@ namespace {
 
     constexpr double scoreTolerance = 1e-4;
     constexpr float unreached = -std::numeric_limits<float>::infinity();
+
+    void forget(const CellBox &box, const Grid &grid, const Corridor &corridor, std::vector<float> &scores)
+    {
+        box.forEachCell(grid, [&](Index cell) {
+            const Index local = corridor.localCell(cell);
+            for (Index plane = 0; local >= 0 && plane < corridor.space.planeCount(); ++plane) {
+                float &score = scores[static_cast<std::size_t>(plane * corridor.space.cellCount() + local)];
+                score = std::min(score, 0.0f);
+            }
+        });
+    }
 
     /// Scores of the corridor's states for every frame from `first` on; all paths start inside the corridor.
     std::vector<std::vector<float>> runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record,
@@ -98,14 +117,15 @@ namespace {
             std::span<const float> predicted;
             if (frame > first)
                 predicted = recursion.predict(history.back());
-            for (std::size_t n = 0; n < scores.size(); ++n) {
+            for (std::size_t n = 0, cell = 0; n < scores.size(); ++n, ++cell) {
+                if (cell == y.size())
+                    cell = 0;
                 const float going = frame > first ? predicted[n] + lnK : unreached;
-                scores[n] = lambda[n % y.size()] + (going > 0.0f ? going : 0.0f);
+                scores[n] = lambda[cell] + (going > 0.0f ? going : 0.0f);
             }
-            for (const CellBox &box : record.forgotten(frame))
-                for (std::size_t n = 0; n < scores.size(); ++n)
-                    if (frame < last && box.contains(grid, grid.coordinates(corridor.cells()[n % y.size()])))
-                        scores[n] = std::min(scores[n], 0.0f);
+            if (frame < last)
+                for (const CellBox &box : record.forgotten(frame))
+                    forget(box, grid, corridor, scores);
             history.push_back(std::move(scores));
         }
         return history;

@@ -10,6 +10,7 @@ namespace {
 
     constexpr int framesPerBlock = 64;   // more add nothing to the estimate's accuracy
     constexpr Index largestBlockCount = 1024;
+    constexpr Index pivotCells = 5;      // at the band's edges, about which the sequence is continued
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
     constexpr double roundingFloor = 1e-13;
@@ -37,12 +38,12 @@ namespace {
         half = std::min(half, n - 1);
         const auto pivot = [&](Index from) {
             std::vector<float> few;
-            for (Index i = from; i < std::min(from + 5, n); ++i)
+            for (Index i = from; i < std::min(from + pivotCells, n); ++i)
                 few.push_back(sequence[static_cast<std::size_t>(i)]);
             return medianOf(few);
         };
         const float low = pivot(0);
-        const float high = pivot(std::max<Index>(0, n - 5));
+        const float high = pivot(std::max<Index>(0, n - pivotCells));
         const auto at = [&](Index i) {
             if (i < 0)
                 return 2.0f * low - sequence[static_cast<std::size_t>(std::min(-i, n - 1))];
@@ -123,13 +124,21 @@ namespace {
     }
 
     /// Averages each block with its neighbours in time as far as the level stays put: stationary noise is known better than one
-    /// block tells, a change of level ends the average. `tolerance`: of ln power, about four standard errors of a block.
-    std::vector<float> averageWhileSteady(const std::vector<float> &ln, Index blocks, Index cells, float tolerance)
+    /// block tells, a change of level ends the average. Steady is what differs by less than four standard errors of a block, which
+    /// are a median's of `framesUsed` × window cells, and of fewer cells toward the band's edges, where the window is continued
+    /// from a few of them.
+    std::vector<float> averageWhileSteady(const std::vector<float> &ln, Index blocks, Index cells, Index half, double framesUsed)
     {
         constexpr Index reach = 6;
+        const auto toleranceAt = [&](Index cell) {
+            const double inward = static_cast<double>(std::min({cell, cells - 1 - cell, half})) / static_cast<double>(half);
+            const double effective = pivotCells + (2.0 * static_cast<double>(half) + 1.0 - pivotCells) * inward;
+            return static_cast<float>(4.0 * 1.44 / std::sqrt(framesUsed * effective / 2.0)); // neighbouring cells share a half of what they tell
+        };
         std::vector<float> result(ln.size());
-        for (Index block = 0; block < blocks; ++block) {
-            for (Index cell = 0; cell < cells; ++cell) {
+        for (Index cell = 0; cell < cells; ++cell) {
+            const float tolerance = toleranceAt(cell);
+            for (Index block = 0; block < blocks; ++block) {
                 const float own = ln[static_cast<std::size_t>(block * cells + cell)];
                 float sum = own;
                 float count = 1.0f;
@@ -324,9 +333,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         rows.insert(rows.end(), row.begin(), row.end());
         appendLevels(block, row, background->bandCount, levels);
     }
-    // A median of n exponentials scatters by 1.44/√n; neighbouring cells share a half of what they tell.
-    const double perBlock = std::min<double>(framesPerBlock, blockFrames) * (2.0 * settings.halfWidthCells + 1.0) / 2.0;
-    background->lnPower = averageWhileSteady(rows, blockCount, cells, static_cast<float>(4.0 * 1.44 / std::sqrt(perBlock)));
+    background->lnPower = averageWhileSteady(rows, blockCount, cells, settings.halfWidthCells, std::min<double>(framesPerBlock, blockFrames));
     background->lnLevel = finishLevels(levels, rows, *background, blockFrames / static_cast<double>(stride));
     return background;
 }

@@ -56,6 +56,8 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
     m_boxes.clear();
     for (const HmmTracker &tracker : m_trackers)
         m_boxes.push_back(boxRound(tracker.coordinates(), y));
+    for (const std::vector<Index> &place : m_settings.blind)
+        m_boxes.push_back(boxRound(place, y));
     for (const CellBox &box : m_boxes)
         box.forEachCell(m_grid, [&](Index cell) { seen.y[static_cast<std::size_t>(cell)] = 0.0f; });
     const double lnK = m_detector->regulation().lnK;
@@ -87,6 +89,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     std::vector<std::vector<Index>> places; // as of the last frame: some trackers are about to move or end
     for (const HmmTracker &tracker : m_trackers)
         places.push_back(tracker.coordinates());
+    places.insert(places.end(), m_settings.blind.begin(), m_settings.blind.end());
     for (std::size_t i = 0; i < m_trackers.size(); ++i) {
         HmmTracker &tracker = m_trackers[i];
         const auto hidden = hideOthers(places, i);

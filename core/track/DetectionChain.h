@@ -22,6 +22,8 @@ struct ChainSettings {
     double shoulder = 0.0;            ///< cells above this round a crossing belong to the same excursion and are forgotten with it
     std::vector<Index> linkCells;     ///< crossings this near belong to one cluster, per axis
     std::vector<Index> inhibitCells;  ///< half the box kept from the detector round a track, per axis
+    /// Cells where no signal is looked for, by coordinates: kept from the detector as if a track were there all the time.
+    std::vector<std::vector<Index>> blind;
     TrackSettings track;
     bool feedback = true;             ///< false: detector only, no reset, no inhibition, no tracks
     /// Half-width along the last axis over which a signal of power y spills into its neighbours; may be empty.

@@ -39,6 +39,18 @@ namespace {
         return result;
     }
 
+    /// Offsets of a box's cells from its middle, cell by cell, one per axis.
+    std::vector<Index> offsetsFromMiddle(const StateSpace &box)
+    {
+        std::vector<Index> result;
+        for (Index cell = 0; cell < box.cellCount(); ++cell) {
+            const std::vector<Index> c = box.coordinates(cell).cells;
+            for (std::size_t axis = 0; axis < c.size(); ++axis)
+                result.push_back(c[axis] - (box.axes()[axis].cells - 1) / 2);
+        }
+        return result;
+    }
+
     /// Distance along an axis, the short way round on a cyclic one.
     Index offsetOnAxis(const Axis &axis, Index from, Index to)
     {
@@ -78,6 +90,37 @@ TrackerModel::TrackerModel(const MarkovModel &model, const Grid &frameGrid, cons
 {
     for (std::size_t axis = 0; axis < halfWidth.size(); ++axis)
         largestExtent = std::max(largestExtent, 2 * (halfWidth[axis] + reach[axis]));
+    windowOffsets = offsetsFromMiddle(window);
+    paddedOffsets = offsetsFromMiddle(padded);
+}
+
+Index TrackerModel::gridCell(const std::vector<Index> &centre, const std::vector<Index> &offsets, Index cell) const
+{
+    const std::size_t axisCount = centre.size();
+    const Index *offset = offsets.data() + static_cast<std::size_t>(cell) * axisCount;
+    Index flat = 0;
+    for (std::size_t axis = 0; axis < axisCount; ++axis) {
+        const Index inside = grid.axes[axis].wrapped(centre[axis] + offset[axis]);
+        if (inside < 0)
+            return -1;
+        flat = flat * grid.axes[axis].count + inside;
+    }
+    return flat;
+}
+
+Index TrackerModel::inPadded(Index cell, const std::vector<Index> &moved) const
+{
+    const std::size_t axisCount = moved.size();
+    const Index *offset = windowOffsets.data() + static_cast<std::size_t>(cell) * axisCount;
+    Index flat = 0;
+    for (std::size_t axis = 0; axis < axisCount; ++axis) {
+        const Index cells = padded.axes()[axis].cells;
+        const Index inside = offset[axis] + moved[axis] + halfWidth[axis] + reach[axis];
+        if (inside < 0 || inside >= cells)
+            return -1;
+        flat = flat * cells + inside;
+    }
+    return flat;
 }
 
 HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells, std::span<const float> detectorScores,
@@ -91,7 +134,7 @@ HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<
     m_statistic = static_cast<double>(detectorScores[static_cast<std::size_t>(state)]) + scoreOffset;
     slice.offset = m_statistic;
     for (Index local = 0; local < model.window.stateCount(); ++local) {
-        const Index cell = globalCell(slice, model.window.cellOf(local));
+        const Index cell = model.windowCell(slice.centre, model.window.cellOf(local));
         if (std::binary_search(cells.begin(), cells.end(), cell)) {
             const Index global = model.window.planeOf(local) * model.space.cellCount() + cell;
             slice.scores[static_cast<std::size_t>(local)] = static_cast<float>(
@@ -112,19 +155,17 @@ bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
     const Slice &last = m_history.back();
     // Old scores into the middle of the padded window.
     std::fill(model.scores.begin(), model.scores.end(), unreached);
-    for (Index local = 0; local < model.window.stateCount(); ++local) {
-        StateSpace::Coordinates c = model.window.coordinates(local);
-        for (std::size_t axis = 0; axis < c.cells.size(); ++axis)
-            c.cells[axis] += model.reach[axis];
-        model.scores[static_cast<std::size_t>(model.padded.state(c))] = last.scores[static_cast<std::size_t>(local)];
+    const Index windowCells = model.window.cellCount();
+    const Index cells = model.padded.cellCount();
+    const std::vector<Index> unmoved(model.halfWidth.size(), 0);
+    for (Index cell = 0; cell < windowCells; ++cell) {
+        const Index target = model.inPadded(cell, unmoved);
+        for (Index plane = 0; plane < model.window.planeCount(); ++plane)
+            model.scores[static_cast<std::size_t>(plane * cells + target)] = last.scores[static_cast<std::size_t>(plane * windowCells + cell)];
     }
     const std::span<float> predicted = model.recursion.predict(model.scores);
-    const Index cells = model.padded.cellCount();
     for (Index cell = 0; cell < cells; ++cell) {
-        std::vector<Index> c = model.padded.coordinates(cell).cells;
-        for (std::size_t axis = 0; axis < c.size(); ++axis)
-            c[axis] += last.centre[axis] - model.halfWidth[axis] - model.reach[axis];
-        const Index global = model.grid.cell(c);
+        const Index global = model.paddedCell(last.centre, cell);
         const float gain = global < 0 ? unreached : lambda[static_cast<std::size_t>(global)] + static_cast<float>(lnK);
         for (Index plane = 0; plane < model.padded.planeCount(); ++plane) {
             const auto n = static_cast<std::size_t>(plane * cells + cell);
@@ -173,20 +214,19 @@ HmmTracker::Slice HmmTracker::cutOut(Index frame, const std::vector<Index> &cent
     const Slice &last = m_history.back();
     Slice slice{frame, centre, std::vector<float>(static_cast<std::size_t>(model.window.stateCount()), unreached), m_statistic, {}, lnK};
     for (Index cell = 0; cell < model.window.cellCount(); ++cell) {
-        const Index global = globalCell(slice, cell);
+        const Index global = model.windowCell(centre, cell);
         slice.lambda.push_back(global < 0 ? 0.0f : lambda[static_cast<std::size_t>(global)]);
     }
     const double shift = last.offset - m_statistic;
-    for (Index local = 0; local < model.window.stateCount(); ++local) {
-        StateSpace::Coordinates c = model.window.coordinates(local);
-        bool inside = true;
-        for (std::size_t axis = 0; axis < c.cells.size(); ++axis) {
-            c.cells[axis] += offsetOnAxis(model.grid.axes[axis], last.centre[axis], centre[axis]) + model.reach[axis];
-            inside = inside && c.cells[axis] >= 0 && c.cells[axis] < model.padded.axes()[axis].cells;
-        }
-        if (inside)
-            slice.scores[static_cast<std::size_t>(local)] = static_cast<float>(
-                static_cast<double>(model.scores[static_cast<std::size_t>(model.padded.state(c))]) + shift);
+    std::vector<Index> moved;
+    for (std::size_t axis = 0; axis < centre.size(); ++axis)
+        moved.push_back(offsetOnAxis(model.grid.axes[axis], last.centre[axis], centre[axis]));
+    const Index cells = model.window.cellCount();
+    for (Index cell = 0; cell < cells; ++cell) {
+        const Index source = model.inPadded(cell, moved);
+        for (Index plane = 0; source >= 0 && plane < model.window.planeCount(); ++plane)
+            slice.scores[static_cast<std::size_t>(plane * cells + cell)] = static_cast<float>(
+                static_cast<double>(model.scores[static_cast<std::size_t>(plane * model.padded.cellCount() + source)]) + shift);
     }
     return slice;
 }
@@ -201,15 +241,6 @@ Index HmmTracker::localOf(const Slice &slice, Index state) const
             return -1;
     }
     return model.window.state(c);
-}
-
-Index HmmTracker::globalCell(const Slice &slice, Index localCell) const
-{
-    const TrackerModel &model = *m_model;
-    std::vector<Index> c = model.window.coordinates(localCell).cells;
-    for (std::size_t axis = 0; axis < c.size(); ++axis)
-        c[axis] += slice.centre[axis] - model.halfWidth[axis];
-    return model.grid.cell(c);
 }
 
 Index HmmTracker::predecessorIn(const Slice &earlier, Index state, double &lnTransition) const
@@ -297,7 +328,7 @@ void HmmTracker::paint(std::span<float> statistic) const
     const TrackerModel &model = *m_model;
     const Slice &slice = m_history.back();
     for (Index cell = 0; cell < model.window.cellCount(); ++cell) {
-        const Index global = globalCell(slice, cell);
+        const Index global = model.windowCell(slice.centre, cell);
         if (global < 0)
             continue;
         float best = unreached;

@@ -43,6 +43,18 @@ struct TrackerModel {
     StateSpace padded;            ///< the window with room for one step
     Recursion<MaxPlus<float>> recursion;
     std::vector<float> scores;    ///< padded
+
+    /// Grid cell of a cell of the window, or of the padded one, that is centred there; -1 off the grid.
+    Index windowCell(const std::vector<Index> &centre, Index cell) const { return gridCell(centre, windowOffsets, cell); }
+    Index paddedCell(const std::vector<Index> &centre, Index cell) const { return gridCell(centre, paddedOffsets, cell); }
+    /// Cell of the padded window where a cell of the window lies that has moved against it; -1 outside.
+    Index inPadded(Index cell, const std::vector<Index> &moved) const;
+
+private:
+    Index gridCell(const std::vector<Index> &centre, const std::vector<Index> &offsets, Index cell) const;
+
+    std::vector<Index> windowOffsets; ///< from the centre, cell by cell, one per axis
+    std::vector<Index> paddedOffsets;
 };
 
 /// Follows one signal on a small window of the state space that moves with the most probable state.
@@ -59,6 +71,10 @@ public:
     /// ascending); `start` has the path so far.
     HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells, std::span<const float> detectorScores,
                double scoreOffset);
+
+    // Trackers are moved as their vector grows, never copied: their history is large.
+    HmmTracker(HmmTracker &&) noexcept = default;
+    HmmTracker &operator=(HmmTracker &&) noexcept = default;
 
     /// Takes the log-likelihood ratios of a whole frame; false when the track has ended.
     bool update(Index frame, std::span<const float> lambda, double lnK);
@@ -100,7 +116,6 @@ private:
     Slice cutOut(Index frame, const std::vector<Index> &centre, std::span<const float> lambda, double lnK) const;
     void follow(Index frame, std::span<const float> lambda, double lnK);
     Index predecessorIn(const Slice &earlier, Index state, double &lnTransition) const;
-    Index globalCell(const Slice &slice, Index localCell) const;
     Index localOf(const Slice &slice, Index state) const;
     void commit(std::size_t count);
 

@@ -32,6 +32,7 @@ private slots:
     void findsTheLine();
     void statisticHasTheFramesShape();
     void threadsChangeNoByte();
+    void keptCalibrationsChangeNoByte();
     void isTheLibrary();
     void explainsItsTerms();
     void framesInPlaceOfARecording();
@@ -282,6 +283,23 @@ void tst_cli::threadsChangeNoByte()
         QVERIFY(json["doing"].is_string());
     }
     QCOMPARE(last, 1.0);
+}
+
+void tst_cli::keptCalibrationsChangeNoByte()
+{
+    const QByteArray usual = qgetenv("FAINTLINE_CACHE");
+    const QString folder = path("cache");
+    for (const QString &cache : {QStringLiteral("off"), folder, folder}) { // none, made, read back
+        qputenv("FAINTLINE_CACHE", cache.toLocal8Bit());
+        const Outcome outcome = run(m_folder, QStringList{"detect", "line.wav", "--events", "kept.csv", "--tracks", "keptTracks.csv",
+                                                          "--statistic", "kept.npy"} + settings);
+        QCOMPARE(outcome.code, 0);
+        QVERIFY(content("kept.csv") == content("events.csv"));
+        QVERIFY(content("keptTracks.csv") == content("tracks.csv"));
+        QVERIFY(content("kept.npy") == content("D.npy"));
+        QCOMPARE(QDir(folder).entryList(QDir::Files).size(), cache == folder ? 1 : 0);
+    }
+    usual.isNull() ? qunsetenv("FAINTLINE_CACHE") : qputenv("FAINTLINE_CACHE", usual);
 }
 
 void tst_cli::isTheLibrary()

@@ -1,0 +1,146 @@
+#include "analysis/CalibrationStore.h"
+
+#include "analysis/sourceFingerprint.h"
+#include "base/AtomicFile.h"
+#include "base/json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+namespace faintline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+    constexpr std::string_view filePrefix = "calibration-";
+    constexpr std::uintmax_t largestFileBytes = 4u << 20;
+
+    /// FNV-1a: only names the file; the key itself is compared with the one inside.
+    std::string hashOf(std::string_view text)
+    {
+        std::uint64_t hash = 0xcbf29ce484222325u;
+        for (const char c : text)
+            hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+        char digits[17];
+        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+        return digits;
+    }
+
+    std::string environment(const char *name)
+    {
+        const char *value = std::getenv(name);
+        return value ? value : "";
+    }
+
+    Json toJson(const Calibration &c)
+    {
+        return {{"lnK", c.lnK},
+                {"continuedFraction", c.continuedFraction},
+                {"anchorNats", c.anchorNats},
+                {"eventRate", c.eventRate},
+                {"tailSlope", c.tailSlope},
+                {"relativeError", c.relativeError},
+                {"slopeError", c.slopeError},
+                {"levels", c.levels},
+                {"exceedance", c.exceedance}};
+    }
+
+    /// Throws where a member is missing or of another kind.
+    Calibration fromJson(const Json &json)
+    {
+        Calibration c;
+        json.at("lnK").get_to(c.lnK);
+        json.at("continuedFraction").get_to(c.continuedFraction);
+        json.at("anchorNats").get_to(c.anchorNats);
+        json.at("eventRate").get_to(c.eventRate);
+        json.at("tailSlope").get_to(c.tailSlope);
+        json.at("relativeError").get_to(c.relativeError);
+        json.at("slopeError").get_to(c.slopeError);
+        json.at("levels").get_to(c.levels);
+        json.at("exceedance").get_to(c.exceedance);
+        return c;
+    }
+
+    bool isUsable(const Calibration &c)
+    {
+        return c.levels.size() >= 2 && c.levels.size() == c.exceedance.size() && c.tailSlope > 0.0 && c.eventRate > 0.0;
+    }
+
+} // namespace
+
+fs::path CalibrationStore::usualFolder()
+{
+    const std::string wanted = environment("FAINTLINE_CACHE");
+    if (wanted == "off")
+        return {};
+    if (!wanted.empty())
+        return wanted;
+    if (const fs::path cache = environment("XDG_CACHE_HOME"); cache.is_absolute())
+        return cache / "faintline";
+    if (const fs::path home = environment("HOME"); home.is_absolute())
+        return home / ".cache" / "faintline";
+    return {};
+}
+
+fs::path CalibrationStore::fileFor(const std::string &key) const
+{
+    return m_folder / (std::string(filePrefix) + hashOf(key) + ".json");
+}
+
+std::shared_ptr<const Calibration> CalibrationStore::load(const std::string &key) const
+{
+    if (m_folder.empty())
+        return nullptr;
+    const fs::path file = fileFor(key);
+    std::error_code code;
+    if (!fs::is_regular_file(file, code) || fs::file_size(file, code) > largestFileBytes)
+        return nullptr;
+    try {
+        const Json json = readJsonFile(file.string());
+        if (json.at("sources") != sourceFingerprint() || json.at("key") != key)
+            return nullptr;
+        const Calibration calibration = fromJson(json.at("calibration"));
+        return isUsable(calibration) ? std::make_shared<const Calibration>(calibration) : nullptr;
+    } catch (const Error &) {
+        return nullptr;
+    } catch (const Json::exception &) {
+        return nullptr;
+    }
+}
+
+void CalibrationStore::save(const std::string &key, const Calibration &calibration) const
+{
+    if (m_folder.empty())
+        return;
+    std::error_code code;
+    fs::create_directories(m_folder, code);
+    try {
+        const Json json{{"sources", sourceFingerprint()}, {"key", key}, {"calibration", toJson(calibration)}};
+        writeTextFile(fileFor(key).string(), json.dump());
+        removeOldest();
+    } catch (const Error &) {
+        // Kept for the life of the program only.
+    }
+}
+
+void CalibrationStore::removeOldest() const
+{
+    std::error_code code;
+    std::vector<std::pair<fs::file_time_type, fs::path>> files;
+    for (fs::directory_iterator entry(m_folder, code), end; entry != end; entry.increment(code))
+        if (entry->path().filename().string().starts_with(filePrefix))
+            files.emplace_back(entry->last_write_time(code), entry->path());
+    if (files.size() <= largestFileCount)
+        return;
+    std::sort(files.begin(), files.end());
+    for (std::size_t i = 0; i < files.size() - largestFileCount; ++i)
+        fs::remove(files[i].second, code);
+}
+
+} // namespace faintline
