@@ -1,6 +1,7 @@
 #include "analysis/Calibration.h"
 
 #include "analysis/CalibrationStore.h"
+#include "analysis/chain.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "recording/SimulatedRecording.h"
@@ -9,6 +10,7 @@
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <future>
@@ -30,12 +32,11 @@ namespace {
     constexpr Index blockFrames = 128;
     constexpr Index blockCells = 64;
     constexpr std::size_t leastMaxima = 100;
+    constexpr std::array<double, 3> eventsWanted{800.0, 200.0, 50.0}; ///< at the thresholds where events are counted
+    constexpr double leastEvents = 20.0;
 
     /// Noise to calibrate on, in segments that can be made independently of each other.
     using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;
-
-    /// A detector on noise, made afresh for every segment.
-    using DetectorMaker = std::function<std::unique_ptr<Detector>()>;
 
     /// Levels at which a statistic's exceedance is counted.
     struct Levels {
@@ -46,6 +47,8 @@ namespace {
     struct Tail {
         std::vector<double> counts = std::vector<double>(levelCount, 0.0); ///< cells per level bin
         std::vector<float> blockMaxima;
+        std::vector<double> events; ///< of each chain
+        double cellFrames = 0.0;
     };
 
     /// The frames from the start on, computed once for what goes through them many times.
@@ -128,7 +131,9 @@ namespace {
         return {least, std::max((largest - least) / static_cast<float>(levelsInView), 1e-6f)};
     }
 
-    Tail measureTail(const NormalisedFrames &noise, Detector &detector, const Levels &levels)
+    /// `chains`: if any, their tracks after the settling frames are counted on the same noise.
+    Tail measureTail(const NormalisedFrames &noise, Detector &detector, const Levels &levels,
+                     const std::vector<std::unique_ptr<DetectionChain>> &chains = {})
     {
         const Index cells = noise.grid().size();
         const Index columns = std::max<Index>(1, cells / blockCells);
@@ -140,7 +145,10 @@ namespace {
         for (Index frame = 0; frame < noise.time().count; ++frame) {
             if (frame % framesAtOnce == 0)
                 noise.read(frame, std::min(framesAtOnce, noise.time().count - frame), batch);
-            detector.update(std::span(batch).subspan(static_cast<std::size_t>(frame % framesAtOnce * cells), statistic.size()), statistic);
+            const auto y = std::span(batch).subspan(static_cast<std::size_t>(frame % framesAtOnce * cells), statistic.size());
+            for (const auto &chain : chains)
+                chain->update(frame, y, statistic);
+            detector.update(y, statistic);
             if (frame < settlingFrames)
                 continue;
             for (float value : statistic) {
@@ -160,7 +168,23 @@ namespace {
                 inBlock = 0;
             }
         }
+        for (const auto &chain : chains) {
+            chain->finish();
+            tail.events.push_back(static_cast<double>(std::count_if(chain->tracks().begin(), chain->tracks().end(), [](const Track &track) {
+                return track.detectFrame >= settlingFrames;
+            })));
+        }
+        tail.cellFrames = static_cast<double>(cells * std::max<Index>(0, noise.time().count - settlingFrames));
         return tail;
+    }
+
+    void add(const Tail &part, Tail &whole)
+    {
+        std::transform(part.counts.begin(), part.counts.end(), whole.counts.begin(), whole.counts.begin(), std::plus<>());
+        whole.blockMaxima.insert(whole.blockMaxima.end(), part.blockMaxima.begin(), part.blockMaxima.end());
+        whole.events.resize(part.events.size());
+        std::transform(part.events.begin(), part.events.end(), whole.events.begin(), whole.events.begin(), std::plus<>());
+        whole.cellFrames += part.cellFrames;
     }
 
     /// Calls work(number) for 0 … count-1, `threads` at a time, and take(result) in the order of the numbers.
@@ -180,36 +204,59 @@ namespace {
         }
     }
 
-    /// Fits P(max ≤ T) = exp(-Λ e^{-θ(T-u)}) to block maxima, those below u known only to be below.
-    void fitTail(std::vector<float> maxima, double cellFramesPerBlock, Calibration &result)
+    /// Thresholds at which chains may be expected to find about the wanted numbers of events in `cellFrames`, by a rough look at the maxima
+    /// of space-time blocks: with P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), Λ and θ from two quantiles.
+    std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, std::span<const double> wanted, double cellFrames)
     {
+        // A detector that decides in blocks of its own has blocks of ours without a decision.
+        const auto blocks = static_cast<double>(maxima.size());
+        std::erase_if(maxima, [](float maximum) { return !std::isfinite(maximum); });
+        if (maxima.size() < leastMaxima)
+            throw Error("detector", "decides too seldom to be calibrated on noise; choose a shorter window");
         std::sort(maxima.begin(), maxima.end());
-        const std::size_t below = maxima.size() * 2 / 5;
-        const double u = static_cast<double>(maxima[below]);
-        const auto excesses = std::span(maxima).subspan(below);
-        const auto n = static_cast<double>(excesses.size());
-        double sum = 0.0;
-        for (float maximum : excesses)
-            sum += static_cast<double>(maximum) - u;
-        const auto blocks = [&](double theta) { // Σ e^{-θ(x-u)} over the excesses, 1 for each block below
-            double total = static_cast<double>(below);
-            for (float maximum : excesses)
-                total += std::exp(-theta * (static_cast<double>(maximum) - u));
-            return total;
+        const double perMaximum = cellFramesPerBlock * blocks / static_cast<double>(maxima.size());
+        constexpr double lower = 0.5;
+        constexpr double upper = 0.95;
+        const auto quantile = [&](double p) { return static_cast<double>(maxima[static_cast<std::size_t>(p * static_cast<double>(maxima.size()))]); };
+        const double theta = std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
+        std::vector<double> thresholds;
+        for (const double events : wanted)
+            thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum * cellFrames / events) / theta);
+        return thresholds;
+    }
+
+    /// Fits ln(rate) = ln(rate at the anchor) - θ(T - anchor) to Poisson counts of events at several thresholds, by maximum likelihood.
+    void fitEventRate(std::span<const double> thresholds, std::span<const double> events, double cellFrames, Calibration &result)
+    {
+        const double total = std::accumulate(events.begin(), events.end(), 0.0);
+        if (total < leastEvents)
+            throw Error("detector", "hardly ever exceeds any threshold on noise, which leaves nothing to calibrate on");
+        double anchor = 0.0; // where both parameters' errors are independent
+        for (std::size_t i = 0; i < thresholds.size(); ++i)
+            anchor += thresholds[i] * events[i] / total;
+        const auto weights = [&](double theta) {
+            std::vector<double> w;
+            for (const double threshold : thresholds)
+                w.push_back(std::exp(-theta * (threshold - anchor)));
+            return w;
         };
+        // With the rate at its best for each θ, the likelihood is that of a multinomial: Σ nᵢ ln(wᵢ/Σw), Σ nᵢ(Tᵢ - anchor) = 0.
         const auto minusLogLikelihood = [&](double theta) {
-            return -(n * std::log(n / blocks(theta)) + n * std::log(theta) - theta * sum);
+            const std::vector<double> w = weights(theta);
+            return total * std::log(std::accumulate(w.begin(), w.end(), 0.0));
         };
-        const double guess = n / std::max(sum, 1e-6);
-        const double theta = boost::math::tools::brent_find_minima(minusLogLikelihood, 0.1 * guess, 10.0 * guess, 40).first;
-        const double step = 0.01 * theta;
-        const double curvature = (minusLogLikelihood(theta + step) - 2.0 * minusLogLikelihood(theta) + minusLogLikelihood(theta - step))
-            / (step * step);
-        result.anchorNats = u;
+        const double range = *std::max_element(thresholds.begin(), thresholds.end()) - *std::min_element(thresholds.begin(), thresholds.end());
+        const double theta = boost::math::tools::brent_find_minima(minusLogLikelihood, 0.0, 40.0 / range, 40).first;
+        const std::vector<double> w = weights(theta);
+        const double sum = std::accumulate(w.begin(), w.end(), 0.0);
+        double variance = 0.0;
+        for (std::size_t i = 0; i < thresholds.size(); ++i)
+            variance += w[i] / sum * (thresholds[i] - anchor) * (thresholds[i] - anchor);
+        result.anchorNats = anchor;
         result.tailSlope = theta;
-        result.slopeError = curvature > 0.0 ? 1.0 / std::sqrt(curvature) : theta;
-        result.relativeError = 1.0 / std::sqrt(n);
-        result.eventRate = n / blocks(theta) / cellFramesPerBlock;
+        result.slopeError = 1.0 / std::sqrt(total * variance);
+        result.relativeError = 1.0 / std::sqrt(total);
+        result.eventRate = total / sum / cellFrames;
     }
 
     void fillExceedance(const std::vector<double> &counts, const Levels &levels, Calibration &result)
@@ -224,39 +271,51 @@ namespace {
     }
 
     std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
-                                                   const DetectorSettings &settings, const FrameGeometry &geometry,
-                                                   const RunContext &context)
+                                                   const AnalysisSettings &settings, const RunContext &context)
     {
+        // The analysis whose chain will be asked, with thresholds to be found.
+        Analysis trial;
+        trial.settings = settings;
+        trial.model = model;
         auto result = std::make_shared<Calibration>();
+        trial.calibration = result;
         context.checkpoint(0.0, "calibrating K on noise");
-        const auto first = beginningOf(*segment(0), settlingFrames + regulationFrames);
-        ResetRule rule;
-        if (const auto *smd = std::get_if<SmdSettings>(&settings)) {
-            const ResetFit fit = fitReset({first}, model, *smd);
-            result->lnK = fit.lnK;
-            result->continuedFraction = fit.continuedFraction;
-            rule = resetRule(*smd, fit.lnK);
-        }
-        const DetectorMaker make = [&] { return makeDetector(settings, model, first->grid(), geometry, rule); };
-        const Levels levels = levelsOf(*first, *make());
+        const NormalisedFramesPointer firstSegment = segment(0);
+        const auto first = beginningOf(*firstSegment, settlingFrames + regulationFrames);
+        const auto *chosen = std::get_if<SmdSettings>(&settings.detector);
+        const SmdSettings smd = chosen ? *chosen : SmdSettings{};
+        const ResetFit fit = fitReset({first}, model, smd);
+        result->lnK = fit.lnK;
+        result->continuedFraction = fit.continuedFraction;
+        trial.frames = firstSegment;
+        const Levels levels = levelsOf(*first, *makeDetector(trial));
+
+        const int roughCount = (segmentCount + 3) / 4;
+        Tail rough;
+        inRounds(
+            roughCount, context.part(0.2, 0.3), [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
+            [&](const Tail &part) { add(part, rough); });
+        const double cells = static_cast<double>(first->grid().size());
+        const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
+        const double cellFrames = rough.cellFrames / roughCount * segmentCount;
+        const std::vector<double> thresholds =
+            thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns, eventsWanted, cellFrames);
 
         Tail tail;
         inRounds(
-            segmentCount, context.part(0.2, 1.0), [&](int number) { return measureTail(*segment(number), *make(), levels); },
-            [&](const Tail &part) {
-                for (std::size_t i = 0; i < tail.counts.size(); ++i)
-                    tail.counts[i] += part.counts[i];
-                tail.blockMaxima.insert(tail.blockMaxima.end(), part.blockMaxima.begin(), part.blockMaxima.end());
-            });
-        // A detector that decides in blocks of its own has blocks of ours without a decision.
-        const auto blocks = static_cast<double>(tail.blockMaxima.size());
-        std::erase_if(tail.blockMaxima, [](float maximum) { return !std::isfinite(maximum); });
-        if (tail.blockMaxima.size() < leastMaxima)
-            throw Error("detector", "decides too seldom to be calibrated on noise; choose a shorter window");
-        const double cells = static_cast<double>(first->grid().size());
-        const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
-        const double perMaximum = static_cast<double>(blockFrames) * cells / columns * blocks / static_cast<double>(tail.blockMaxima.size());
-        fitTail(std::move(tail.blockMaxima), perMaximum, *result);
+            segmentCount, context.part(0.3, 1.0),
+            [&](int number) {
+                Analysis own = trial;
+                own.frames = segment(number);
+                std::vector<std::unique_ptr<DetectionChain>> chains;
+                for (const double threshold : thresholds) {
+                    own.threshold = threshold;
+                    chains.push_back(makeChain(own));
+                }
+                return measureTail(*own.frames, *makeDetector(own), levels, chains);
+            },
+            [&](const Tail &part) { add(part, tail); });
+        fitEventRate(thresholds, tail.events, tail.cellFrames, *result);
         fillExceedance(tail.counts, levels, *result);
         return result;
     }
@@ -356,8 +415,7 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
             * static_cast<double>(Fft::fastLength(windowSamples * bare.spectrogram.binsPerCell));
         const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / perSegment)));
         const MarkovModel model = makeModel(bare.model, noiseSegment(bare, 0)->grid());
-        return calibrateOn([&](int number) { return noiseSegment(bare, number); }, segments, model, bare.detector,
-                           frameGeometry(bare.spectrogram), context);
+        return calibrateOn([&](int number) { return noiseSegment(bare, number); }, segments, model, bare, context);
     });
 }
 
@@ -376,7 +434,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
         return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
     };
     const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / static_cast<double>(frames * grid.size()))));
-    return calibrateOn(segment, segments, model, settings.detector, {}, context);
+    return calibrateOn(segment, segments, model, settings, context);
 }
 
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)

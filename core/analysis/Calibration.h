@@ -12,13 +12,12 @@ namespace faintline {
 
 /// How a detector answers to noise alone: found by simulation, the same noise through the same chain.
 ///
-/// The statistic's tail is exponential (for one-to-one transitions exactly so, Lindley's recursion: P(L > T) = σ e^{-(1-σ)T}). The
-/// rate of events, exceedances counted once per excursion, comes from the maxima of space-time blocks: with
-/// P(max ≤ T) = exp(-Λ e^{-θ(T-u)}) the two parameters are fitted by maximum likelihood to the blocks whose maximum
-/// exceeds u; Λ/block size is the number of events per cell and frame at threshold u. An excursion that lies in two blocks
-/// counts twice, so the rate is on the safe side, by up to a factor of two where events are dense.
+/// The statistic's tail is exponential (for one-to-one transitions exactly so, Lindley's recursion: P(L > T) = σ e^{-(1-σ)T}). An event
+/// is what the whole chain starts a track from, with its clustering, reset and inhibition; its rate is counted on noise at three
+/// thresholds where there are many, and continued with ln(rate) = ln(eventRate) - θ(T - u), fitted by maximum likelihood to the
+/// Poisson counts, to where events are rare.
 struct Calibration {
-    double lnK = 0.0;               ///< ln K in force
+    double lnK = 0.0;               ///< ln K in force; for other detectors, of the sequential Markov detector that guides their tracks
     double continuedFraction = 0.0; ///< realised, of all states
     double anchorNats = 0.0;        ///< u
     double eventRate = 0.0;         ///< events per cell and frame at threshold u

@@ -1,6 +1,7 @@
 #include "analysis/chain.h"
 
 #include "base/logmath.h"
+#include "detect/GuidedDetector.h"
 #include "spectrum/NoiseNormaliser.h"
 
 #include <algorithm>
@@ -70,13 +71,20 @@ namespace {
 
 } // namespace
 
-std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
+std::unique_ptr<Detector> makeDetector(const Analysis &analysis)
 {
     const AnalysisSettings &settings = analysis.settings;
     const auto *smd = std::get_if<SmdSettings>(&settings.detector);
-    const FrameGeometry geometry = analysis.recording ? frameGeometry(settings.spectrogram) : FrameGeometry{};
-    auto detector = makeDetector(settings.detector, analysis.model, analysis.grid(), geometry,
-                                 smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
+    const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr;
+    return makeDetector(settings.detector, analysis.model, analysis.grid(), isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{},
+                        smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
+}
+
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
+{
+    std::unique_ptr<Detector> detector = makeDetector(analysis);
+    if (!detector->hasPaths())
+        detector = std::make_unique<GuidedDetector>(std::move(detector), analysis.model, ResetRule{ResetLaw::Fixed, analysis.calibration->lnK});
     return std::make_unique<DetectionChain>(analysis.model, analysis.grid(), std::move(detector), chainSettings(analysis));
 }
 

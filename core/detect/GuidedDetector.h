@@ -1,0 +1,43 @@
+#pragma once
+
+#include "detect/Detector.h"
+#include "detect/Smd.h"
+
+#include <memory>
+
+namespace faintline {
+
+/// A detector without paths beside a sequential Markov detector that has them: the first one decides, the second one tells which path
+/// led there, so that tracks can be started from any detector's events.
+///
+/// The statistic is the first detector's; scores and regulation are the second one's.
+class GuidedDetector final : public Detector
+{
+public:
+    GuidedDetector(std::unique_ptr<Detector> decider, const MarkovModel &model, const ResetRule &rule)
+        : m_decider(std::move(decider)), m_guide(model, rule)
+    {
+    }
+
+    void update(std::span<const float> y, std::span<float> statistic) override
+    {
+        m_guide.update(y, statistic);
+        m_decider->update(y, statistic);
+    }
+
+    void forget(const Grid &grid, const CellBox &box) override
+    {
+        m_guide.forget(grid, box);
+        m_decider->forget(grid, box);
+    }
+
+    std::span<const float> scores() const override { return m_guide.scores(); }
+    bool hasPaths() const override { return true; }
+    Regulation regulation() const override { return m_guide.regulation(); }
+
+private:
+    std::unique_ptr<Detector> m_decider;
+    Smd m_guide;
+};
+
+} // namespace faintline
