@@ -346,8 +346,10 @@ std::span<const float> SequentialTrial::next()
         float &cell = y[static_cast<std::size_t>(m_folded * space.cellCount() + space.cellOf(m_state))];
         cell *= static_cast<float>(1.0 + *m_study->actualSnr);
     }
-    if (m_study->averagedCells > 0)
+    if (m_study->averagedCells > 0) {
         averageCells(y, m_study->model.markov.space.axes().back().cells, m_study->averagedCells);
+        correctAveraged(y, m_study->averagedCells, m_study->model.markov.likelihood.snr());
+    }
     return y;
 }
 

@@ -428,8 +428,9 @@ Reproduction reproduceGrossiFigure4(const ReproduceOptions &options, const RunCo
     made.notes.push_back("ASN peaks at " + formatNumber(peakDb) + " dB, " + text("%.2f", peak) + " stages against " + text("%.2f", noiseStages)
                          + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the cut-off ends what would hang. A test designed "
                            "at each actual SNR has no such peak; it saturates at the cut-off and falls.");
-    made.notes.push_back("The publication's cell averaging is not described: sliding means of the 32 or 16 neighbours in range are shown, an independent "
-                         "program has 13.1 and 15.4, and they are not judged. All other cells know the noise power.");
+    made.notes.push_back("The publication's cell averaging is not described: sliding means of the 32 or 16 neighbours in range are shown, with the "
+                         "exact likelihood ratio of such a quotient; an independent program has 13.1 and 15.4. They are not judged. All other cells "
+                         "know the noise power.");
     return made;
 }
 
