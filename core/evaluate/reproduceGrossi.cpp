@@ -148,13 +148,13 @@ namespace {
     const std::array<LineReference, 4> &figure2References()
     {
         static const std::array<LineReference, 4> table{{
-            {10, 20000, {{{96.96, .21}, {116.88, .26}, {128.83, .30}, {134.90, .32}, {135.15, .32}}},
+            {10, 40000, {{{96.96, .21}, {116.88, .26}, {128.83, .30}, {134.90, .32}, {135.15, .32}}},
              {{{63.08, .21}, {84.09, .27}, {99.44, .31}, {105.26, .32}, {106.23, .32}}}, 132.77, 97.85},
-            {20, 10000, {{{113.77, .24}, {153.49, .34}, {188.38, .44}, {209.20, .50}, {216.76, .52}}},
+            {20, 20000, {{{113.77, .24}, {153.49, .34}, {188.38, .44}, {209.20, .50}, {216.76, .52}}},
              {{{68.90, .24}, {103.59, .34}, {141.19, .44}, {167.36, .51}, {174.60, .53}}}, 212.49, 162.01},
-            {50, 5000, {{{120.88, .27}, {193.20, .43}, {280.62, .64}, {373.89, .90}, {417.0, 1.0}}},
+            {50, 8000, {{{120.88, .27}, {193.20, .43}, {280.62, .64}, {373.89, .90}, {417.0, 1.0}}},
              {{{70.87, .26}, {118.46, .42}, {194.75, .64}, {295.13, .91}, {347.2, 1.0}}}, 411.72, 326.16},
-            {100, 4000, {{{121.78, .55}, {203.1, .9}, {342.7, 1.5}, {548.2, 2.6}, {705.8, 3.5}}},
+            {100, 5000, {{{121.78, .55}, {203.1, .9}, {342.7, 1.5}, {548.2, 2.6}, {705.8, 3.5}}},
              {{{70.11, .51}, {122.1, .9}, {222.2, 1.5}, {417.2, 2.7}, {603.0, 3.5}}}, 696.52, 565.52},
         }};
         return table;
@@ -261,6 +261,7 @@ Reproduction reproduceGrossiFigure2(const ReproduceOptions &options, const RunCo
     const DeterministicSprt known = deterministicSprt(study.sprt, 1.0, 1.0);
     std::array<Chart, 2> charts{{{"ASN on noise, H0", "entropy rate / ln M", "stages", false, true, {}},
                                  {"ASN with a target, H1", "entropy rate / ln M", "stages", false, true, {}}}};
+    std::array<std::vector<Curve>, 2> upper;
     std::array<std::string, 2> excess;
     double done = 0.0;
     for (const LineReference &reference : figure2References()) {
@@ -299,12 +300,14 @@ Reproduction reproduceGrossiFigure2(const ReproduceOptions &options, const RunCo
             std::string &list = excess[isTarget ? 1 : 0];
             list += (list.empty() ? "" : ", ") + text("%+.1f", 100.0 * (curve.points.back().y / bound - 1.0)) + " % at " + lineName;
             charts[isTarget ? 1 : 0].curves.push_back(std::move(curve));
-            charts[isTarget ? 1 : 0].curves.push_back(levelCurve("(8) upper, " + lineName, bound));
+            upper[isTarget ? 1 : 0].push_back(levelCurve("(8) upper, " + lineName, bound));
         }
     }
     const WaldBounds lower = waldBounds(study.sprt, 1.0, 1);
-    charts[0].curves.push_back(levelCurve("(8) lower", lower.h0Low));
-    charts[1].curves.push_back(levelCurve("(8) lower", lower.h1Low));
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+        charts[i].curves.insert(charts[i].curves.end(), upper[i].begin(), upper[i].end());
+        charts[i].curves.push_back(levelCurve("(8) lower", i == 0 ? lower.h0Low : lower.h1Low));
+    }
     made.charts.assign(charts.begin(), charts.end());
     made.notes.push_back("(8) neglects by how far ln Λ overshoots its boundary, so its \"upper bound\" is exceeded at the uniform end: H0 " + excess[0] + "; H1 "
                          + excess[1] + ".");
@@ -320,15 +323,16 @@ Reproduction reproduceGrossiFigure3(const ReproduceOptions &options, const RunCo
     made.title = "Correct last cell and correct trajectory against what is known of it (Grossi and Lops 2006, Figure 3): M = 100";
     made.quantity = "probability, given H1 accepted";
     SequentialStudy study;
-    study.trials = trialsOf(3000, options);
+    study.trials = trialsOf(5000, options);
     study.estimatesTrajectory = true;
-    Chart chart{"Correct within two cells at the end (last), within five all along (track)", "entropy rate / ln M", "probability", false, false, {}};
+    Chart lastChart{"Last cell correct within two cells, M = 100", "entropy rate / ln M", "P_c,last", false, false, {}};
+    Chart trackChart{"Trajectory correct within five cells all along, M = 100", "entropy rate / ln M", "P_c,track", false, false, {}};
     double done = 0.0;
     for (const TrackReference &reference : figure3References) {
         const double snr = ratioFromDb(reference.snrDb);
         const std::string name = formatNumber(reference.snrDb) + " dB";
-        Curve last{"last, " + name, Curve::Kind::Measured, {}};
-        Curve track{"track, " + name, Curve::Kind::Measured, {}};
+        Curve last{name, Curve::Kind::Measured, {}};
+        Curve track{name, Curve::Kind::Measured, {}};
         Index misses = 0;
         study.actualSnr = snr;
         for (std::size_t i = 0; i < deviations.size(); ++i) {
@@ -352,10 +356,10 @@ Reproduction reproduceGrossiFigure3(const ReproduceOptions &options, const RunCo
         missed.tolerance = within(frequencyError(*missed.reference, 5.0 * figure3ReferenceTrials),
                                   frequencyError(*missed.reference, static_cast<double>(trials)), 1e-5);
         made.cells.push_back(std::move(missed));
-        chart.curves.push_back(std::move(last));
-        chart.curves.push_back(std::move(track));
+        lastChart.curves.push_back(std::move(last));
+        trackChart.curves.push_back(std::move(track));
     }
-    made.charts.push_back(std::move(chart));
+    made.charts = {std::move(lastChart), std::move(trackChart)};
     made.notes.push_back("The test is designed at the actual SNR, so P_d hardly depends on it: a lower SNR is paid for with stages, and with trajectories that "
                          "are longer and less often correct.");
     return made;
@@ -371,13 +375,15 @@ Reproduction reproduceGrossiFigure4(const ReproduceOptions &options, const RunCo
     SequentialStudy study;
     study.model = radarModel(ratioFromDb(12.0));
     study.sprt.cutOffStage = 20;
-    study.trials = trialsOf(6000, options);
-    Chart chart{"Stages in the radar case", "actual SNR (dB)", "stages; CV × 10", false, false, {}};
-    Chart accepted{"Acceptance of a target", "actual SNR (dB)", "P(accept H1)", false, false, {}};
-    Curve stages{"ASN", Curve::Kind::Measured, {}};
-    Curve variation{"CV × 10", Curve::Kind::Measured, {}};
+    study.trials = trialsOf(10000, options);
+    Chart stagesChart{"Stages in the radar case, designed for 12 dB", "actual SNR (dB)", "ASN (stages)", false, false, {}};
+    Chart variationChart{"Their coefficient of variation", "actual SNR (dB)", "standard deviation / mean", false, false, {}};
+    Chart acceptedChart{"Acceptance of a target", "actual SNR (dB)", "P(accept H1)", false, false, {}};
+    Curve stages{"ASN with a target", Curve::Kind::Measured, {}};
+    Curve variation{"CV with a target", Curve::Kind::Measured, {}};
     Curve acceptance{"P(accept H1)", Curve::Kind::Measured, {}};
     double noiseStages = 0.0;
+    double noiseVariation = 0.0;
     double peak = 0.0;
     double peakDb = 0.0;
     for (std::size_t i = 0; i < figure4References().size(); ++i) {
@@ -396,11 +402,11 @@ Reproduction reproduceGrossiFigure4(const ReproduceOptions &options, const RunCo
                                            reference.acceptRounding));
         if (!reference.snrDb) {
             noiseStages = outcome.stages.value;
+            noiseVariation = outcome.variation.value;
             continue;
         }
-        const Interval scaled{10.0 * outcome.variation.interval().low, 10.0 * outcome.variation.interval().high};
         stages.points.push_back({*reference.snrDb, outcome.stages.value, outcome.stages.interval()});
-        variation.points.push_back({*reference.snrDb, 10.0 * outcome.variation.value, scaled});
+        variation.points.push_back({*reference.snrDb, outcome.variation.value, outcome.variation.interval()});
         acceptance.points.push_back({*reference.snrDb, made.cells.back().ours, made.cells.back().interval});
         if (outcome.stages.value > peak) {
             peak = outcome.stages.value;
@@ -408,7 +414,7 @@ Reproduction reproduceGrossiFigure4(const ReproduceOptions &options, const RunCo
         }
     }
     study.actualSnr.reset();
-    study.trials = std::max<Index>(100, study.trials / 4);
+    study.trials = std::max<Index>(100, study.trials / 5);
     for (const Index cells : {32, 16}) {
         study.averagedCells = cells;
         const SequentialOutcome outcome = simulate(study, context.part(0.9, 1.0));
@@ -419,12 +425,14 @@ Reproduction reproduceGrossiFigure4(const ReproduceOptions &options, const RunCo
         cell.interval = outcome.stages.interval();
         made.cells.push_back(std::move(cell));
     }
-    const auto firstDb = stages.points.front().x;
-    const auto lastDb = stages.points.back().x;
-    Curve noise{"ASN on noise", Curve::Kind::Theory, {{firstDb, noiseStages, {}}, {lastDb, noiseStages, {}}}};
-    chart.curves = {std::move(stages), std::move(noise), std::move(variation)};
-    accepted.curves = {std::move(acceptance)};
-    made.charts = {std::move(chart), std::move(accepted)};
+    const auto onNoise = [&](const std::string &name, double value) {
+        return Curve{name, Curve::Kind::Theory, {{stages.points.front().x, value, {}}, {stages.points.back().x, value, {}}}};
+    };
+    variationChart.curves = {std::move(variation), onNoise("on noise", noiseVariation)};
+    Curve noise = onNoise("on noise", noiseStages);
+    stagesChart.curves = {std::move(stages), std::move(noise)};
+    acceptedChart.curves = {std::move(acceptance)};
+    made.charts = {std::move(stagesChart), std::move(variationChart), std::move(acceptedChart)};
     made.notes.push_back("ASN peaks at " + formatNumber(peakDb) + " dB, " + text("%.2f", peak) + " stages against " + text("%.2f", noiseStages)
                          + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the cut-off ends what would hang. A test designed "
                            "at each actual SNR has no such peak; it saturates at the cut-off and falls.");
