@@ -2,13 +2,12 @@
 
 #include "evaluate/reproduce.h"
 
+#include <vector>
+
 namespace faintline {
 
-/// Grossi and Lops, "Sequential detection and tracking …", 2006: ASN against what is known of the trajectory, correct trajectories, and
-/// the radar case. The publication's figures give no numbers; references are an independent program's, with their standard errors.
-/// 4·√(SE² + SE²) judges, for the coefficient of variation twice that.
-Reproduction reproduceGrossiFigure2(const ReproduceOptions &options, const RunContext &context);
-Reproduction reproduceGrossiFigure3(const ReproduceOptions &options, const RunContext &context);
-Reproduction reproduceGrossiFigure4(const ReproduceOptions &options, const RunContext &context);
+/// Figures 2 to 4 of Grossi and Lops 2006: stages against what is known of the trajectory, correct trajectories, and the radar case.
+/// The publication's figures give no numbers; references are an independent program's with their standard errors, or exact.
+std::vector<Reproducible> grossiReproducibles();
 
 } // namespace faintline
