@@ -213,7 +213,7 @@ Divergences mixtureDivergences(double snr, int cells)
         throw Error("cells", "must be at least 1");
     const auto M = static_cast<double>(cells);
     // E ln W = ∫ (e^{-t} - E e^{-tW}) d ln t; the trapezoidal rule is as good as exact for such a smooth bell.
-    constexpr double spacing = 0.2;
+    constexpr double spacing = 0.3;
     double h0 = 0.0;
     double h1 = 0.0;
     const double first = -38.0 * std::max(1.0, snr); // until the left tail, t^{1/ρ}, is gone

@@ -39,6 +39,15 @@ KinematicAxis gaussian(Index cells, double deviation)
     return a;
 }
 
+/// The longest step of a ring of five goes half-way round.
+KinematicAxis ring(double deviation)
+{
+    KinematicAxis a = axis(5, true);
+    a.step = gaussianStep(deviation, 3);
+    a.renormalised = true;
+    return a;
+}
+
 KinematicAxis matrix(std::vector<double> rows)
 {
     KinematicAxis a = axis(static_cast<Index>(std::sqrt(static_cast<double>(rows.size()))));
@@ -71,6 +80,7 @@ std::vector<World> worlds()
         {"an initial law", {admissible(4)}, {false}, {0.7, 0.0, 0.1, 0.2}},
         {"Gaussian walk", {gaussian(5, 0.8)}, {false}, {}},
         {"uniform walk", {gaussian(4, std::numeric_limits<double>::infinity())}, {false}, {}},
+        {"Gaussian walk round a ring", {ring(1.2)}, {false}, {}},
         {"matrix", {matrix({0.1, 0.9, 0.0, 0.3, 0.3, 0.4, 0.0, 0.0, 1.0})}, {false}, {}},
         {"matrix and admissible", {matrix({0.25, 0.75, 0.6, 0.4}), admissible(3)}, {false, false}, {}},
         {"admissible and matrix", {admissible(3), matrix({0.25, 0.75, 0.6, 0.4})}, {false, false}, {}},
@@ -117,7 +127,8 @@ double probability(const StateSpace &space, Index from, Index to)
             product *= x.transition[static_cast<std::size_t>(a.cells[i] * x.cells + b.cells[i])];
         } else if (x.renormalised) {
             const auto q = [&](Index cell) {
-                const auto d = static_cast<std::size_t>(std::abs(cell - a.cells[i]));
+                const Index apart = std::abs(cell - a.cells[i]);
+                const auto d = static_cast<std::size_t>(x.cyclic ? std::min(apart, x.cells - apart) : apart);
                 return d < x.step.size() ? x.step[d] : 0.0;
             };
             double sum = 0.0;

@@ -61,7 +61,7 @@ Counted simulateWalk(const SprtSettings &settings, double designSnr, double data
 void tst_waldTheory::divergencesByQuadrature_data()
 {
     QTest::addColumn<double>("snrDb");
-    for (const double snrDb : {-15.0, -10.0, 0.0, 3.0, 12.0, 20.0})
+    for (const double snrDb : {-15.0, -10.0, 0.0, 3.0, 12.0, 15.0})
         QTest::addRow("%g dB", snrDb) << snrDb;
 }
 
