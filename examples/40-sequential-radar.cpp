@@ -41,7 +41,8 @@ int main()
         ScanScene sector = scene;
         sector.hasTarget = visit.sector == 2;
         const int run = static_cast<int>(visit.round * 6 + visit.sector);
-        return [sector, run, path = scanTrajectory(sector, run), y = std::vector<float>(3 * 3 * 40 * 8)](Index stage, std::span<double> out) mutable {
+        return [sector, run, path = scanTrajectory(sector, run), y = std::vector<float>(3 * 3 * 40 * 8)](Index stage,
+                                                                                                         std::span<double> out) mutable {
             readScan(sector, path, run, stage, y);
             std::copy(y.begin(), y.end(), out.begin());
         };

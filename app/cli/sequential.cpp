@@ -46,8 +46,8 @@ namespace {
         auto frames = std::make_shared<const DoubleFrames>(readDoubleFrames(options.frames));
         const std::vector<Index> cells(frames->shape.begin() + 1, frames->shape.end());
         if (cells != stages.model.reduction.axisCells())
-            throw Error(options.model, "has " + cellsText(stages.model.reduction.axisCells()) + " cells, but the frames of " + options.frames
-                                           + " have " + cellsText(cells));
+            throw Error(options.model, "has " + cellsText(stages.model.reduction.axisCells()) + " cells, but the frames of "
+                                           + options.frames + " have " + cellsText(cells));
         stages.count = frames->shape.front();
         stages.source = [frames](Index stage, std::span<double> y) {
             std::copy_n(frames->values.begin() + stage * std::ssize(y), std::ssize(y), y.begin());
@@ -59,7 +59,8 @@ namespace {
     Stages recorded(const Options &options, const RunContext &context)
     {
         const AnalysisSettings settings = options.analysis.settings();
-        const auto spectrogram = std::make_shared<const Spectrogram>(options.analysis.recording(), settings.spectrogram, settings.selection);
+        const auto spectrogram =
+            std::make_shared<const Spectrogram>(options.analysis.recording(), settings.spectrogram, settings.selection);
         const auto frames = std::make_shared<NormalisedSpectrogram>(
             spectrogram, estimateBackground(*spectrogram, settings.noise, context), settings.noise);
         const Index bins = frames->grid().size();
@@ -112,7 +113,8 @@ namespace {
 void addSequential(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("sequential", "Stage after stage until it is clear whether a signal is there, and where it has been");
+    CLI::App *command =
+        app.add_subcommand("sequential", "Stage after stage until it is clear whether a signal is there, and where it has been");
     options->analysis.addTo(*command);
     command->get_option("FILE")->required(false);
     command->add_option("--frames", options->frames, "Ready-made normalised frames, .npy of shape (stages, cells…), noise mean 1");

@@ -173,7 +173,9 @@ Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
 template <class Semiring>
 void Recursion<Semiring>::preparePlaces(const StateSpace &space, double transitionScale)
 {
-    const auto weight = [&](double ln) { return static_cast<Real>(Semiring::logarithmic ? ln * transitionScale : std::exp(ln * transitionScale)); };
+    const auto weight = [&](double ln) {
+        return static_cast<Real>(Semiring::logarithmic ? ln * transitionScale : std::exp(ln * transitionScale));
+    };
     std::vector<double> lnDepartures(static_cast<std::size_t>(space.cellCount()), 0.0);
     bool departs = false;
     Index inner = space.cellCount();

@@ -127,7 +127,8 @@ SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, I
         return result;
 
     const MapTrajectory map = MapEstimator(model).estimate(
-        result.stages, [&](Index stage, std::span<double> out) { model.reduction.maximum(evidence.at(stage), out); }, context.part(0.5, 1.0));
+        result.stages, [&](Index stage, std::span<double> out) { model.reduction.maximum(evidence.at(stage), out); },
+        context.part(0.5, 1.0));
     result.lnMapScore = map.lnScore;
     for (Index stage = 0; stage < result.stages; ++stage)
         result.trajectory.push_back(

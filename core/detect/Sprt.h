@@ -34,7 +34,9 @@ void checkSprt(const SprtSettings &settings, const std::string &where);
 
 /// Where the test stops, in nats of ln Λ.
 ///
-///   ln γ1 = ln (1-β)/α,   ln γ0 = ln β/(1-α)        Wald's approximation, Grossi and Lops 2006 eq. 9; at the cut-off stage ½(ln γ0 + ln γ1)
+///   ln γ1 = ln (1-β)/α,   ln γ0 = ln β/(1-α),   at the cut-off stage ½(ln γ0 + ln γ1)
+///
+/// Source: Wald's approximation, Grossi and Lops 2006, eq. 9 and section 4.3.
 ///
 /// α/(1-β) and β/(1-α) of the test as it runs are at most 1/γ1 and γ0: rigorous for the test without a cut-off.
 struct SprtBoundaries {
@@ -52,8 +54,8 @@ SprtDecision decide(const SprtSettings &settings, double lnLambda, Index stage);
 ///
 ///   F_1(n) = P_1(n) · e^{λ_1(n)},   F_k(n) = e^{λ_k(n)} · Σ_m P(n|m) F_{k-1}(m),   Λ_k = Σ_n F_k(n)
 ///
-/// λ_k(n): ln p1/p0 of the state's cell at stage k. Kept as F/Λ, which is the posterior law of the state, and ln Λ, so that a thousand stages
-/// neither overflow nor lose digits. On noise E[Λ_k] = 1. Source: Grossi and Lops 2006, Algorithm 3.1. Oracle: enumeration of all
+/// λ_k(n): ln p1/p0 of the state's cell at stage k. Kept as F/Λ, which is the posterior law of the state, and ln Λ, so that a thousand
+/// stages neither overflow nor lose digits. On noise E[Λ_k] = 1. Source: Grossi and Lops 2006, Algorithm 3.1. Oracle: enumeration of all
 /// trajectories. Cost: the recursion's and one exponential a cell. One object per thread.
 class LikelihoodRatio
 {

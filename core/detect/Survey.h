@@ -29,8 +29,8 @@ struct Survey {
 using SectorSource = std::function<StageSource(const SectorVisit &visit)>;
 
 /// Visits sector after sector, round after round: each is looked at until its test decides or `stagesAtMost` are taken (no decision),
-/// then the beam moves on. Empty sectors, the many, are left early; that is what a sequential test saves against one of `fixedSize` stages a look.
-/// Source: Grossi and Lops 2006, section 4. Throws Error, Cancelled.
+/// then the beam moves on. Empty sectors, the many, are left early; that is what a sequential test saves against one of `fixedSize` stages
+/// a look. Source: Grossi and Lops 2006, section 4. Throws Error, Cancelled.
 Survey survey(const SequentialModel &model, const SprtSettings &settings, Index sectors, Index rounds, Index stagesAtMost, Index fixedSize,
               const SectorSource &source, const RunContext &context = {});
 

@@ -88,11 +88,11 @@ namespace {
     {
     public:
         Runner(const SequentialStudy &study, const TrajectorySampler &sampler)
-            : m_study(study), m_sampler(sampler), m_cells(study.model.markov.space.cellCount()), m_states(study.model.markov.space.stateCount()),
-              m_lanes(lanesFor(m_states)), m_initial(study.model.initialLaw()), m_recursion(withLanes(study.model.markov.space, m_lanes)),
-              m_weights(static_cast<std::size_t>(m_states * m_lanes), 0.0), m_ratio(static_cast<std::size_t>(m_cells * m_lanes), 0.0),
-              m_total(static_cast<std::size_t>(m_lanes)), m_cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells())),
-              m_slot(static_cast<std::size_t>(m_lanes))
+            : m_study(study), m_sampler(sampler), m_cells(study.model.markov.space.cellCount()),
+              m_states(study.model.markov.space.stateCount()), m_lanes(lanesFor(m_states)), m_initial(study.model.initialLaw()),
+              m_recursion(withLanes(study.model.markov.space, m_lanes)), m_weights(static_cast<std::size_t>(m_states * m_lanes), 0.0),
+              m_ratio(static_cast<std::size_t>(m_cells * m_lanes), 0.0), m_total(static_cast<std::size_t>(m_lanes)),
+              m_cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells())), m_slot(static_cast<std::size_t>(m_lanes))
         {
         }
 
@@ -148,7 +148,8 @@ namespace {
         {
             const std::span<const float> y = m_slot[lane].trial->next();
             const double snr = m_study.model.markov.likelihood.snr();
-            likelihoodRatios(y.data(), y.size(), static_cast<float>(snr / (1.0 + snr)), static_cast<float>(-std::log1p(snr)), m_cellRatio.data());
+            likelihoodRatios(y.data(), y.size(), static_cast<float>(snr / (1.0 + snr)), static_cast<float>(-std::log1p(snr)),
+                             m_cellRatio.data());
             const auto cells = static_cast<std::size_t>(m_cells);
             for (std::size_t other = cells; other < m_cellRatio.size(); other += cells)
                 addFolded(m_cellRatio.data(), m_cellRatio.data() + other, cells);
@@ -195,7 +196,10 @@ namespace {
     class TrajectoryJudge
     {
     public:
-        TrajectoryJudge(const SequentialStudy &study, const TrajectorySampler &sampler) : m_study(study), m_sampler(sampler), m_map(study.model) {}
+        TrajectoryJudge(const SequentialStudy &study, const TrajectorySampler &sampler)
+            : m_study(study), m_sampler(sampler), m_map(study.model)
+        {
+        }
 
         void judge(Index number, TrialOutcome &outcome)
         {
@@ -216,7 +220,8 @@ namespace {
                             best = d;
                     const auto at = static_cast<std::size_t>(stage * cells + cell);
                     m_best[at] = best;
-                    m_lambda[at] = m_study.model.markov.likelihood.at(static_cast<double>(y[static_cast<std::size_t>(best * cells + cell)])) - lnFolded;
+                    m_lambda[at] = m_study.model.markov.likelihood.at(static_cast<double>(y[static_cast<std::size_t>(best * cells + cell)]))
+                                   - lnFolded;
                 }
             }
             const MapTrajectory map = m_map.estimate(outcome.stages, [&](Index stage, std::span<double> out) {

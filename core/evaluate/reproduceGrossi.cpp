@@ -88,7 +88,8 @@ namespace {
         return std::sqrt(inside * (1.0 - inside) / trials);
     }
 
-    ReproducedCell measuredCell(std::string row, std::string column, const Estimate &ours, double reference, double referenceError, double rounding)
+    ReproducedCell measuredCell(std::string row, std::string column, const Estimate &ours, double reference, double referenceError,
+                                double rounding)
     {
         ReproducedCell cell;
         cell.row = std::move(row);
@@ -111,8 +112,8 @@ namespace {
         return cell;
     }
 
-    ReproducedCell frequencyCell(std::string row, std::string column, Index successes, Index trials, double reference, double referenceTrials,
-                                 double rounding)
+    ReproducedCell frequencyCell(std::string row, std::string column, Index successes, Index trials, double reference,
+                                 double referenceTrials, double rounding)
     {
         const auto n = static_cast<double>(trials);
         const double p = static_cast<double>(successes) / n;
@@ -244,15 +245,16 @@ namespace {
         KinematicAxis doppler;
         doppler.name = "Doppler";
         doppler.cells = 16;
-        return makeSequentialModel({spatial("azimuth", 3), spatial("elevation", 3), spatial("range", 100), doppler}, {false, false, false, true},
-                                   Likelihood(LikelihoodKind::Exponential, snr));
+        return makeSequentialModel({spatial("azimuth", 3), spatial("elevation", 3), spatial("range", 100), doppler},
+                                   {false, false, false, true}, Likelihood(LikelihoodKind::Exponential, snr));
     }
 
     Reproduction reproduceFigure2(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made;
         made.name = "grossi:figure2";
-        made.title = "ASN under both hypotheses against what is known of the trajectory (Grossi and Lops 2006, Figure 2): 0 dB, α = β = 1e-3";
+        made.title =
+            "ASN under both hypotheses against what is known of the trajectory (Grossi and Lops 2006, Figure 2): 0 dB, α = β = 1e-3";
         made.quantity = "ASN (stages)";
         SequentialStudy study;
         addKnownTrajectory(made, study.sprt);
@@ -278,17 +280,20 @@ namespace {
                     const AsnReference &asn = isTarget ? reference.h1[i] : reference.h0[i];
                     const double rounding = reference.cells == 100 || asn.error >= 0.95 ? 0.1 : 0.01;
                     made.cells.push_back(measuredCell(row, deviationName(deviations[i]), outcome.stages, asn.value, asn.error, rounding));
-                    curve.points.push_back({relativeEntropyRate(reference.cells, deviations[i]), outcome.stages.value, outcome.stages.interval()});
+                    curve.points.push_back(
+                        {relativeEntropyRate(reference.cells, deviations[i]), outcome.stages.value, outcome.stages.interval()});
                     if (reference.cells == 10 && deviations[i] == 1.0) {
                         const std::string errorRow = row + ", σ = 1";
                         const double trials = static_cast<double>(study.trials);
-                        ReproducedCell measured = measuredCell(errorRow, isTarget ? "α by change of measure" : "β by change of measure", outcome.otherError,
-                                                               isTarget ? 6.107e-4 : 8.785e-4, isTarget ? 4e-7 : 1e-7, 1e-7);
+                        ReproducedCell measured =
+                            measuredCell(errorRow, isTarget ? "α by change of measure" : "β by change of measure", outcome.otherError,
+                                         isTarget ? 6.107e-4 : 8.785e-4, isTarget ? 4e-7 : 1e-7, 1e-7);
                         const Index wrong = isTarget ? study.trials - outcome.acceptedH1 : outcome.acceptedH1;
                         ReproducedCell counted = frequencyCell(errorRow, isTarget ? "β counted" : "α counted", wrong, study.trials,
                                                                isTarget ? 8.63e-4 : 6.08e-4, 400000.0, 1e-6);
                         // Few are counted: the tolerance goes by the expected number, not by what happened to come.
-                        counted.tolerance = within(frequencyError(*counted.reference, 400000.0), frequencyError(*counted.reference, trials), 1.0 / trials);
+                        counted.tolerance =
+                            within(frequencyError(*counted.reference, 400000.0), frequencyError(*counted.reference, trials), 1.0 / trials);
                         made.cells.push_back(std::move(measured));
                         made.cells.push_back(std::move(counted));
                     }
@@ -307,10 +312,12 @@ namespace {
             charts[i].curves.push_back(levelCurve("(8) lower", i == 0 ? lower.h0Low : lower.h1Low));
         }
         made.charts.assign(charts.begin(), charts.end());
-        made.notes.push_back("(8) neglects by how far ln Λ overshoots its boundary, so its \"upper bound\" is exceeded at the uniform end: H0 " + excess[0] + "; H1 "
-                             + excess[1] + ".");
-        made.notes.push_back("σ, in cells, is the walk's discretised Gaussian step, rows renormalised on the line; the start is the row of the middle cell. "
-                             "α ≤ 1/γ1 and β ≤ γ0 hold for any law; the wanted 1e-3 is not used up because of the overshoot.");
+        made.notes.push_back(
+            "(8) neglects by how far ln Λ overshoots its boundary, so its \"upper bound\" is exceeded at the uniform end: H0 " + excess[0]
+            + "; H1 " + excess[1] + ".");
+        made.notes.push_back(
+            "σ, in cells, is the walk's discretised Gaussian step, rows renormalised on the line; the start is the row of the middle cell. "
+            "α ≤ 1/γ1 and β ≤ γ0 hold for any law; the wanted 1e-3 is not used up because of the overshoot.");
         return made;
     }
 
@@ -340,9 +347,10 @@ namespace {
                 done += 0.05;
                 misses += study.trials - outcome.acceptedH1;
                 const std::string column = deviationName(deviations[i]);
-                made.cells.push_back(frequencyCell(name + ", last", column, outcome.correctLast, outcome.acceptedH1, reference.last[i], figure3ReferenceTrials, 1e-3));
-                made.cells.push_back(
-                    frequencyCell(name + ", track", column, outcome.correctTrack, outcome.acceptedH1, reference.track[i], figure3ReferenceTrials, 1e-3));
+                made.cells.push_back(frequencyCell(name + ", last", column, outcome.correctLast, outcome.acceptedH1, reference.last[i],
+                                                   figure3ReferenceTrials, 1e-3));
+                made.cells.push_back(frequencyCell(name + ", track", column, outcome.correctTrack, outcome.acceptedH1, reference.track[i],
+                                                   figure3ReferenceTrials, 1e-3));
                 const double x = relativeEntropyRate(100, deviations[i]);
                 const ReproducedCell &trackCell = made.cells.back();
                 const ReproducedCell &lastCell = made.cells[made.cells.size() - 2];
@@ -350,7 +358,8 @@ namespace {
                 track.points.push_back({x, trackCell.ours, trackCell.interval});
             }
             const Index trials = study.trials * std::ssize(deviations);
-            ReproducedCell missed = frequencyCell(name, "P(miss), all σ", misses, trials, 1e-3 * reference.missesPerThousand, 5.0 * figure3ReferenceTrials, 1e-5);
+            ReproducedCell missed = frequencyCell(name, "P(miss), all σ", misses, trials, 1e-3 * reference.missesPerThousand,
+                                                  5.0 * figure3ReferenceTrials, 1e-5);
             missed.tolerance = within(frequencyError(*missed.reference, 5.0 * figure3ReferenceTrials),
                                       frequencyError(*missed.reference, static_cast<double>(trials)), 1e-5);
             made.cells.push_back(std::move(missed));
@@ -358,7 +367,8 @@ namespace {
             trackChart.curves.push_back(std::move(track));
         }
         made.charts = {std::move(lastChart), std::move(trackChart)};
-        made.notes.push_back("The test is designed at the actual SNR, so P_d hardly depends on it: a lower SNR is paid for with stages, and with trajectories that "
+        made.notes.push_back("The test is designed at the actual SNR, so P_d hardly depends on it: a lower SNR is paid for with stages, "
+                             "and with trajectories that "
                              "are longer and less often correct.");
         return made;
     }
@@ -392,12 +402,13 @@ namespace {
             const double from = 0.1 * static_cast<double>(i);
             const SequentialOutcome outcome = simulate(study, context.part(from, from + 0.1));
             made.cells.push_back(measuredCell("ASN", column, outcome.stages, reference.stages.value, reference.stages.error, 1e-3));
-            ReproducedCell cv = measuredCell("CV", column, outcome.variation, reference.variation,
-                                             outcome.variation.standardError * std::sqrt(static_cast<double>(study.trials) / figure4ReferenceTrials), 1e-3);
+            ReproducedCell cv =
+                measuredCell("CV", column, outcome.variation, reference.variation,
+                             outcome.variation.standardError * std::sqrt(static_cast<double>(study.trials) / figure4ReferenceTrials), 1e-3);
             cv.tolerance *= 2.0;
             made.cells.push_back(std::move(cv));
-            made.cells.push_back(frequencyCell("P(accept H1)", column, outcome.acceptedH1, study.trials, reference.acceptH1, figure4ReferenceTrials,
-                                               reference.acceptRounding));
+            made.cells.push_back(frequencyCell("P(accept H1)", column, outcome.acceptedH1, study.trials, reference.acceptH1,
+                                               figure4ReferenceTrials, reference.acceptRounding));
             if (!reference.snrDb) {
                 noiseStages = outcome.stages.value;
                 noiseVariation = outcome.variation.value;
@@ -431,12 +442,15 @@ namespace {
         stagesChart.curves = {std::move(stages), std::move(noise)};
         acceptedChart.curves = {std::move(acceptance)};
         made.charts = {std::move(stagesChart), std::move(variationChart), std::move(acceptedChart)};
-        made.notes.push_back("ASN peaks at " + formatNumber(peakDb) + " dB, " + text("%.2f", peak) + " stages against " + text("%.2f", noiseStages)
-                             + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the cut-off ends what would hang. A test designed "
+        made.notes.push_back("ASN peaks at " + formatNumber(peakDb) + " dB, " + text("%.2f", peak) + " stages against "
+                             + text("%.2f", noiseStages)
+                             + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the cut-off ends what would "
+                               "hang. A test designed "
                                "at each actual SNR has no such peak; it saturates at the cut-off and falls.");
-        made.notes.push_back("The publication's cell averaging is not described: sliding means of the 32 or 16 neighbours in range are shown, with the "
-                             "exact likelihood ratio of such a quotient; an independent program has 13.1 and 15.4. They are not judged. All other cells "
-                             "know the noise power.");
+        made.notes.push_back(
+            "The publication's cell averaging is not described: sliding means of the 32 or 16 neighbours in range are shown, with the "
+            "exact likelihood ratio of such a quotient; an independent program has 13.1 and 15.4. They are not judged. All other cells "
+            "know the noise power.");
         return made;
     }
 
@@ -444,9 +458,10 @@ namespace {
 
 std::vector<Reproducible> grossiReproducibles()
 {
-    return {{"grossi:figure2", "Grossi and Lops 2006, Figure 2: stages taken, against what is known of the trajectory", reproduceFigure2},
-            {"grossi:figure3", "Grossi and Lops 2006, Figure 3: how often the trajectory is correct", reproduceFigure3},
-            {"grossi:figure4", "Grossi and Lops 2006, Figure 4: stages and detections in the radar case, against the SNR", reproduceFigure4}};
+    return {
+        {"grossi:figure2", "Grossi and Lops 2006, Figure 2: stages taken, against what is known of the trajectory", reproduceFigure2},
+        {"grossi:figure3", "Grossi and Lops 2006, Figure 3: how often the trajectory is correct", reproduceFigure3},
+        {"grossi:figure4", "Grossi and Lops 2006, Figure 4: stages and detections in the radar case, against the SNR", reproduceFigure4}};
 }
 
 } // namespace faintline

@@ -17,8 +17,8 @@ Divergences divergences(double snr);
 
 /// The target is in one of M cells, anew at every stage: of the mixture 1/M Σ_j f1(cell j) from noise.
 ///
-/// With W = 1/M Σ e^{λ_j}: h1 = E1 ln W, h0 = -E0 ln W, each as ∫₀^∞ (e^{-t} - E e^{-tW}) dt/t (Frullani), E e^{-tW} being a product over the
-/// cells. Quadrature of Boost.Math inside, trapezoids in ln t outside; relative error below 1e-9. Oracle: simulation; M = 1.
+/// With W = 1/M Σ e^{λ_j}: h1 = E1 ln W, h0 = -E0 ln W, each as ∫₀^∞ (e^{-t} - E e^{-tW}) dt/t (Frullani), E e^{-tW} being a product over
+/// the cells. Quadrature of Boost.Math inside, trapezoids in ln t outside; relative error below 1e-9. Oracle: simulation; M = 1.
 Divergences mixtureDivergences(double snr, int cells);
 
 /// Expected numbers of stages, ASN, between two extremes.

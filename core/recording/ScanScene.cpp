@@ -56,9 +56,11 @@ const std::vector<Field<ScanScene>> &ScanScene::fields()
 void checkScene(const ScanScene &scene)
 {
     checkFields(scene, ScanScene::fields());
-    const double cells = static_cast<double>(scene.azimuthCells) * scene.elevationCells * static_cast<double>(scene.rangeCells) * scene.dopplerCells;
+    const double cells =
+        static_cast<double>(scene.azimuthCells) * scene.elevationCells * static_cast<double>(scene.rangeCells) * scene.dopplerCells;
     if (cells > 0x1p28)
-        throw Error("rangeCells = " + std::to_string(scene.rangeCells), "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁸ are possible");
+        throw Error("rangeCells = " + std::to_string(scene.rangeCells),
+                    "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁸ are possible");
     if (cells * scene.stages > 0x1p31)
         throw Error("stages = " + std::to_string(scene.stages), "gives more than 2³¹ values in all");
 }
@@ -98,7 +100,8 @@ std::vector<ScanCell> scanTrajectory(const ScanScene &scene, int run)
     for (Index stage = 0; stage < scene.stages; ++stage) {
         ScanCell at{};
         for (std::size_t axis = 0; axis < at.size(); ++axis)
-            at[axis] = stage == 0 || axis == 3 ? uniformCell(random, cells[axis]) : moved(trajectory.back()[axis], cells[axis], scene, random);
+            at[axis] =
+                stage == 0 || axis == 3 ? uniformCell(random, cells[axis]) : moved(trajectory.back()[axis], cells[axis], scene, random);
         trajectory.push_back(at);
     }
     return trajectory;

@@ -19,8 +19,8 @@ inline constexpr std::array<std::string_view, 2> scanMovesNames{"uniform", "gaus
 
 /// A surveillance radar's look into one sector: scan after scan (stage after stage) of azimuth × elevation × range × Doppler cells.
 ///
-/// A cell is exponential, of mean 1 on noise and 1 + SNR where the target is. The target begins anywhere and walks over azimuth, elevation and
-/// range without leaving them; its Doppler cell is uniform anew at every stage (ambiguous). Source: Grossi and Lops 2006, section 4.
+/// A cell is exponential, of mean 1 on noise and 1 + SNR where the target is. The target begins anywhere and walks over azimuth, elevation
+/// and range without leaving them; its Doppler cell is uniform anew at every stage (ambiguous). Source: Grossi and Lops 2006, section 4.
 struct ScanScene {
     int azimuthCells = 3;
     int elevationCells = 3;

@@ -183,7 +183,9 @@ std::vector<std::vector<double>> frames(Index cells, Index stages, std::uint64_t
 
 StageSource source(const std::vector<std::vector<double>> &y)
 {
-    return [&y](Index stage, std::span<double> out) { std::copy(y[static_cast<std::size_t>(stage)].begin(), y[static_cast<std::size_t>(stage)].end(), out.begin()); };
+    return [&y](Index stage, std::span<double> out) {
+        std::copy(y[static_cast<std::size_t>(stage)].begin(), y[static_cast<std::size_t>(stage)].end(), out.begin());
+    };
 }
 
 } // namespace
@@ -296,7 +298,9 @@ void tst_Sprt::keptInPartsIsTheSame()
     // 3 × 3000 states, 600 stages: 43 MB of scores, so only milestones are kept; the corridor round the target fits in whole.
     KinematicAxis wide = rated(3000);
     wide.cyclic = false;
-    const auto lambdaAt = [](Index stage, Index cell) { return cell == 1400 + stage / 4 ? 8.0 : 0.001 * static_cast<double>((cell * 7 + stage * 13) % 97); };
+    const auto lambdaAt = [](Index stage, Index cell) {
+        return cell == 1400 + stage / 4 ? 8.0 : 0.001 * static_cast<double>((cell * 7 + stage * 13) % 97);
+    };
     const auto estimate = [&](KinematicAxis a, Index firstCell) {
         const SequentialModel model = makeSequentialModel({a}, {false}, twoToOne);
         const MapTrajectory map = MapEstimator(model).estimate(600, [&](Index stage, std::span<double> out) {
@@ -366,7 +370,8 @@ void tst_Sprt::aTargetThatLeaves()
 void tst_Sprt::meanOfTheRatioOnNoise()
 {
     // E0[Λ] = 1. A small SNR keeps the tail of Λ light enough to see it: 4 standard errors.
-    const SequentialModel model = makeSequentialModel({admissible(5), axis(3)}, {false, true}, Likelihood(LikelihoodKind::Exponential, 0.3));
+    const SequentialModel model =
+        makeSequentialModel({admissible(5), axis(3)}, {false, true}, Likelihood(LikelihoodKind::Exponential, 0.3));
     constexpr int runs = 20000;
     double sum = 0.0;
     double squares = 0.0;
@@ -406,7 +411,9 @@ void tst_Sprt::decisions_data()
     QTest::addColumn<int>("stage");
     QTest::addColumn<int>("decision");
     const SprtBoundaries at = sprtBoundaries({1e-3, 1e-2, 7});
-    const auto row = [](const char *name, double ln, int stage, SprtDecision d) { QTest::newRow(name) << ln << stage << static_cast<int>(d); };
+    const auto row = [](const char *name, double ln, int stage, SprtDecision d) {
+        QTest::newRow(name) << ln << stage << static_cast<int>(d);
+    };
     row("between", 0.0, 6, SprtDecision::Undecided);
     row("at the upper boundary", at.lnUpper, 1, SprtDecision::H1);
     row("just below it", std::nextafter(at.lnUpper, 0.0), 1, SprtDecision::Undecided);
@@ -468,7 +475,8 @@ void tst_Sprt::partOfALine()
 {
     std::vector<float> values(5 * 10);
     std::iota(values.begin(), values.end(), 0.0f);
-    const auto whole = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 5, false}, Grid{{{"frequency", "Hz", 0.0, 1.0, 10, false}}}, values);
+    const auto whole =
+        std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 5, false}, Grid{{{"frequency", "Hz", 0.0, 1.0, 10, false}}}, values);
     std::vector<double> y(3);
     stagesOf(whole, 2, 4, 3)(1, y); // frame 3, cells 4 … 6
     QCOMPARE(y, (std::vector<double>{34.0, 35.0, 36.0}));

@@ -87,7 +87,8 @@ void tst_waldTheory::mixtureIsSimulated()
         for (const bool isTarget : {false, true}) {
             double mean = 0.0;
             for (int cell = 0; cell < cells; ++cell)
-                mean += std::exp((cell == 0 && isTarget ? 1.0 + snr : 1.0) * random.exponential() * snr / (1.0 + snr)) / (1.0 + snr) / cells;
+                mean +=
+                    std::exp((cell == 0 && isTarget ? 1.0 + snr : 1.0) * random.exponential() * snr / (1.0 + snr)) / (1.0 + snr) / cells;
             sum[isTarget] += std::log(mean) / runs;
             squares[isTarget] += std::log(mean) * std::log(mean) / runs;
         }
@@ -175,8 +176,9 @@ void tst_waldTheory::walkByShooting_data()
 
 void tst_waldTheory::walkByShooting()
 {
-    // With J(x) = ∫_x N(z) f-weight dz the equation reads N(x) = 1 + e^{(x-c-a)/s} J(x-c): from a guess of J at the lower end a it can be gone
-    // through upwards, and as J at the upper end depends linearly on the guess, two guesses give the right one. Trapezoids, two step widths.
+    // With J(x) = ∫_x N(z) f-weight dz the equation reads N(x) = 1 + e^{(x-c-a)/s} J(x-c): from a guess of J at the lower end a it can be
+    // gone through upwards, and as J at the upper end depends linearly on the guess, two guesses give the right one. Trapezoids, two step
+    // widths.
     QFETCH(bool, isTarget);
     const SprtSettings settings{1e-3, 1e-3, 0};
     const double a = sprtBoundaries(settings).lnLower;
@@ -209,8 +211,8 @@ void tst_waldTheory::walkByShooting()
         const double t = -a / h;
         const auto k = static_cast<std::size_t>(t);
         const double f = t - static_cast<double>(k);
-        atZero = -f * (f - 1.0) * (f - 2.0) / 6.0 * N[k - 1] + (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0 * N[k] - (f + 1.0) * f * (f - 2.0) / 2.0 * N[k + 1]
-                 + (f + 1.0) * f * (f - 1.0) / 6.0 * N[k + 2];
+        atZero = -f * (f - 1.0) * (f - 2.0) / 6.0 * N[k - 1] + (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0 * N[k]
+                 - (f + 1.0) * f * (f - 2.0) / 2.0 * N[k + 1] + (f + 1.0) * f * (f - 1.0) / 6.0 * N[k + 2];
         return J.back();
     };
     const auto stages = [&](std::size_t perC) {
@@ -223,7 +225,8 @@ void tst_waldTheory::walkByShooting()
     const double extrapolated = (4.0 * stages(1600) - stages(800)) / 3.0;
     const DeterministicSprt exact = deterministicSprt(settings, 1.0, 1.0);
     const double found = isTarget ? exact.h1.meanStages : exact.h0.meanStages;
-    QVERIFY2(std::abs(found - extrapolated) < 5e-6, qPrintable(QString("%1 against %2").arg(found, 0, 'f', 9).arg(extrapolated, 0, 'f', 9)));
+    QVERIFY2(std::abs(found - extrapolated) < 5e-6,
+             qPrintable(QString("%1 against %2").arg(found, 0, 'f', 9).arg(extrapolated, 0, 'f', 9)));
 }
 
 void tst_waldTheory::errorsStayBelowTheirBounds()
