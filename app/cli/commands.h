@@ -53,6 +53,7 @@ void addEvaluate(CLI::App &app, Common &common);
 void addMerge(CLI::App &app, Common &common);
 void addCalibrate(CLI::App &app, Common &common);
 void addInject(CLI::App &app, Common &common);
+void addSequential(CLI::App &app, Common &common);
 
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);

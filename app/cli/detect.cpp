@@ -59,6 +59,10 @@ namespace {
         } else {
             const ModelFile file = readModelFile(options.model);
             model = file.model;
+            for (const KinematicAxis &axis : model.space.axes())
+                if (axis.isPlaceDependent())
+                    throw Error(options.model, "has an axis whose law differs from cell to cell; trackers follow on parts of an axis and need one "
+                                               "law, \"rates\" or a list of \"step\" probabilities");
             if (model.space.cellCount() != frames->grid().size())
                 throw Error(options.model, "has " + std::to_string(model.space.cellCount()) + " cells, but the frames have "
                                                + std::to_string(frames->grid().size()));

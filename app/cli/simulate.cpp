@@ -2,6 +2,8 @@
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
+#include "exchange/NumPy.h"
+#include "recording/ScanScene.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 
@@ -10,6 +12,33 @@
 #include <memory>
 
 namespace faintline::cli {
+
+namespace {
+
+    void simulateScans(ScanScene scene, int seed, const std::string &out, const std::string &truth, const RunContext &context)
+    {
+        if (!out.ends_with(".npy"))
+            throw Error(out, "must end in .npy: scans are frames, not samples");
+        if (seed >= 0)
+            scene.seed = seed;
+        std::vector<Index> shape{scene.stages};
+        for (const Axis &axis : scanGrid(scene).axes)
+            shape.push_back(axis.count);
+        const std::vector<ScanCell> trajectory = scanTrajectory(scene);
+        std::vector<float> y(static_cast<std::size_t>(scanGrid(scene).size()));
+        NumPyWriter writer(out, shape);
+        for (Index stage = 0; stage < scene.stages; ++stage) {
+            context.checkpoint(static_cast<double>(stage) / scene.stages, "simulating");
+            readScan(scene, trajectory, 0, stage, y);
+            writer.write(y);
+        }
+        context.checkpoint(1.0, "done");
+        writer.finish();
+        if (!truth.empty())
+            writeTextFile(truth, scanTruth(scene, trajectory).dump(2) + "\n");
+    }
+
+} // namespace
 
 void addSimulate(CLI::App &app, Common &common)
 {
@@ -23,12 +52,17 @@ void addSimulate(CLI::App &app, Common &common)
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("simulate", "Make a recording of known lines in noise, and its truth");
     command->add_option("SCENARIO", options->scene, "The scene, JSON")->required();
-    command->add_option("--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta")->required();
+    command->add_option("--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; a radar's scans: .npy")->required();
     command->add_option("--truth", options->truth, "Write the truth, .json");
     command->add_option("--seed", options->seed, "Seed in place of the scene's own")->check(CLI::Range(0, 2147483647));
     command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
     command->callback([options, &common] {
-        LineScene scene = lineSceneFromJson(readJsonFile(options->scene));
+        const Json json = readJsonFile(options->scene);
+        if (json.is_object() && json.value("kind", Json()) == "scans") {
+            simulateScans(scanSceneFromJson(json), options->seed, options->out, options->truth, common.context());
+            return;
+        }
+        LineScene scene = lineSceneFromJson(json);
         if (options->seed >= 0)
             scene.seed = options->seed;
         const SimulatedRecording recording(scene);

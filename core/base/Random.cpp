@@ -63,6 +63,26 @@ namespace {
         }
     }
 
+    FAINTLINE_MULTIVERSION
+    void exponentialsFromWords(const std::uint32_t *words, std::size_t blocks, float *out)
+    {
+        // The words of a block stay neighbours, so that a request may be cut anywhere between blocks.
+        for (std::size_t i = 0; i < blocks; ++i)
+            for (std::size_t j = 0; j < 4; ++j) {
+                const auto half = static_cast<std::int32_t>(words[j * lanes + i] >> 1);
+                out[4 * i + j] = -fastLn(static_cast<float>(half) * 0x1p-31f + 0x1p-32f);
+            }
+    }
+
+    void exponentialBlocks(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::size_t blocks, float *out)
+    {
+        std::array<std::uint32_t, 4 * lanes> words;
+        for (std::size_t done = 0; done < blocks; done += lanes) {
+            philoxWords(seed, stream, firstBlock + done, words.data());
+            exponentialsFromWords(words.data(), std::min(lanes, blocks - done), out + 4 * done);
+        }
+    }
+
     void normalBlocks(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::size_t blocks,
                       float deviation, float *out)
     {
@@ -122,6 +142,21 @@ void Random::normals(std::span<float> out, float deviation)
     if (const std::span<float> rest = out.subspan(4 * wholeBlocks); !rest.empty()) {
         std::array<float, 4> last;
         normalBlocks(m_seed, m_stream, m_block, 1, deviation, last.data());
+        std::copy_n(last.begin(), rest.size(), rest.begin());
+        ++m_block;
+    }
+    m_used = 4;
+    m_hasSpare = false;
+}
+
+void Random::exponentials(std::span<float> out)
+{
+    const std::size_t wholeBlocks = out.size() / 4;
+    exponentialBlocks(m_seed, m_stream, m_block, wholeBlocks, out.data());
+    m_block += wholeBlocks;
+    if (const std::span<float> rest = out.subspan(4 * wholeBlocks); !rest.empty()) {
+        std::array<float, 4> last;
+        exponentialBlocks(m_seed, m_stream, m_block, 1, last.data());
         std::copy_n(last.begin(), rest.size(), rest.begin());
         ++m_block;
     }

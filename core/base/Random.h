@@ -34,6 +34,9 @@ public:
     /// every instruction set and thread.
     void normals(std::span<float> out, float deviation);
 
+    /// Fills with independent exponentials of mean 1, one from each word, by the same rules as `normals`; each ≤ 22.2.
+    void exponentials(std::span<float> out);
+
 private:
     void refill();
 

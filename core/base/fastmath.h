@@ -8,7 +8,7 @@ namespace faintline {
 /// Branch-free float functions for inner loops that the compiler turns into vector code.
 ///
 /// Only +, -, ·, comparisons and integer operations, so every instruction set gives the same bits. Relative error below
-/// 2e-7. Polynomials: Moshier, Cephes (logf, sinf, cosf).
+/// 2e-7. Polynomials: Moshier, Cephes (logf, expf, sinf, cosf).
 
 /// ln x for a normal x > 0.
 inline float fastLn(float x)
@@ -29,6 +29,24 @@ inline float fastLn(float x)
     const float z = m * m;
     const float tail = p * m * z - 2.12194440e-4f * e - 0.5f * z;
     return (m + tail) + 0.693359375f * e; // ln 2 in two parts
+}
+
+/// eˣ, x held within -87 … 88 so that the result is a normal number.
+inline float fastExp(float x)
+{
+    x = x < -87.0f ? -87.0f : x;
+    x = x > 88.0f ? 88.0f : x;
+    constexpr float roundingShift = 12582912.0f; // adding 1.5·2²³ rounds to a whole number
+    const float n = (x * 1.44269504088896341f + roundingShift) - roundingShift;
+    const float r = (x - n * 0.693359375f) - n * -2.12194440e-4f; // ln 2 in two parts
+    float p = 1.9875691500e-4f;
+    p = p * r + 1.3981999507e-3f;
+    p = p * r + 8.3334519073e-3f;
+    p = p * r + 4.1665795894e-2f;
+    p = p * r + 1.6666665459e-1f;
+    p = p * r + 5.0000001201e-1f;
+    const float mantissa = (p * (r * r) + r) + 1.0f;
+    return mantissa * std::bit_cast<float>((static_cast<std::int32_t>(n) + 127) << 23);
 }
 
 struct SineCosine {

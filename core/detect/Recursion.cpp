@@ -58,6 +58,36 @@ namespace {
             to[i] += from[i] * weight;
     }
 
+    FAINTLINE_MULTIVERSION
+    void addEach(float *to, const float *more, Index n)
+    {
+        for (Index i = 0; i < n; ++i)
+            to[i] += more[i];
+    }
+
+    FAINTLINE_MULTIVERSION
+    void addEach(double *to, const double *more, Index n)
+    {
+        for (Index i = 0; i < n; ++i)
+            to[i] += more[i];
+    }
+
+    FAINTLINE_MULTIVERSION
+    void multiplyEach(double *to, const double *factors, Index n)
+    {
+        for (Index i = 0; i < n; ++i)
+            to[i] *= factors[i];
+    }
+
+    template <class Semiring>
+    void depart(typename Semiring::Real *to, const typename Semiring::Real *departures, Index n)
+    {
+        if constexpr (Semiring::logarithmic)
+            addEach(to, departures, n);
+        else
+            multiplyEach(to, departures, n);
+    }
+
     template <class Semiring>
     void combine(bool isFirst, typename Semiring::Real *to, const typename Semiring::Real *from, Index n,
                  typename Semiring::Real weight)
@@ -137,11 +167,72 @@ Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
     }
     if (m_steps.size() > 1)
         m_scratch.resize(m_result.size());
+    preparePlaces(space, transitionScale);
+}
+
+template <class Semiring>
+void Recursion<Semiring>::preparePlaces(const StateSpace &space, double transitionScale)
+{
+    const auto weight = [&](double ln) {
+        return static_cast<Real>(Semiring::logarithmic ? ln * transitionScale : std::exp(ln * transitionScale));
+    };
+    std::vector<double> lnDepartures(static_cast<std::size_t>(space.cellCount()), 0.0);
+    bool departs = false;
+    Index inner = space.cellCount();
+    for (const KinematicAxis &axis : space.axes()) {
+        inner /= axis.cells;
+        if (!axis.transition.empty()) {
+            MatrixStep step{axis.cells, inner, {}};
+            for (const double p : axis.transition)
+                step.weights.push_back(p > 0.0 ? weight(std::log(p)) : nothing<Semiring>());
+            m_matrices.push_back(std::move(step));
+        }
+        if (!axis.renormalised)
+            continue;
+        departs = true;
+        std::vector<double> ln;
+        for (Index cell = 0; cell < axis.cells; ++cell)
+            ln.push_back(axis.lnDeparture(cell));
+        for (Index cell = 0; cell < space.cellCount(); ++cell)
+            lnDepartures[static_cast<std::size_t>(cell)] += ln[static_cast<std::size_t>(cell / inner % axis.cells)];
+    }
+    if (departs)
+        for (const double ln : lnDepartures)
+            m_departures.push_back(weight(ln));
+}
+
+template <class Semiring>
+std::span<const typename Semiring::Real> Recursion<Semiring>::prepare(std::span<const Real> scores)
+{
+    if (m_departures.empty() && m_matrices.empty())
+        return scores;
+    m_prepared.assign(scores.begin(), scores.end());
+    if (!m_departures.empty())
+        for (auto plane = m_prepared.begin(); plane != m_prepared.end(); plane += m_planeSize)
+            depart<Semiring>(&*plane, m_departures.data(), m_planeSize);
+    m_multiplied.resize(m_matrices.empty() ? 0 : scores.size());
+    for (const MatrixStep &step : m_matrices) {
+        apply(step, m_prepared, m_multiplied);
+        std::swap(m_prepared, m_multiplied);
+    }
+    return m_prepared;
+}
+
+template <class Semiring>
+void Recursion<Semiring>::apply(const MatrixStep &step, std::span<const Real> from, std::span<Real> to) const
+{
+    const Index block = step.cells * step.inner;
+    for (Index first = 0; first < std::ssize(from); first += block)
+        for (Index row = 0; row < step.cells; ++row)
+            for (Index source = 0; source < step.cells; ++source)
+                combine<Semiring>(source == 0, to.data() + first + row * step.inner, from.data() + first + source * step.inner, step.inner,
+                                  step.weights[static_cast<std::size_t>(source * step.cells + row)]);
 }
 
 template <class Semiring>
 std::span<typename Semiring::Real> Recursion<Semiring>::predict(std::span<const Real> scores)
 {
+    scores = prepare(scores);
     if (m_steps.empty()) {
         std::copy(scores.begin(), scores.end(), m_result.begin());
         return m_result;

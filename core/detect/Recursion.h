@@ -27,6 +27,9 @@ struct SumProduct {
 /// in what they join to M (a reset, or nothing) and in how they decide. The axes are independent, so P is a product and
 /// ⊕ is taken one axis at a time, as joins of shifted contiguous planes.
 ///
+/// What differs from cell to cell (a renormalised walk's departures, a full matrix) is ⊗-joined to the scores beforehand: P of an
+/// axis is (departure of the source) ⊗ (law of the displacement), and the departures of one axis do not mind the moves of another.
+///
 /// Unreached states hold ⊕'s neutral element (-∞, or 0). Cost: states × Σ over axes of moves per target rate.
 /// Oracle: enumeration of all paths. Scratch memory belongs to this object: one object per thread.
 template <class Semiring>
@@ -41,6 +44,17 @@ public:
     std::span<Real> predict(std::span<const Real> scores);
 
 private:
+    /// An axis with a full matrix; inner: cells of the axes after it.
+    struct MatrixStep {
+        Index cells;
+        Index inner;
+        std::vector<Real> weights; ///< from × to
+    };
+
+    void preparePlaces(const StateSpace &space, double transitionScale);
+    std::span<const Real> prepare(std::span<const Real> scores);
+    void apply(const MatrixStep &step, std::span<const Real> from, std::span<Real> to) const;
+
     struct Shift {
         Index fromPlane;
         Index toPlane;
@@ -64,6 +78,10 @@ private:
     std::vector<AxisStep> m_steps;
     std::vector<Real> m_result;
     std::vector<Real> m_scratch;
+    std::vector<Real> m_departures; ///< of every cell; empty where the law is the same everywhere
+    std::vector<MatrixStep> m_matrices;
+    std::vector<Real> m_prepared;
+    std::vector<Real> m_multiplied;
 };
 
 extern template class Recursion<MaxPlus<float>>;

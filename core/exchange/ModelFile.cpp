@@ -81,9 +81,50 @@ namespace {
         axis.rateCount = static_cast<int>(rates.size());
     }
 
-    KinematicAxis readAxis(const Json &json, const std::string &where)
+    void readStep(KinematicAxis &axis, const Json &json, const std::string &where)
     {
-        checkKeys(json, where, {"name", "cells", "cyclic", "rates", "rateChange", "step", "round"});
+        const auto step = json.find("step");
+        if (step == json.end() || step->is_array()) {
+            axis.step = numbers(json, where, "step");
+            return;
+        }
+        axis.renormalised = true;
+        if (*step == "uniform-admissible") {
+            axis.step.assign(axis.cells > 1 ? 2 : 1, 1.0 / 3.0);
+            return;
+        }
+        if (!step->is_object())
+            throw Error(where + ".step", "must be a list of probabilities, \"uniform-admissible\" or {\"gaussian\": cells}");
+        checkKeys(*step, where + ".step", {"gaussian"});
+        const double deviation = number(*step, where + ".step", "gaussian", -1.0);
+        if (!(deviation >= 0.0 && deviation <= 1e9))
+            throw Error(where + ".step.gaussian", "must be a standard deviation from 0 on, in cells");
+        axis.step = gaussianStep(deviation, axis.cyclic ? (axis.cells + 1) / 2 : axis.cells);
+    }
+
+    std::vector<double> readMatrix(const Json &json, const std::string &where)
+    {
+        std::vector<double> matrix;
+        const auto found = json.find("transition");
+        if (found == json.end())
+            return matrix;
+        if (!found->is_array() || found->empty() || found->size() > 4096)
+            throw Error(where + ".transition", "must be a list of at most 4096 rows of numbers, P(from, to)");
+        for (const Json &row : *found) {
+            const std::vector<double> values = numbers(Json{{"transition", row}}, where, "transition");
+            if (values.size() != found->size())
+                throw Error(where + ".transition", "must have as many columns as rows");
+            matrix.insert(matrix.end(), values.begin(), values.end());
+        }
+        return matrix;
+    }
+
+    KinematicAxis readAxis(const Json &json, const std::string &where, bool mayFold = false)
+    {
+        std::vector<std::string> known{"name", "cells", "cyclic", "rates", "rateChange", "step", "round", "transition"};
+        if (mayFold)
+            known.push_back("integrate");
+        checkKeys(json, where, known);
         KinematicAxis axis;
         axis.name = text(json, where, "name", "");
         const double cells = number(json, where, "cells", 0.0);
@@ -94,45 +135,56 @@ namespace {
         readRates(axis, numbers(json, where, "rates"), where);
         if (json.contains("rateChange"))
             axis.rateChange = numbers(json, where, "rateChange");
-        axis.step = numbers(json, where, "step");
+        readStep(axis, json, where);
+        axis.transition = readMatrix(json, where);
         axis.rounding = static_cast<Rounding>(choice(json, where, "round", roundingNames, 0));
         axis.check(where);
         return axis;
+    }
+
+    Json readModelJson(const std::string &path)
+    {
+        Json json = readJsonFile(path);
+        checkKeys(json, path, {"axes", "likelihood", "reset", "initial", "semiring", "scaleTransitions"});
+        if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].empty())
+            throw Error(path, "needs \"axes\", a list of at least one axis");
+        if (!json.contains("likelihood") || !json["likelihood"].is_object())
+            throw Error(path, "needs \"likelihood\", such as {\"kind\": \"rice\", \"r0\": 0.5}");
+        return json;
+    }
+
+    Likelihood readLikelihood(const Json &json, const std::string &path)
+    {
+        const Json &object = json["likelihood"];
+        const std::string where = path + ": likelihood";
+        checkKeys(object, where, {"kind", "r0", "snr"});
+        const auto kind = static_cast<LikelihoodKind>(choice(object, where, "kind", likelihoodNames, 2));
+        const double snr = number(object, where, "r0", number(object, where, "snr", 1.0));
+        if (kind == LikelihoodKind::Rice && !object.contains("r0") && !object.contains("snr"))
+            throw Error(where, "rice needs \"r0\", the signal-to-noise ratio as a power ratio");
+        if (kind == LikelihoodKind::Exponential && !object.contains("snr") && !object.contains("r0"))
+            throw Error(where, "exponential needs \"snr\", a power ratio");
+        if (!(snr > 0.0 && snr < 1e12))
+            throw Error(where + (object.contains("r0") ? ".r0" : ".snr") + " = " + formatNumber(snr), "must be a power ratio above 0");
+        return Likelihood(kind, snr);
     }
 
 } // namespace
 
 ModelFile readModelFile(const std::string &path)
 {
-    const Json json = readJsonFile(path);
-    checkKeys(json, path, {"axes", "likelihood", "reset", "initial", "semiring", "scaleTransitions"});
-    if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].empty())
-        throw Error(path, "needs \"axes\", a list of at least one axis");
-    if (!json.contains("likelihood") || !json["likelihood"].is_object())
-        throw Error(path, "needs \"likelihood\", such as {\"kind\": \"rice\", \"r0\": 0.5}");
-
+    const Json json = readModelJson(path);
     std::vector<KinematicAxis> axes;
     for (std::size_t i = 0; i < json["axes"].size(); ++i)
         axes.push_back(readAxis(json["axes"][i], path + ": axes[" + std::to_string(i) + "]"));
 
-    const Json &likelihood = json["likelihood"];
-    const std::string where = path + ": likelihood";
-    checkKeys(likelihood, where, {"kind", "r0", "snr"});
-    const auto kind = static_cast<LikelihoodKind>(choice(likelihood, where, "kind", likelihoodNames, 2));
-    const double snr = number(likelihood, where, "r0", number(likelihood, where, "snr", 1.0));
-    if (kind == LikelihoodKind::Rice && !likelihood.contains("r0") && !likelihood.contains("snr"))
-        throw Error(where, "rice needs \"r0\", the signal-to-noise ratio as a power ratio");
-    if (kind == LikelihoodKind::Exponential && !likelihood.contains("snr") && !likelihood.contains("r0"))
-        throw Error(where, "exponential needs \"snr\", a power ratio");
-    if (!(snr > 0.0 && snr < 1e12))
-        throw Error(where + (likelihood.contains("r0") ? ".r0" : ".snr") + " = " + formatNumber(snr), "must be a power ratio above 0");
-
+    const Likelihood likelihood = readLikelihood(json, path);
     ModelFile file;
     const bool scales = flag(json, path, "scaleTransitions");
-    if (scales && !likelihood.contains("r0") && !likelihood.contains("snr"))
+    if (scales && !json["likelihood"].contains("r0") && !json["likelihood"].contains("snr"))
         throw Error(path + ": scaleTransitions", "needs \"snr\" in the likelihood");
     try {
-        file.model = {StateSpace(std::move(axes)), Likelihood(kind, snr), scales ? (1.0 + snr) / snr : 1.0};
+        file.model = {StateSpace(std::move(axes)), likelihood, scales ? (1.0 + likelihood.snr()) / likelihood.snr() : 1.0};
     } catch (const Error &error) {
         throw Error(path + ": " + error.where(), error.why());
     }
@@ -152,6 +204,29 @@ ModelFile readModelFile(const std::string &path)
     if (file.isSum && file.reset.law != ResetLaw::Fixed && file.reset.law != ResetLaw::None)
         throw Error(path + ": reset.law", "must be fixed or none where the semiring is sum");
     return file;
+}
+
+SequentialModel readSequentialModel(const std::string &path)
+{
+    const Json json = readModelJson(path);
+    std::vector<KinematicAxis> axes;
+    std::vector<bool> isFolded;
+    for (std::size_t i = 0; i < json["axes"].size(); ++i) {
+        const std::string where = path + ": axes[" + std::to_string(i) + "]";
+        axes.push_back(readAxis(json["axes"][i], where, true));
+        isFolded.push_back(flag(json["axes"][i], where, "integrate"));
+    }
+    std::vector<double> initial;
+    if (json.contains("initial") && json["initial"] != "uniform")
+        initial = numbers(json, path, "initial");
+    const Likelihood likelihood = readLikelihood(json, path);
+    if (json.contains("scaleTransitions") && json["scaleTransitions"] != false)
+        throw Error(path + ": scaleTransitions", "has no place in a sequential test, whose likelihood ratio is exact");
+    try {
+        return makeSequentialModel(axes, isFolded, likelihood, std::move(initial));
+    } catch (const Error &error) {
+        throw Error(path + ": " + error.where(), error.why());
+    }
 }
 
 GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
@@ -186,15 +261,32 @@ GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
     return file;
 }
 
+namespace {
+
+    template <class Array>
+    void checkFrames(const Array &array, const std::string &path)
+    {
+        if (array.shape.size() < 2 || array.values.empty())
+            throw Error(path, "must have the shape (frames, cells…) with at least one of each");
+        const auto bad = std::find_if(array.values.begin(), array.values.end(), [](auto y) { return !(y >= 0) || std::isinf(y); });
+        if (bad != array.values.end())
+            throw Error(path, "holds " + formatNumber(static_cast<double>(*bad)) + " at position "
+                                  + std::to_string(bad - array.values.begin()) + "; normalised power is finite and not negative");
+    }
+
+} // namespace
+
+DoubleFrames readDoubleFrames(const std::string &path)
+{
+    NumPyDoubles array = readNumPyDoubles(path);
+    checkFrames(array, path);
+    return {std::move(array.shape), std::move(array.values)};
+}
+
 NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath)
 {
     NumPyArray array = readNumPy(path);
-    if (array.shape.size() < 2 || array.values.empty())
-        throw Error(path, "must have the shape (frames, cells…) with at least one of each");
-    const auto bad = std::find_if(array.values.begin(), array.values.end(), [](float y) { return !(y >= 0.0f) || std::isinf(y); });
-    if (bad != array.values.end())
-        throw Error(path, "holds " + formatNumber(static_cast<double>(*bad)) + " at position "
-                              + std::to_string(bad - array.values.begin()) + "; normalised power is finite and not negative");
+    checkFrames(array, path);
     GridFile file;
     if (gridPath.empty()) {
         file.time = {"time", "s", 0.0, 1.0, array.shape[0], false};

@@ -2,7 +2,7 @@
 
 #include "base/Grid.h"
 #include "detect/Smd.h"
-#include "model/MarkovModel.h"
+#include "model/SequentialModel.h"
 #include "spectrum/NormalisedFrames.h"
 
 #include <string>
@@ -26,6 +26,21 @@ struct ModelFile {
 
 /// Throws Error naming the file and the key.
 ModelFile readModelFile(const std::string &path);
+
+/// The same file for a sequential test, which knows no reset (the key is checked and not used) and more of these:
+///
+///   axes: "step": "uniform-admissible" | {"gaussian": σ in cells}, both shared out among the cells that exist; "integrate": true,
+///   an axis of the frames without a state; "transition": [[P(from, to)]] in place of a law;   "initial": [P(x1) of every state]
+///
+/// readModelFile takes the steps and the matrix as well. Throws Error.
+SequentialModel readSequentialModel(const std::string &path);
+
+/// Ready-made frames in double precision, cell after cell, stage after stage, checked as readFrames does.
+struct DoubleFrames {
+    std::vector<Index> shape; ///< stages, cells…
+    std::vector<double> values;
+};
+DoubleFrames readDoubleFrames(const std::string &path);
 
 /// Grid and time axis of a stack of frames: { "axes": [ { "name", "unit", "first", "step", "count", "cyclic" } ],
 /// "time": { "first", "step" } }; count may be left out where the frames tell it. Throws Error.

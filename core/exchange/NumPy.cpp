@@ -80,8 +80,8 @@ namespace {
         return shape;
     }
 
-    template <class T>
-    void readValues(std::ifstream &file, NumPyArray &array, std::size_t total, const std::string &path)
+    template <class T, class Array>
+    void readValues(std::ifstream &file, Array &array, std::size_t total, const std::string &path)
     {
         const Error cutShort(path, "is cut short: its shape " + shapeText(array.shape) + " asks for " + std::to_string(total) + " values");
         std::error_code code;
@@ -95,45 +95,56 @@ namespace {
             if (!file.read(reinterpret_cast<char *>(chunk.data()), static_cast<std::streamsize>(count * sizeof(T))))
                 throw cutShort;
             for (std::size_t i = 0; i < count; ++i)
-                array.values[done + i] = static_cast<float>(chunk[i]);
+                array.values[done + i] = static_cast<typename decltype(array.values)::value_type>(chunk[i]);
             done += count;
         }
+    }
+
+    template <class Array>
+    Array readArray(const std::string &path)
+    {
+        std::ifstream file(path, std::ios::binary);
+        if (!file)
+            throw Error(path, "cannot be opened; a NumPy file (.npy) is wanted");
+        char start[10] = {};
+        if (!file.read(start, 10) || std::string_view(start, 6) != magic)
+            throw Error(path, "is no NumPy file (.npy)");
+        std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
+        if (start[6] >= 2) {
+            unsigned char more[2] = {};
+            file.read(reinterpret_cast<char *>(more), 2);
+            length += (static_cast<std::size_t>(more[0]) << 16) + (static_cast<std::size_t>(more[1]) << 24);
+        }
+        if (length > (1u << 20))
+            throw Error(path, "its NumPy header is longer than any should be");
+        std::string dictionary(length, ' ');
+        if (!file.read(dictionary.data(), static_cast<std::streamsize>(length)))
+            throw Error(path, "is cut short in its NumPy header");
+        if (entry(dictionary, "fortran_order", path).starts_with("True"))
+            throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
+        Array array;
+        array.shape = parseShape(entry(dictionary, "shape", path), path);
+        const auto total = static_cast<std::size_t>(std::accumulate(array.shape.begin(), array.shape.end(), Index(1), std::multiplies<>()));
+        const std::string_view type = entry(dictionary, "descr", path);
+        if (type.starts_with("'<f4'"))
+            readValues<float>(file, array, total, path);
+        else if (type.starts_with("'<f8'"))
+            readValues<double>(file, array, total, path);
+        else
+            throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; float32 or float64, little-endian, is wanted");
+        return array;
     }
 
 } // namespace
 
 NumPyArray readNumPy(const std::string &path)
 {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        throw Error(path, "cannot be opened; a NumPy file (.npy) is wanted");
-    char start[10] = {};
-    if (!file.read(start, 10) || std::string_view(start, 6) != magic)
-        throw Error(path, "is no NumPy file (.npy)");
-    std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
-    if (start[6] >= 2) {
-        unsigned char more[2] = {};
-        file.read(reinterpret_cast<char *>(more), 2);
-        length += (static_cast<std::size_t>(more[0]) << 16) + (static_cast<std::size_t>(more[1]) << 24);
-    }
-    if (length > (1u << 20))
-        throw Error(path, "its NumPy header is longer than any should be");
-    std::string dictionary(length, ' ');
-    if (!file.read(dictionary.data(), static_cast<std::streamsize>(length)))
-        throw Error(path, "is cut short in its NumPy header");
-    if (entry(dictionary, "fortran_order", path).starts_with("True"))
-        throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
-    NumPyArray array;
-    array.shape = parseShape(entry(dictionary, "shape", path), path);
-    const auto total = static_cast<std::size_t>(std::accumulate(array.shape.begin(), array.shape.end(), Index(1), std::multiplies<>()));
-    const std::string_view type = entry(dictionary, "descr", path);
-    if (type.starts_with("'<f4'"))
-        readValues<float>(file, array, total, path);
-    else if (type.starts_with("'<f8'"))
-        readValues<double>(file, array, total, path);
-    else
-        throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; float32 or float64, little-endian, is wanted");
-    return array;
+    return readArray<NumPyArray>(path);
+}
+
+NumPyDoubles readNumPyDoubles(const std::string &path)
+{
+    return readArray<NumPyDoubles>(path);
 }
 
 NumPyWriter::NumPyWriter(const std::string &path, const std::vector<Index> &shape) : m_file(path), m_path(path)

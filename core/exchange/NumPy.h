@@ -15,8 +15,15 @@ struct NumPyArray {
     std::vector<float> values; ///< float64 is rounded to single precision
 };
 
+/// The same in double precision.
+struct NumPyDoubles {
+    std::vector<Index> shape;
+    std::vector<double> values;
+};
+
 /// Throws Error where the file is no such array, is cut short, or holds more than 2³¹ values.
 NumPyArray readNumPy(const std::string &path);
+NumPyDoubles readNumPyDoubles(const std::string &path);
 
 /// Writes a float32 array piece by piece; the file appears when `finish` is called, with all values there.
 class NumPyWriter

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace faintline {
 
@@ -17,18 +18,39 @@ namespace {
         return sum >= 0 ? sum / 2 : -((1 - sum) / 2);
     }
 
+    void checkProbability(double probability, const std::string &where)
+    {
+        if (!(probability >= 0.0 && probability <= 1.0))
+            throw Error(where, "holds " + formatNumber(probability) + "; a probability lies in 0 … 1");
+    }
+
     void checkLaw(const std::vector<double> &law, const std::string &where)
     {
         if (law.empty())
             throw Error(where, "must hold at least one probability");
         double sum = -law.front();
         for (double probability : law) {
-            if (!(probability >= 0.0 && probability <= 1.0))
-                throw Error(where, "holds " + formatNumber(probability) + "; a probability lies in 0 … 1");
+            checkProbability(probability, where);
             sum += 2.0 * probability;
         }
         if (std::abs(sum - 1.0) > 1e-6)
             throw Error(where, "h(0) + 2·(h(1) + h(2) + …) is " + formatNumber(sum) + "; it must be 1");
+    }
+
+    void checkMatrix(const std::vector<double> &matrix, Index cells, const std::string &where)
+    {
+        if (std::ssize(matrix) != cells * cells)
+            throw Error(where, "must hold as many rows and columns as the axis has cells, " + std::to_string(cells));
+        for (Index from = 0; from < cells; ++from) {
+            double sum = 0.0;
+            for (Index to = 0; to < cells; ++to) {
+                const double probability = matrix[static_cast<std::size_t>(from * cells + to)];
+                checkProbability(probability, where);
+                sum += probability;
+            }
+            if (!(sum < 1.0 + 1e-6)) // less is allowed: what leaves the axis
+                throw Error(where, "row " + std::to_string(from) + " adds up to " + formatNumber(sum) + "; it must be at most 1");
+        }
     }
 
 } // namespace
@@ -51,8 +73,21 @@ std::vector<KinematicAxis::Move> KinematicAxis::moves() const
     return result;
 }
 
+double KinematicAxis::lnDeparture(Index fromCell) const
+{
+    if (!renormalised)
+        return 0.0;
+    double sum = 0.0;
+    for (Index delta = 1 - std::ssize(step); delta < std::ssize(step); ++delta)
+        if (cyclic || (fromCell + delta >= 0 && fromCell + delta < cells))
+            sum += step[static_cast<std::size_t>(std::abs(delta))];
+    return -std::log(sum);
+}
+
 int KinematicAxis::largestDisplacement() const
 {
+    if (!transition.empty())
+        return static_cast<int>(cells - 1);
     int largest = 0;
     for (const Move &move : moves())
         largest = std::max(largest, std::abs(move.cells));
@@ -67,13 +102,45 @@ void KinematicAxis::check(const std::string &where) const
         throw Error(where + ".rates", "must hold 1 … 1001 consecutive integers");
     if (!step.empty() && rateCount > 1)
         throw Error(where, "has both rates and a step law; a random walk has no rates");
-    if (step.empty())
+    if (!transition.empty()) {
+        if (!step.empty() || rateCount > 1 || cyclic)
+            throw Error(where, "has a transition matrix, which says all of its moves: no rates, no step law, not cyclic");
+        checkMatrix(transition, cells, where + ".transition");
+    }
+    if (renormalised) {
+        if (step.empty() || !(step.front() > 0.0))
+            throw Error(where + ".step", "must let a target stay, q(0) > 0, where the ends of the axis share out what would leave it");
+        for (const double probability : step)
+            checkProbability(probability, where + ".step");
+        if (cyclic && 2 * std::ssize(step) - 1 > cells)
+            throw Error(where + ".step", "reaches the same cell both ways round a cyclic axis of " + std::to_string(cells));
+    } else if (step.empty()) {
         checkLaw(rateChange, where + ".rateChange");
-    else
+    } else {
         checkLaw(step, where + ".step");
+    }
     if (cyclic && largestDisplacement() >= cells)
         throw Error(where, "a step of " + std::to_string(largestDisplacement()) + " cells goes round a cyclic axis of "
                                + std::to_string(cells));
+}
+
+std::vector<double> gaussianStep(double deviation, Index cells)
+{
+    std::vector<double> step{1.0};
+    if (!(deviation > 0.0))
+        return step;
+    if (std::isinf(deviation))
+        return std::vector<double>(static_cast<std::size_t>(cells), 1.0);
+    const double scale = 1.0 / (deviation * std::numbers::sqrt2);
+    step.front() = std::erf(0.5 * scale);
+    for (Index d = 1; d < cells; ++d) {
+        const auto distance = static_cast<double>(d);
+        const double q = 0.5 * (std::erfc((distance - 0.5) * scale) - std::erfc((distance + 0.5) * scale));
+        if (q < 1e-17 * step.front())
+            break;
+        step.push_back(q);
+    }
+    return step;
 }
 
 } // namespace faintline

@@ -22,7 +22,9 @@ inline constexpr std::array<std::string_view, 2> roundingNames{"halfDown", "trun
 /// With rates r in firstRate … firstRate+rateCount-1:   r' = r + δ with probability h(|δ|),   p' = p + round((r + r')/2).
 /// Without (rateCount = 1, firstRate = 0) and with a step law q:   p' = p + δ with probability q(|δ|), a random walk.
 /// h(0) + 2 Σ h(i) = 1, the same for q. Rates outside the set do not exist; neither do positions outside a bounded axis;
-/// the probability lost there is not given to others (Billon 2005 section 4, Parsons 2008 section 3).
+/// the probability lost there is not given to others (Billon 2005 section 4, Parsons 2008 section 3), unless a walk is
+/// `renormalised`: then those cells that exist share it, P(p'|p) = q(|p'-p|) / Σ over existing cells (Grossi and Lops 2006).
+/// For small cases a full matrix may stand in place of a law: P(p'|p) = transition[p·cells + p'].
 struct KinematicAxis {
     std::string name;
     Index cells = 0;
@@ -32,6 +34,8 @@ struct KinematicAxis {
     std::vector<double> rateChange{1.0}; ///< h(0), h(1), …
     std::vector<double> step;            ///< q(0), q(1), … of a random walk; empty: no walk
     Rounding rounding = Rounding::HalfDown;
+    bool renormalised = false;      ///< a walk's steps off a bounded axis go to the cells that exist
+    std::vector<double> transition{}; ///< P(from, to), cells × cells row by row, of a bounded axis without rates; empty: a law
 
     /// One way to move: from a rate to a rate (indices 0 … rateCount-1) by whole cells, with ln probability.
     struct Move {
@@ -42,8 +46,14 @@ struct KinematicAxis {
     };
 
     /// All moves, ordered by target rate, then source rate, then decreasing displacement, so that among equals the
-    /// lowest rate, then the lowest source cell comes first.
+    /// lowest rate, then the lowest source cell comes first. Of an axis with a matrix, which they know nothing of: staying.
     std::vector<Move> moves() const;
+
+    /// What a move from a cell has on top of its ln probability: -ln Σ q(existing cells) where renormalised, otherwise 0.
+    double lnDeparture(Index fromCell) const;
+
+    /// Whether the law differs from cell to cell; then a part of the axis has another law than the whole.
+    bool isPlaceDependent() const { return (renormalised && !cyclic) || !transition.empty(); }
 
     /// Largest displacement |p' - p| of any move.
     int largestDisplacement() const;
@@ -53,5 +63,9 @@ struct KinematicAxis {
 
     bool operator==(const KinematicAxis &) const = default;
 };
+
+/// Step law of a random walk in `deviation` cells, q(d) = Φ((d + ½)/σ) - Φ((d - ½)/σ), as far as an axis of so many cells reaches and
+/// q exceeds 1e-17 of its maximum; to be renormalised. σ = 0 stays, σ = ∞ is uniform. Source: Grossi and Lops 2006, section 4.2.
+std::vector<double> gaussianStep(double deviation, Index cells);
 
 } // namespace faintline

@@ -3,6 +3,7 @@
 #include "base/Error.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace faintline {
 
@@ -69,6 +70,14 @@ std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target) cons
             return;
         }
         const KinematicAxis &a = m_axes[axis];
+        from.rates[axis] = to.rates[axis];
+        for (Index cell = 0; !a.transition.empty() && cell < a.cells; ++cell) {
+            from.cells[axis] = cell;
+            if (const double p = a.transition[static_cast<std::size_t>(cell * a.cells + to.cells[axis])]; p > 0.0)
+                self(self, axis + 1, lnProbability + std::log(p));
+        }
+        if (!a.transition.empty())
+            return;
         for (const KinematicAxis::Move &move : m_moves[axis]) {
             if (move.toRate != to.rates[axis])
                 continue;
@@ -79,7 +88,7 @@ std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target) cons
                 continue;
             from.rates[axis] = move.fromRate;
             from.cells[axis] = cell;
-            self(self, axis + 1, lnProbability + move.lnProbability);
+            self(self, axis + 1, lnProbability + move.lnProbability + a.lnDeparture(cell));
         }
     };
     descend(descend, 0, 0.0);

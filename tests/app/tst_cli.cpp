@@ -41,6 +41,11 @@ private slots:
     void billonsVectors();
     void parsonsVectors();
     void lnLambdaByEye();
+    void sequentialByEye();
+    void sequentialInRadarScans();
+    void sequentialInARecording();
+    void sequentialMistakes_data();
+    void sequentialMistakes();
 
     void mistakes_data();
     void mistakes();
@@ -478,6 +483,82 @@ void tst_cli::lnLambdaByEye()
     writeBytes(pathOf("sum.json"), R"({"axes": [{"cells": 1}], "likelihood": {"kind": "linear"}, "reset": {"law": "none", "semiring": "sum"}})");
     QCOMPARE(run(m_folder, {"statistic", "--frames", "one.npy", "--model", "sum.json", "--out", "sumL.npy"}).code, 0);
     QCOMPARE(readNumPy(pathOf("sumL.npy")).values, (std::vector<float>{0.5f, 3.5f, 4.5f}));
+}
+
+void tst_cli::sequentialByEye()
+{
+    // λ = y, two cells, a target that stays: Λ = ½ (e^Σy₀ + e^Σy₁), ln 99 = 4.595 is passed at the third stage by cell 1.
+    writeArray(pathOf("eye3.npy"), {4, 2}, {0.5f, 2.0f, 1.0f, 2.0f, 0.0f, 2.0f, 7.0f, 7.0f});
+    writeBytes(pathOf("eye3.json"), R"({"axes": [{"cells": 2}], "likelihood": {"kind": "linear"}})");
+    QCOMPARE(run(m_folder, {"sequential", "--frames", "eye3.npy", "--model", "eye3.json", "--alpha", "0.01", "--beta", "0.01", "--out", "eye3.out"}).code, 0);
+    const Json json = readJsonFile(pathOf("eye3.out"));
+    QCOMPARE(json["decision"].get<std::string>(), std::string("H1"));
+    QCOMPARE(json["stop"].get<int>(), 3);
+    QCOMPARE(json["map"].dump(), std::string("[[1],[1],[1]]"));
+    QVERIFY(std::abs(json["lnMapScore"].get<double>() - (6.0 - std::log(2.0))) < 1e-12);
+    QCOMPARE(json["lnLambda"].size(), std::size_t(3));
+    QVERIFY(std::abs(json["lnLambda"][2].get<double>() - std::log(0.5 * (std::exp(1.5) + std::exp(6.0)))) < 1e-12);
+
+    QCOMPARE(run(m_folder, {"sequential", "--frames", "eye3.npy", "--model", "eye3.json", "--alpha", "1e-30", "--beta", "1e-30", "--out", "eye3.out"}).code, 0);
+    const Json open = readJsonFile(pathOf("eye3.out"));
+    QCOMPARE(open["decision"].get<std::string>(), std::string("undecided"));
+    QCOMPARE(open["stop"].get<int>(), 4);
+    QVERIFY(open["map"].empty() && open["lnMapScore"].is_null());
+}
+
+void tst_cli::sequentialInRadarScans()
+{
+    writeBytes(pathOf("scans.json"), R"({"kind": "scans", "azimuthCells": 2, "elevationCells": 2, "rangeCells": 20, "dopplerCells": 4, "snrDb": 20})");
+    writeBytes(pathOf("scans.model"), R"({"axes": [{"cells": 2, "step": "uniform-admissible"}, {"cells": 2, "step": "uniform-admissible"},
+        {"cells": 20, "step": "uniform-admissible"}, {"cells": 4, "integrate": true}], "likelihood": {"kind": "exponential", "snr": 100}})");
+    int found = 0;
+    for (const char *seed : {"1", "2", "3", "4", "5"}) {
+        QCOMPARE(run(m_folder, {"simulate", "scans.json", "--seed", seed, "--out", "scans.npy", "--truth", "scans.truth"}).code, 0);
+        QCOMPARE(run(m_folder, {"sequential", "--frames", "scans.npy", "--model", "scans.model", "--cutoff", "20", "--out", "scans.out"}).code, 0);
+        const Json result = readJsonFile(pathOf("scans.out"));
+        const Json truth = readJsonFile(pathOf("scans.truth"));
+        const auto last = result["stop"].get<std::size_t>() - 1;
+        found += result["decision"] == "H1" && result["map"][last] == truth["cells"][last] ? 1 : 0;
+    }
+    QVERIFY(found >= 4);
+    const Outcome samples = run(m_folder, {"simulate", "scans.json", "--out", "scans.wav"});
+    QCOMPARE(samples.code, 2);
+    QVERIFY(samples.err.contains("must end in .npy"));
+}
+
+void tst_cli::sequentialInARecording()
+{
+    // The line of the scene stands from 8 s to 23 s at 210 Hz: noise before it, a signal from it on.
+    const QStringList part{"sequential", "line.wav", "--set", "spectrogram.windowSeconds=0.5", "--low", "195", "--high", "225", "--out", "part.out"};
+    QCOMPARE(run(m_folder, part + QStringList{"--from", "0", "--to", "8"}).code, 0);
+    QCOMPARE(readJsonFile(pathOf("part.out"))["decision"].get<std::string>(), std::string("H0"));
+    QCOMPARE(run(m_folder, part + QStringList{"--from", "10", "--to", "20"}).code, 0);
+    QCOMPARE(readJsonFile(pathOf("part.out"))["decision"].get<std::string>(), std::string("H1"));
+}
+
+void tst_cli::sequentialMistakes_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QString>("message");
+    const QStringList frames{"--frames", "eye3.npy"};
+    const QStringList model{"--model", "eye3.json"};
+    QTest::newRow("nothing to look at") << model << "takes either a recording or --frames";
+    QTest::newRow("no model") << frames << "needs --model";
+    QTest::newRow("α of 0") << frames + model + QStringList{"--alpha", "0"} << "sequential.falseAlarm = 0: must lie in";
+    QTest::newRow("a coin") << frames + model + QStringList{"--alpha", "0.5", "--beta", "0.5"} << "must stay below 1";
+    QTest::newRow("negative cut-off") << frames + model + QStringList{"--cutoff", "-1"} << "sequential.cutOffStage = -1";
+    QTest::newRow("other cells") << frames + QStringList{"--model", "scans.model"} << "has 2 × 2 × 20 × 4 cells, but the frames of eye3.npy have 2";
+}
+
+void tst_cli::sequentialMistakes()
+{
+    QFETCH(QStringList, arguments);
+    QFETCH(QString, message);
+    const Outcome outcome = run(m_folder, QStringList{"sequential", "--out", "never.json"} + arguments);
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(QString::fromUtf8(outcome.err).contains(message), outcome.err.constData());
+    QCOMPARE(outcome.err.count('\n'), 1);
+    QVERIFY(!QFile::exists(path("never.json")));
 }
 
 void tst_cli::mistakes_data()

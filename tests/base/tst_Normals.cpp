@@ -26,6 +26,8 @@ private slots:
     void cuttingAtMultiplesOfFour();
     void theBlocksAreThoseOfBits();
     void sameBytesOnEveryMachine();
+    void exponential();
+    void exponentials();
 };
 
 namespace {
@@ -151,6 +153,44 @@ void tst_Normals::sameBytesOnEveryMachine()
     for (const float value : normals(1, 2, 1'000'000))
         hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 1099511628211u;
     QCOMPARE(hash, std::uint64_t(9879028124917052588u));
+}
+
+void tst_Normals::exponential()
+{
+    double worst = 0.0;
+    for (float x = -86.9f; x < 87.9f; x += 0.0137f)
+        worst = std::max(worst, std::abs(static_cast<double>(fastExp(x)) / std::exp(static_cast<double>(x)) - 1.0));
+    QVERIFY(worst < 2e-7);
+    QCOMPARE(fastExp(0.0f), 1.0f);
+    QCOMPARE(fastExp(1000.0f), fastExp(88.0f));
+    QCOMPARE(fastExp(-1000.0f), fastExp(-87.0f));
+    QVERIFY(std::isfinite(fastExp(88.0f)) && fastExp(-87.0f) > 0.0f);
+}
+
+void tst_Normals::exponentials()
+{
+    std::vector<float> values(200000);
+    Random(7, 1).exponentials(values);
+    std::vector<float> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    double distance = 0.0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const double law = -std::expm1(-static_cast<double>(sorted[i]));
+        const auto n = static_cast<double>(sorted.size());
+        distance = std::max({distance, std::abs(law - static_cast<double>(i) / n), std::abs(law - static_cast<double>(i + 1) / n)});
+    }
+    QVERIFY(distance < 1.95 / std::sqrt(static_cast<double>(sorted.size()))); // Kolmogorov-Smirnov, one in a thousand
+
+    // Cut at multiples of 4 it is the same stream, and each word is one value.
+    std::vector<float> parts(1000);
+    Random cut(7, 1);
+    cut.exponentials(std::span(parts).first(12));
+    cut.exponentials(std::span(parts).subspan(12, 400));
+    cut.exponentials(std::span(parts).subspan(412));
+    QVERIFY(std::equal(parts.begin(), parts.end(), values.begin()));
+    Random words(7, 1);
+    for (std::size_t i = 0; i < 1000; ++i)
+        QVERIFY(std::abs(static_cast<double>(values[i]) - words.exponential()) < 1e-6 * (1.0 + static_cast<double>(values[i])));
 }
 
 QTEST_APPLESS_MAIN(tst_Normals)

@@ -20,6 +20,11 @@ private slots:
     void onlyWhatIsNeeded();
     void sonarAxes();
     void randomWalk();
+    void stepsThatStayOnTheAxis();
+    void matrix();
+    void sequentialModel();
+    void sequentialRefusals_data();
+    void sequentialRefusals();
     void resetLaws_data();
     void resetLaws();
     void scaledTransitions();
@@ -106,6 +111,74 @@ void tst_ModelFile::randomWalk()
     const ModelFile file = model(R"({"axes": [{"cells": 8, "step": [0.5, 0.25]}], "likelihood": {"kind": "linear"}})");
     QCOMPARE(file.model.space.axes()[0].step, (std::vector<double>{0.5, 0.25}));
     QCOMPARE(file.model.space.planeCount(), Index(1));
+}
+
+void tst_ModelFile::stepsThatStayOnTheAxis()
+{
+    const ModelFile file = model(R"({"axes": [{"cells": 8, "step": "uniform-admissible"}, {"cells": 9, "step": {"gaussian": 0.5}},
+                                              {"cells": 1, "step": "uniform-admissible"}], "likelihood": {"kind": "linear"}})");
+    const auto &axes = file.model.space.axes();
+    QCOMPARE(axes[0].step, (std::vector<double>{1.0 / 3.0, 1.0 / 3.0}));
+    QVERIFY(axes[0].renormalised && axes[1].renormalised);
+    QCOMPARE(axes[0].lnDeparture(0), -std::log(2.0 / 3.0));
+    QVERIFY(std::abs(axes[0].lnDeparture(3)) < 1e-15);
+    QCOMPARE(axes[1].step, gaussianStep(0.5, 9));
+    QCOMPARE(axes[2].step.size(), std::size_t(1));
+}
+
+void tst_ModelFile::matrix()
+{
+    const ModelFile file = model(R"({"axes": [{"cells": 2, "transition": [[0.25, 0.75], [0.5, 0.5]]}], "likelihood": {"kind": "linear"}})");
+    QCOMPARE(file.model.space.axes()[0].transition, (std::vector<double>{0.25, 0.75, 0.5, 0.5}));
+    QVERIFY(file.model.space.axes()[0].isPlaceDependent());
+}
+
+void tst_ModelFile::sequentialModel()
+{
+    writeBytes(path("m.json"), R"({"axes": [{"cells": 3, "step": [0.5, 0.25]}, {"cells": 4, "integrate": true}, {"cells": 2}],
+                                   "likelihood": {"kind": "exponential", "snr": 4}, "initial": [0.5, 0.1, 0.1, 0.1, 0.1, 0.1],
+                                   "reset": {"law": "none", "semiring": "sum"}})");
+    const SequentialModel read = readSequentialModel(path("m.json"));
+    QCOMPARE(read.markov.space.stateCount(), Index(6));
+    QCOMPARE(read.reduction.frameCells(), Index(24));
+    QCOMPARE(read.reduction.foldedCells(), Index(4));
+    QCOMPARE(read.initialLaw()[0], 0.5);
+    writeBytes(path("m.json"), R"({"axes": [{"cells": 4, "integrate": true}], "likelihood": {"kind": "linear"}})");
+    const SequentialModel folded = readSequentialModel(path("m.json"));
+    QCOMPARE(folded.initialLaw(), (std::vector<double>{1.0}));
+}
+
+void tst_ModelFile::sequentialRefusals_data()
+{
+    QTest::addColumn<QByteArray>("json");
+    QTest::addColumn<QString>("message");
+    const auto row = [](const char *name, const char *json, const char *message) {
+        QTest::newRow(name) << QByteArray(R"({"likelihood": {"kind": "linear"}, )") + json + "}" << QString::fromUtf8(message);
+    };
+    row("unknown step", R"("axes": [{"cells": 5, "step": "uniform"}])", "axes[0].step: must be a list of probabilities, \"uniform-admissible\"");
+    row("negative deviation", R"("axes": [{"cells": 5, "step": {"gaussian": -1}}])", "axes[0].step.gaussian: must be a standard deviation");
+    row("unknown law", R"("axes": [{"cells": 5, "step": {"laplace": 1}}])", "axes[0].step.laplace: is not known");
+    row("matrix of another size", R"("axes": [{"cells": 3, "transition": [[1, 0], [0, 1]]}])", "as many rows and columns as the axis has cells, 3");
+    row("ragged matrix", R"("axes": [{"cells": 2, "transition": [[1, 0], [1]]}])", "axes[0].transition: must have as many columns as rows");
+    row("matrix of text", R"("axes": [{"cells": 1, "transition": [["1"]]}])", "axes[0].transition: must be a list of numbers");
+    row("matrix above 1", R"("axes": [{"cells": 1, "transition": [[1.5]]}])", "axes[0].transition: holds 1.5; a probability lies in 0 … 1");
+    row("matrix and steps", R"("axes": [{"cells": 1, "transition": [[1]], "step": [1]}])", "has a transition matrix, which says all");
+    row("cyclic matrix", R"("axes": [{"cells": 1, "transition": [[1]], "cyclic": true}])", "has a transition matrix, which says all");
+    row("initial of another size", R"("axes": [{"cells": 2}], "initial": [1])", "initial: holds 1 probabilities; there are 2 states");
+    row("initial that is none", R"("axes": [{"cells": 2}], "initial": [0.5, 0.4])", "initial: adds up to 0.9");
+    row("initial as text", R"("axes": [{"cells": 2}], "initial": "centre")", "initial: must be a list of numbers");
+    row("integrate no flag", R"("axes": [{"cells": 2, "integrate": 1}])", "axes[0].integrate: must be true or false");
+    row("scaled transitions", R"("axes": [{"cells": 2}], "scaleTransitions": true)", "has no place in a sequential test");
+}
+
+void tst_ModelFile::sequentialRefusals()
+{
+    QFETCH(QByteArray, json);
+    QFETCH(QString, message);
+    writeBytes(path("m.json"), json);
+    const std::string said = errorOf([&] { readSequentialModel(path("m.json")); });
+    QVERIFY2(said.starts_with(path("m.json")), said.c_str());
+    QVERIFY2(contains(said, message.toStdString()), said.c_str());
 }
 
 void tst_ModelFile::resetLaws_data()

@@ -1,0 +1,129 @@
+#include "app/cli/commands.h"
+
+#include "analysis/analyse.h"
+#include "base/AtomicFile.h"
+#include "base/json.h"
+#include "detect/Sprt.h"
+#include "exchange/ModelFile.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace faintline::cli {
+
+namespace {
+
+    struct Options {
+        AnalysisOptions analysis;
+        std::string frames;
+        std::string model;
+        SprtSettings sprt;
+        std::string out;
+    };
+
+    /// What the test is run on: a model, and the stages it may take.
+    struct Stages {
+        SequentialModel model;
+        Index count = 0;
+        StageSource source;
+    };
+
+    std::string cellsText(const std::vector<Index> &cells)
+    {
+        std::string text;
+        for (const Index n : cells)
+            text += (text.empty() ? "" : " × ") + std::to_string(n);
+        return text;
+    }
+
+    Stages readyMade(const Options &options)
+    {
+        Stages stages;
+        stages.model = readSequentialModel(options.model);
+        auto frames = std::make_shared<const DoubleFrames>(readDoubleFrames(options.frames));
+        const std::vector<Index> cells(frames->shape.begin() + 1, frames->shape.end());
+        if (cells != stages.model.reduction.axisCells())
+            throw Error(options.model, "has " + cellsText(stages.model.reduction.axisCells()) + " cells, but the frames of "
+                                           + options.frames + " have " + cellsText(cells));
+        stages.count = frames->shape.front();
+        stages.source = [frames](Index stage, std::span<double> y) {
+            std::copy_n(frames->values.begin() + stage * std::ssize(y), std::ssize(y), y.begin());
+        };
+        return stages;
+    }
+
+    /// A recording's selection: the line model of the settings, or a model of its bins.
+    Stages recorded(const Options &options, const RunContext &context)
+    {
+        const AnalysisSettings settings = options.analysis.settings();
+        const auto spectrogram =
+            std::make_shared<const Spectrogram>(options.analysis.recording(), settings.spectrogram, settings.selection);
+        const auto frames = std::make_shared<NormalisedSpectrogram>(
+            spectrogram, estimateBackground(*spectrogram, settings.noise, context), settings.noise);
+        const Index bins = frames->grid().size();
+        Stages stages;
+        if (options.model.empty()) {
+            const MarkovModel line = makeModel(settings.model, frames->grid());
+            stages.model = makeSequentialModel(line.space.axes(), {false}, line.likelihood);
+        } else {
+            stages.model = readSequentialModel(options.model);
+        }
+        if (stages.model.reduction.axisCells() != std::vector<Index>{bins})
+            throw Error(options.model, "has " + cellsText(stages.model.reduction.axisCells()) + " cells, but the selection has "
+                                           + std::to_string(bins) + " frequency bins");
+        stages.count = frames->time().count;
+        stages.source = stagesOf(frames, 0, 0, bins);
+        return stages;
+    }
+
+    Json toJson(const SprtResult &result, const SprtSettings &settings)
+    {
+        const SprtBoundaries boundaries = sprtBoundaries(settings);
+        Json json;
+        json["decision"] = sprtDecisionNames[static_cast<std::size_t>(result.decision)];
+        json["stop"] = result.stages;
+        json["forced"] = result.isForced;
+        json["lnGamma0"] = boundaries.lnLower;
+        json["lnGamma1"] = boundaries.lnUpper;
+        json["lnLambda"] = result.lnLambda;
+        json["map"] = result.trajectory;
+        json["lnMapScore"] = result.decision == SprtDecision::H1 ? Json(result.lnMapScore) : Json();
+        return json;
+    }
+
+    void sequential(const Options &options, const Common &common)
+    {
+        checkSprt(options.sprt, "sequential");
+        if (options.frames.empty() == options.analysis.file.empty())
+            throw Error("sequential", "takes either a recording or --frames with ready-made frames");
+        if (!options.frames.empty() && options.model.empty())
+            throw Error("sequential", "needs --model for ready-made frames");
+        const RunContext context = common.context();
+        const Stages stages = options.frames.empty() ? recorded(options, context.part(0.0, 0.3)) : readyMade(options);
+        const SprtResult result = runSprt(stages.model, options.sprt, stages.count, stages.source, context.part(0.3, 1.0));
+        context.checkpoint(1.0, "done");
+        writeTextFile(options.out, toJson(result, options.sprt).dump(2) + "\n");
+    }
+
+} // namespace
+
+void addSequential(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<Options>();
+    CLI::App *command =
+        app.add_subcommand("sequential", "Stage after stage until it is clear whether a signal is there, and where it has been");
+    options->analysis.addTo(*command);
+    command->get_option("FILE")->required(false);
+    command->add_option("--frames", options->frames, "Ready-made normalised frames, .npy of shape (stages, cells…), noise mean 1");
+    command->add_option("--model", options->model, "JSON of the model; without it the settings' line model");
+    command->add_option("--alpha", options->sprt.falseAlarm, "Wanted probability of accepting a signal on noise")->capture_default_str();
+    command->add_option("--beta", options->sprt.miss, "Wanted probability of accepting noise with a signal")->capture_default_str();
+    command->add_option("--cutoff", options->sprt.cutOffStage, "Stage at which a decision is forced; 0 is never")->capture_default_str();
+    command->add_option("--out", options->out, "Write decision, ln Λ of every stage and trajectory, .json")->required();
+    command->callback([options, &common] { sequential(*options, common); });
+}
+
+} // namespace faintline::cli

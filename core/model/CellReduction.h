@@ -1,0 +1,45 @@
+#pragma once
+
+#include "base/Axis.h"
+
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// Frame axes along which a target is anywhere, anew at every stage: a radar's ambiguous Doppler. They need no state.
+///
+/// With P(p'|p) = 1/N_d along such axes, the sum over trajectories of a product of p1/p0 factorises stage by stage, and so does the
+/// maximum; the recursion runs on the other axes only, on
+///
+///   sum:  λ(cell) = ln [ 1/N_d · Σ_d e^{λ(cell, d)} ]          maximum:  λ(cell) = max_d λ(cell, d) - ln N_d
+///
+/// λ = ln p1/p0 of each frame cell, N_d the number of cells folded into one. Source: Grossi and Lops 2006, section 4.3.
+/// Oracle: enumeration of all trajectories in the unreduced space. Ties: the lowest d. Immutable, thread-safe.
+class CellReduction
+{
+public:
+    CellReduction() = default;
+    /// Cells of every frame axis, slowest first, and which of them are folded.
+    CellReduction(std::vector<Index> cells, const std::vector<bool> &isFolded);
+
+    const std::vector<Index> &axisCells() const { return m_cells; } ///< of the frame, folded axes included
+    Index frameCells() const { return m_frameCells; }
+    Index stateCells() const { return m_stateCells; }
+    Index foldedCells() const { return m_frameCells / m_stateCells; } ///< N_d
+
+    /// frameCells values to stateCells values.
+    void sum(std::span<const double> lambda, std::span<double> reduced) const;
+    void maximum(std::span<const double> lambda, std::span<double> reduced) const;
+
+    /// Coordinates on the frame of the cell with the largest λ among those that are folded into one.
+    std::vector<Index> best(std::span<const double> lambda, Index stateCell) const;
+
+private:
+    std::vector<Index> m_cells;
+    std::vector<Index> m_stateCell; ///< of every frame cell
+    Index m_frameCells = 1;
+    Index m_stateCells = 1;
+};
+
+} // namespace faintline

@@ -1,0 +1,56 @@
+#include "model/SequentialModel.h"
+
+#include "base/Error.h"
+#include "base/Field.h"
+
+#include <cmath>
+
+namespace faintline {
+
+std::vector<double> SequentialModel::initialLaw() const
+{
+    const Index states = markov.space.stateCount();
+    return initial.empty() ? std::vector<double>(static_cast<std::size_t>(states), 1.0 / static_cast<double>(states)) : initial;
+}
+
+void SequentialModel::check(const std::string &where) const
+{
+    if (reduction.stateCells() != markov.space.cellCount())
+        throw Error(where, "has " + std::to_string(markov.space.cellCount()) + " cells, but the frames leave "
+                               + std::to_string(reduction.stateCells()));
+    if (initial.empty())
+        return;
+    if (std::ssize(initial) != markov.space.stateCount())
+        throw Error(where + ".initial", "holds " + std::to_string(initial.size()) + " probabilities; there are "
+                                            + std::to_string(markov.space.stateCount()) + " states");
+    double sum = 0.0;
+    for (const double p : initial) {
+        if (!(p >= 0.0 && p <= 1.0))
+            throw Error(where + ".initial", "holds " + formatNumber(p) + "; a probability lies in 0 … 1");
+        sum += p;
+    }
+    if (std::abs(sum - 1.0) > 1e-6)
+        throw Error(where + ".initial", "adds up to " + formatNumber(sum) + "; it must be 1");
+}
+
+SequentialModel makeSequentialModel(const std::vector<KinematicAxis> &frameAxes, const std::vector<bool> &isFolded,
+                                    const Likelihood &likelihood, std::vector<double> initial)
+{
+    std::vector<Index> cells;
+    std::vector<KinematicAxis> axes;
+    for (std::size_t i = 0; i < frameAxes.size(); ++i) {
+        frameAxes[i].check("model.axes[" + std::to_string(i) + "]");
+        cells.push_back(frameAxes[i].cells);
+        if (!isFolded[i])
+            axes.push_back(frameAxes[i]);
+    }
+    if (axes.empty()) {
+        axes.emplace_back();
+        axes.back().cells = 1;
+    }
+    SequentialModel model{{StateSpace(std::move(axes)), likelihood, 1.0}, CellReduction(std::move(cells), isFolded), std::move(initial)};
+    model.check("model");
+    return model;
+}
+
+} // namespace faintline
