@@ -2,6 +2,7 @@
 
 #include "analysis/analyse.h"
 #include "analysis/explain.h"
+#include "analysis/regulation.h"
 #include "base/json.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
@@ -11,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -39,13 +41,18 @@ namespace {
                     100.0 * analysis.calibration->continuedFraction, analysis.threshold);
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
         std::printf(": %.3g false alarms an hour on noise\n", perHour);
+        if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
+            std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s: strong signals drag it down\n",
+                        analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(), time.value(static_cast<double>(dragged.front())));
         std::printf("%zu event(s)\n", found.size());
         for (const Event &e : found) {
             std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
                 std::printf(" %.8g %s", e.position[axis], analysis.grid().axes[axis].unit.c_str());
-            std::printf(", drift %.3g %s/s, %.1f nat%s\n", e.driftPerSecond, analysis.grid().axes.back().unit.c_str(), e.statistic,
-                        e.isOpen ? ", still there at the end" : "");
+            for (std::size_t axis = 0; axis < e.position.size(); ++axis)
+                std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], analysis.grid().axes[axis].unit.c_str());
+            std::printf(", %.1f nat%s%s%s\n", e.statistic, e.isConfirmed ? "" : ", not confirmed", e.isOpen ? ", still there at the end" : "",
+                        !analysis.bank.empty() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
         }
     }
 
@@ -53,10 +60,10 @@ namespace {
                                                    const NormalisedFramesPointer &frames)
     {
         AnalysisSettings settings = options.analysis.settings();
+        if (options.model.empty())
+            return analyse(frames, settings, context, sink);
         MarkovModel model;
-        if (options.model.empty()) {
-            model = makeModel(settings.model, frames->grid());
-        } else {
+        {
             const ModelFile file = readModelFile(options.model);
             model = file.model;
             if (model.space.cellCount() != frames->grid().size())
@@ -86,8 +93,11 @@ namespace {
         NormalisedFramesPointer frames;
         RecordingPointer recording;
         std::vector<Index> shape;
-        if (!options.frames.empty()) {
+        if (!options.frames.empty())
             frames = readFrames(options.frames, options.grid);
+        else
+            frames = openPings(options.analysis.file);
+        if (frames) {
             shape.push_back(frames->time().count);
             for (const Axis &axis : frames->grid().axes)
                 shape.push_back(axis.count);

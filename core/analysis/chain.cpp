@@ -1,6 +1,7 @@
 #include "analysis/chain.h"
 
 #include "base/logmath.h"
+#include "detect/ModelBank.h"
 #include "spectrum/NoiseNormaliser.h"
 
 #include <algorithm>
@@ -11,6 +12,8 @@ namespace faintline {
 namespace {
 
     constexpr double shoulderNats = 8.0;
+    constexpr Index manyStates = 1'000'000; ///< of so many, tracing a path back over tens of frames takes seconds
+    constexpr Index onsetFramesOfMany = 16;
 
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
     {
@@ -57,27 +60,57 @@ namespace {
         chain.linkCells = perAxis(settings.decide.linkCells, analysis.grid());
         chain.track = settings.track;
         double binsPerCell = 1.0;
-        const auto inhibitBins = [&] { return static_cast<Index>(std::ceil(settings.decide.inhibitCells * binsPerCell)); };
+        const auto inBins = [&](std::vector<double> cells) {
+            for (double &value : cells)
+                value = std::ceil(value * binsPerCell);
+            return perAxis(cells, analysis.grid());
+        };
         if (const auto *spectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get())) {
             binsPerCell = spectral->spectrogram().binsPerCell();
             chain.spill = spillOf(spectral->spectrogram());
             chain.skirtStep = static_cast<Index>(std::ceil(binsPerCell));
-            chain.blind = blindPlaces(spectral->spectrogram(), inhibitBins());
+            chain.blind = blindPlaces(spectral->spectrogram(), inBins(settings.decide.inhibitCells).back());
         }
-        chain.inhibitCells.assign(analysis.grid().axes.size(), inhibitBins());
+        chain.inhibitCells = inBins(settings.decide.inhibitCells);
+        if (!settings.decide.forgetCells.empty())
+            chain.forgetCells = inBins(settings.decide.forgetCells);
+        if (analysis.model.space.stateCount() > manyStates)
+            chain.onsetFrames = onsetFramesOfMany;
+        chain.resets = settings.decide.resets;
+        chain.inhibits = settings.decide.inhibits;
         return chain;
     }
 
 } // namespace
 
-std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
+std::unique_ptr<Detector> makeDetector(const Analysis &analysis)
 {
     const AnalysisSettings &settings = analysis.settings;
     const auto *smd = std::get_if<SmdSettings>(&settings.detector);
+    if (!analysis.bank.empty()) {
+        std::vector<ModelBank::Member> members;
+        for (const BankMember &member : analysis.bank)
+            members.push_back({member.model, resetRule(*smd, member.calibration->lnK), member.offset});
+        return std::make_unique<ModelBank>(members);
+    }
     const FrameGeometry geometry = analysis.recording ? frameGeometry(settings.spectrogram) : FrameGeometry{};
-    auto detector = makeDetector(settings.detector, analysis.model, analysis.grid(), geometry,
-                                 smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
-    return std::make_unique<DetectionChain>(analysis.model, analysis.grid(), std::move(detector), chainSettings(analysis));
+    return makeDetector(settings.detector, analysis.model, analysis.grid(), geometry,
+                        smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
+}
+
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector)
+{
+    std::vector<MarkovModel> models;
+    for (const BankMember &member : analysis.bank)
+        models.push_back(member.model);
+    if (models.empty())
+        models.push_back(analysis.model);
+    return std::make_unique<DetectionChain>(std::move(models), analysis.grid(), std::move(detector), chainSettings(analysis));
+}
+
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
+{
+    return makeChain(analysis, makeDetector(analysis));
 }
 
 } // namespace faintline

@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "evaluate/reproduceBillon.h"
+#include "evaluate/reproduceParsons.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,7 @@ const std::vector<Reproducible> &reproducibles()
 {
     static const std::vector<Reproducible> list = [] {
         std::vector<Reproducible> all;
-        for (const auto &paper : {billonReproducibles()})
+        for (const auto &paper : {billonReproducibles(), parsonsReproducibles()})
             all.insert(all.end(), paper.begin(), paper.end());
         return all;
     }();

@@ -54,13 +54,22 @@ namespace {
         return position;
     }
 
+    /// Column names of the rates: drift_hz_per_s for a line, else one for each axis.
+    std::vector<std::string> rateNames(const Grid &grid)
+    {
+        std::vector<std::string> names;
+        for (const Axis &axis : grid.axes)
+            names.push_back(grid.axes.size() == 1 ? "drift_hz_per_s" : axis.name + "_per_s");
+        return names;
+    }
+
     std::string eventsCsv(const Analysis &analysis)
     {
-        std::string text = row({"event", "t_onset", "t_detect", "t_end", joined(positionNames(analysis.grid())), "drift_hz_per_s",
+        std::string text = row({"event", "t_onset", "t_detect", "t_end", joined(positionNames(analysis.grid())), joined(rateNames(analysis.grid())),
                                 "statistic", "confirmed", "open"});
         for (const Event &e : events(analysis))
             text += row({std::to_string(e.id), formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds), formatNumber(e.endSeconds),
-                         joined(e.position), formatNumber(e.driftPerSecond), formatNumber(e.statistic), e.isConfirmed ? "1" : "0",
+                         joined(e.position), joined(e.ratesPerSecond), formatNumber(e.statistic), e.isConfirmed ? "1" : "0",
                          e.isOpen ? "1" : "0"});
         return text;
     }
@@ -75,7 +84,9 @@ namespace {
         const std::vector<std::string> names = positionNames(grid);
         for (std::size_t axis = 0; axis < names.size(); ++axis)
             json[names[axis]] = e.position[axis];
-        json["drift_hz_per_s"] = e.driftPerSecond;
+        const std::vector<std::string> rates = rateNames(grid);
+        for (std::size_t axis = 0; axis < rates.size(); ++axis)
+            json[rates[axis]] = e.ratesPerSecond[axis];
         json["statistic"] = e.statistic;
         json["confirmed"] = e.isConfirmed;
         json["open"] = e.isOpen;
