@@ -8,6 +8,7 @@
 #include "exchange/NumPy.h"
 #include "base/AtomicFile.h"
 #include "detect/SumDetector.h"
+#include "evaluate/trackScore.h"
 #include "exchange/writeEvents.h"
 
 #include <CLI/CLI.hpp>
@@ -51,9 +52,29 @@ namespace {
                 std::printf(" %.8g %s", e.position[axis], analysis.grid().axes[axis].unit.c_str());
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
                 std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], analysis.grid().axes[axis].unit.c_str());
-            std::printf(", %.1f nat%s%s%s\n", e.statistic, e.isConfirmed ? "" : ", not confirmed", e.isOpen ? ", still there at the end" : "",
+            std::printf(", %.1f nat%s%s%s\n", e.statistic, e.isConfirmed ? "" : ", not confirmed",
+                        e.isOpen ? ", still there at the end" : "",
                         !analysis.bank.empty() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
         }
+    }
+
+    /// Simulated pings know their targets: what was found of them.
+    void printScore(const Analysis &analysis, const SimulatedPings &pings)
+    {
+        const TrackScore score = scoreTracks(analysis.tracks, pings.truth(), pings.grid(), {3, 1});
+        for (std::size_t i = 0; i < score.targets.size(); ++i) {
+            const TargetScore &own = score.targets[i];
+            std::printf("target %zu: ", i + 1);
+            if (!own.isDetected()) {
+                std::printf("not found\n");
+                continue;
+            }
+            std::printf("found in its ping %td, %s, %d track(s), RMS error %.2f ranges and %.2f beams, followed in %td of %td pings\n",
+                        own.detectLatency,
+                        own.isConfirmed() ? ("confirmed in " + std::to_string(own.confirmLatency)).c_str() : "not confirmed",
+                        own.tracks, own.rmsCells[0], own.rmsCells[1], own.matchedPoints, own.presentPings);
+        }
+        std::printf("false tracks: %d, of them confirmed: %d\n", score.falseTracks, score.falseConfirmed);
     }
 
     std::shared_ptr<const Analysis> detectInFrames(const DetectOptions &options, const RunContext &context, const StatisticSink &sink,
@@ -127,6 +148,8 @@ namespace {
             writer->finish();
         if (options.summary)
             printSummary(*analysis);
+        if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)
+            printScore(*analysis, *pings);
     }
 
     void printExplanation(const Explanation &explanation, const Analysis &analysis, bool asJson)

@@ -51,19 +51,20 @@ namespace {
         std::printf("file          %s\n", file.c_str());
         std::printf("container     scene of sonar pings, seed %d\n", scene.seed);
         std::printf("pings         %d, one every %s s\n", scene.pings, formatNumber(scene.priSeconds).c_str());
-        std::printf("range         %td cells of %s m, %s … %s m\n", range.count, formatNumber(range.step).c_str(), formatNumber(range.first).c_str(),
-                    formatNumber(range.last()).c_str());
-        std::printf("bearing       %td beams of %s°%s\n", bearing.count, formatNumber(bearing.step).c_str(), bearing.cyclic ? ", all round" : "");
+        std::printf("range         %td cells of %s m, %s … %s m\n", range.count, formatNumber(range.step).c_str(),
+                    formatNumber(range.first).c_str(), formatNumber(range.last()).c_str());
+        std::printf("bearing       %td beams of %s°%s\n", bearing.count, formatNumber(bearing.step).c_str(),
+                    bearing.cyclic ? ", all round" : "");
         std::printf("looks         %d\n", scene.looks);
         if (scene.reverberation)
             std::printf("reverberation %s dB over the noise in the first range cell\n", formatNumber(scene.reverberation->levelDb).c_str());
         for (std::size_t i = 0; i < scene.targets.size(); ++i) {
             const PingTarget &target = scene.targets[i];
             const TruthTarget &truth = pings.truth().targets[i];
-            std::printf("target %zu      %s dB, %s, pings %d … %td, from %.6g m, %.4g° to %.6g m, %.4g°\n", i + 1, formatNumber(target.snrDb).c_str(),
-                        std::string(echoNames[static_cast<std::size_t>(target.echo)]).c_str(), truth.firstPing,
-                        truth.firstPing + std::ssize(truth.cell) - 1, truth.rangeMetres.front(), truth.bearingDegrees.front(),
-                        truth.rangeMetres.back(), truth.bearingDegrees.back());
+            std::printf("target %zu      %s dB, %s, pings %d … %td, from %.6g m, %.4g° to %.6g m, %.4g°\n", i + 1,
+                        formatNumber(target.snrDb).c_str(), std::string(echoNames[static_cast<std::size_t>(target.echo)]).c_str(),
+                        truth.firstPing, truth.firstPing + std::ssize(truth.cell) - 1, truth.rangeMetres.front(),
+                        truth.bearingDegrees.front(), truth.rangeMetres.back(), truth.bearingDegrees.back());
         }
     }
 

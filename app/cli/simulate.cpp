@@ -50,7 +50,8 @@ void addSimulate(CLI::App &app, Common &common)
         std::string type = "float32";
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("simulate", "Make a recording of known lines in noise, or pings with known targets, and its truth");
+    CLI::App *command =
+        app.add_subcommand("simulate", "Make a recording of known lines in noise, or pings with known targets, and its truth");
     command->add_option("SCENARIO", options->scene, "The scene, JSON")->required();
     command->add_option("--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; frames of pings: .npy")->required();
     command->add_option("--truth", options->truth, "Write the truth, .json");

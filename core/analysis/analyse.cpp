@@ -219,10 +219,11 @@ namespace {
     {
         const auto count = static_cast<double>(models.size());
         for (std::size_t i = 0; i < models.size(); ++i)
-            analysis.bank.push_back({models[i],
-                                     calibrateOnIndependentCells(models[i], analysis.settings,
-                                                                 context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)),
-                                     0.0});
+            analysis.bank.push_back(
+                {models[i],
+                 calibrateOnIndependentCells(models[i], analysis.settings,
+                                             context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)),
+                 0.0});
         analysis.calibration = analysis.bank.front().calibration;
         analysis.threshold = thresholdNats(analysis.settings.decide, *analysis.calibration, analysis.cellFramesPerHour);
         const double pfa = analysis.calibration->exceedanceAt(analysis.threshold);

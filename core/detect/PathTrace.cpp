@@ -232,7 +232,8 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
             step.state = corridor.toGlobal(model.space, local);
             const Index cell = model.space.cellOf(step.state);
             step.logLikelihoodRatio = model.likelihood.at(static_cast<double>(record.frame(frame)[static_cast<std::size_t>(cell)]));
-            const Index before = frame == first ? -1 : origin(model, corridor, history.at(frame - 1), local, record.lnK(frame), step.lnTransition);
+            const Index before =
+                frame == first ? -1 : origin(model, corridor, history.at(frame - 1), local, record.lnK(frame), step.lnTransition);
             if (before < 0)
                 step.lnTransition = 0.0;
             else

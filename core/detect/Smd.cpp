@@ -69,7 +69,8 @@ namespace {
 
 Smd::Smd(const MarkovModel &model, const ResetRule &rule)
     : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule), m_recursion(model.space, model.transitionScale),
-      m_scores(static_cast<std::size_t>(model.space.stateCount())), m_next(m_scores.size()), m_lambda(static_cast<std::size_t>(model.space.cellCount())),
+      m_scores(static_cast<std::size_t>(model.space.stateCount())), m_next(m_scores.size()),
+      m_lambda(static_cast<std::size_t>(model.space.cellCount())),
       m_lnK(rule.law == ResetLaw::Fixed || rule.law == ResetLaw::Half ? rule.lnK : 0.0)
 {
 }

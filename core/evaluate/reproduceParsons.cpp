@@ -184,8 +184,8 @@ namespace {
         const NoiseRun run = runOnNoise(figure, options, context);
         const double widen = options.quick ? 2.0 : 1.0; // a quarter of the pings
         Reproduction made{figure.name, figure.title, "see rows", {}, {}, {}};
-        made.cells.push_back(printed(judged(cellOf("K", "mean law", run.lnK, run.lnKInterval), figure.referenceK, figure.toleranceK * widen),
-                                     figure.paperK));
+        made.cells.push_back(printed(
+            judged(cellOf("K", "mean law", run.lnK, run.lnKInterval), figure.referenceK, figure.toleranceK * widen), figure.paperK));
         ReproducedCell reset = cellOf("reset fraction", "mean law", run.resetFraction, run.resetInterval);
         if (figure.motion == "nonManoeuvring")
             reset = judged(reset, 0.434, 0.003 * widen);
@@ -212,9 +212,10 @@ namespace {
                 means.push_back(meanOf(part));
                 highest.push_back(*std::max_element(part.begin(), part.end()));
             }
-            made.cells.push_back(printed(judged(cellOf("peak of a ping", "mean over 20 pings", meanOf(means), intervalOfBlocks(means)), 21.1, 3.0), 20.5));
-            made.cells.push_back(
-                printed(judged(cellOf("peak of a ping", "largest of 20 pings", meanOf(highest), intervalOfBlocks(highest)), 24.9, 6.0), 23.1));
+            made.cells.push_back(printed(
+                judged(cellOf("peak of a ping", "mean over 20 pings", meanOf(means), intervalOfBlocks(means)), 21.1, 3.0), 20.5));
+            made.cells.push_back(printed(
+                judged(cellOf("peak of a ping", "largest of 20 pings", meanOf(highest), intervalOfBlocks(highest)), 24.9, 6.0), 23.1));
         }
 
         Chart chart{figure.title, "threshold (nats)", "Pfa per cell", false, true, {}};
@@ -249,8 +250,17 @@ namespace {
     const FalseAlarmFigure &figure2()
     {
         static const FalseAlarmFigure figure{
-            "parsons:figure2", "Parsons 2008, Figure 2: false alarms against the threshold, non-manoeuvring model", "nonManoeuvring", 800, 20,
-            30.7, 30.75, 0.4, -1.3, -1.301, 0.005,
+            "parsons:figure2",
+            "Parsons 2008, Figure 2: false alarms against the threshold, non-manoeuvring model",
+            "nonManoeuvring",
+            800,
+            20,
+            30.7,
+            30.75,
+            0.4,
+            -1.3,
+            -1.301,
+            0.005,
             {18, 20, 22, 24, 26, 28, 30, 31, 32, 34, 36, 38, 40},
             {2.68e-2, 1.14e-2, 4.77e-3, 2.00e-3, 8.36e-4, 3.45e-4, 1.40e-4, 8.9e-5, 5.7e-5, 2.4e-5, 9.3e-6, 4.0e-6, 1.7e-6}};
         return figure;
@@ -270,9 +280,11 @@ namespace {
     {
         Reproduction made = reproduceFalseAlarms(figure2(), options, context);
         made.notes = {"200 pings to settle, then 800 of which every 20th is counted (the paper: 400).",
-                      "The law of K is inferred: K = K0 - mean of the continued scores with K0 = 0 gives the paper's K and threshold; exactly 50 % "
+                      "The law of K is inferred: K = K0 - mean of the continued scores with K0 = 0 gives the paper's K and threshold; "
+                      "exactly 50 % "
                       "resets cannot (K = -2 ln 2 and a threshold below 26.7).",
-                      "The closed form holds for each state by itself; on the bounded range axis paths run off the edges, so the simulation lies below 123 "
+                      "The closed form holds for each state by itself; on the bounded range axis paths run off the edges, so the "
+                      "simulation lies below 123 "
                       "times it, by 13 to 40 %.",
                       "Intervals from the scatter of ten blocks; a crossing belongs to a cluster of tens."};
         return made;
@@ -281,9 +293,11 @@ namespace {
     Reproduction reproduceFigure3(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made = reproduceFalseAlarms(figure3(), options, context);
-        made.notes = {"200 pings to settle, then 1440 of which every 4th is counted. The paper counted 20 pings: its 18.7 is one draw from a wide law, "
+        made.notes = {"200 pings to settle, then 1440 of which every 4th is counted. The paper counted 20 pings: its 18.7 is one draw "
+                      "from a wide law, "
                       "thresholds of such blocks have their 5th to 95th percentile at 17.8 to 22.1.",
-                      "Crossings come in avalanches that last tens of pings: the intervals, from the scatter of ten blocks, are on the narrow side."};
+                      "Crossings come in avalanches that last tens of pings: the intervals, from the scatter of ten blocks, are on the "
+                      "narrow side."};
         return made;
     }
 
@@ -454,7 +468,8 @@ namespace {
     Reproduction reproduceFigure4(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made = reproduceDetection(figure4(), options, context);
-        made.notes = {"200 targets a curve, four in a field of settled noise (the paper: 28 targets). Pd counts a target from the first ping in which "
+        made.notes = {"200 targets a curve, four in a field of settled noise (the paper: 28 targets). Pd counts a target from the "
+                      "first ping in which "
                       "its own cell, maximum over the rates, has exceeded the threshold.",
                       "The paper's figure is a picture; its text gives a latency of 11 to 12 pings at 5 dB."};
         return made;
@@ -463,7 +478,8 @@ namespace {
     Reproduction reproduceFigure5(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made = reproduceDetection(figure5(), options, context);
-        made.notes = {"As Figure 4. The paper's text gives a latency of 7 to 11 pings at 7 dB, and leaves 5 dB out: Pd was too small to be measured.",
+        made.notes = {"As Figure 4. The paper's text gives a latency of 7 to 11 pings at 7 dB, and leaves 5 dB out: Pd was too small "
+                      "to be measured.",
                       "5 dB at ping 25 is judged by a bound, Pd < 0.15, written as 0.05 ± 0.10."};
         return made;
     }
@@ -484,8 +500,11 @@ namespace {
 
     const std::vector<ChainCase> &chainCases()
     {
-        static const std::vector<ChainCase> cases{
-            {"sonar", 9.0, 12, 12, 0}, {"sonar", 7.0, 11, 9, 3}, {"sonarSteady", 9.0, 12, -1, 0}, {"sonarSteady", 7.0, 12, -1, 0}, {"sonarSteady", 5.0, 12, -1, 0}};
+        static const std::vector<ChainCase> cases{{"sonar", 9.0, 12, 12, 0},
+                                                  {"sonar", 7.0, 11, 9, 3},
+                                                  {"sonarSteady", 9.0, 12, -1, 0},
+                                                  {"sonarSteady", 7.0, 12, -1, 0},
+                                                  {"sonarSteady", 5.0, 12, -1, 0}};
         return cases;
     }
 
@@ -560,7 +579,8 @@ namespace {
 
     Reproduction reproduceFigure1(const ReproduceOptions &options, const RunContext &context)
     {
-        Reproduction made{"parsons:figure1", "Parsons 2008, Figure 1: the chain from detector to tracks", "12 runs of 60 pings", {}, {}, {}};
+        Reproduction made{
+            "parsons:figure1", "Parsons 2008, Figure 1: the chain from detector to tracks", "12 runs of 60 pings", {}, {}, {}};
         const auto count = static_cast<double>(chainCases().size());
         const int runs = options.quick ? 3 : chainRuns;
         for (std::size_t i = 0; i < chainCases().size(); ++i) {
@@ -572,9 +592,11 @@ namespace {
             const auto scores = runPings(experiment, context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
             addChainCells(chainCases()[i], scores, runs, made);
         }
-        made.notes = {"The paper's Figure 1 is a diagram: the references are an independent program's chain. Confirmed targets are judged from below, "
+        made.notes = {"The paper's Figure 1 is a diagram: the references are an independent program's chain. Confirmed targets are "
+                      "judged from below, "
                       "false confirmed tracks from above.",
-                      "A keeps its rates (3 cells and 1 beam a ping), B weaves in range by ±6 cells a ping about 2, period 20; both vanish after 45 pings."};
+                      "A keeps its rates (3 cells and 1 beam a ping), B weaves in range by ±6 cells a ping about 2, period 20; both "
+                      "vanish after 45 pings."};
         return made;
     }
 
@@ -595,13 +617,15 @@ namespace {
         for (double db = 4.0; db <= 10.0 + 1e-9; db += 0.1)
             theory.points.push_back({db, pd(db), {}});
         for (std::size_t i = 0; i < snrDb.size(); ++i) {
-            made.cells.push_back(printed(judged(cellOf("conventional", formatNumber(snrDb[i]) + " dB", 100.0 * pd(snrDb[i])), reference[i], lastDigit[i]),
-                                         paper[i]));
+            made.cells.push_back(printed(
+                judged(cellOf("conventional", formatNumber(snrDb[i]) + " dB", 100.0 * pd(snrDb[i])), reference[i], lastDigit[i]),
+                paper[i]));
             points.points.push_back({snrDb[i], 0.01 * paper[i], {}});
         }
         chart.curves = {theory, points};
         made.charts.push_back(chart);
-        made.notes = {"Closed form: y = noise + S exceeds T with probability e^-(T - S). The paper rounds S: its 1.5 % is S = 5, its 30.1 % is S = 8."};
+        made.notes = {"Closed form: y = noise + S exceeds T with probability e^-(T - S). The paper rounds S: its 1.5 % is S = 5, its "
+                      "30.1 % is S = 8."};
         return made;
     }
 

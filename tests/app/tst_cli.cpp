@@ -389,11 +389,11 @@ void tst_cli::pingsFromAScene()
     const QStringList settings{"--preset", "sonar", "--set", "decide.thresholdNats=20"};
     QCOMPARE(run(m_folder, QStringList{"detect", "pings.json", "--events", "a.csv"} + settings).code, 0);
     QCOMPARE(run(m_folder, QStringList{"detect", "--frames", "P.npy", "--grid", "P.grid.json", "--events", "b.csv"} + settings).code, 0);
-    QVERIFY(content("a.csv").startsWith("event,t_onset,t_detect,t_end,range,bearing,range_per_s,bearing_per_s,statistic,confirmed,open\n"));
+    QVERIFY(content("a.csv").startsWith("event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,open,range_per_s,bearing_per_s\n"));
     QCOMPARE(content("a.csv"), content("b.csv"));
     bool isFound = false;
     for (const auto &event : numbersOf(content("a.csv"))) // 20 m and 9° in 40 s
-        isFound = isFound || (event[9] == 1.0 && std::abs(event[6] - 0.5) < 0.1 && std::abs(event[7] - 0.225) < 0.1);
+        isFound = isFound || (event[8] == 1.0 && std::abs(event[10] - 0.5) < 0.1 && std::abs(event[11] - 0.225) < 0.1);
     QVERIFY2(isFound, content("a.csv").data());
     const Outcome wrong = run(m_folder, {"simulate", "pings.json", "--out", "P.wav"});
     QCOMPARE(wrong.code, 2);

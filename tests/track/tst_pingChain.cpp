@@ -67,7 +67,8 @@ std::unique_ptr<DetectionChain> run(const SimulatedPings &pings, const ChainSett
             std::make_unique<ModelBank>(std::vector<ModelBank::Member>{{steady, {ResetLaw::Mean}, 8.0}, {turning, {ResetLaw::Mean}, 0.0}}),
             chainSettings);
     else
-        chain = std::make_unique<DetectionChain>(turning, pings.grid(), std::make_unique<Smd>(turning, ResetRule{ResetLaw::Mean}), chainSettings);
+        chain = std::make_unique<DetectionChain>(turning, pings.grid(), std::make_unique<Smd>(turning, ResetRule{ResetLaw::Mean}),
+                                                 chainSettings);
     std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
     std::vector<float> statistic(y.size());
     for (Index ping = 0; ping < pings.time().count; ++ping) {
@@ -191,8 +192,10 @@ void tst_pingChain::pathTermsAddUp()
                 if (scores[static_cast<std::size_t>(state)] > scores[static_cast<std::size_t>(best)])
                     best = state;
             const std::vector<PathStep> path = chain->detectorPathInto(best, model);
-            QVERIFY2(std::abs(path.back().score - static_cast<double>(scores[static_cast<std::size_t>(best)])) < 1e-3,
-                     qPrintable(QString("cell %1: %2, detector %3").arg(cell).arg(path.back().score).arg(scores[static_cast<std::size_t>(best)])));
+            QVERIFY2(
+                std::abs(path.back().score - static_cast<double>(scores[static_cast<std::size_t>(best)])) < 1e-3,
+                qPrintable(
+                    QString("cell %1: %2, detector %3").arg(cell).arg(path.back().score).arg(scores[static_cast<std::size_t>(best)])));
         }
     }
 }
