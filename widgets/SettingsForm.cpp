@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QSet>
 #include <QVBoxLayout>
 
 namespace faintline {
@@ -70,12 +71,8 @@ FormSection &SettingsForm::section(const QString &prefix)
 
 void SettingsForm::addRow(const Field<AnalysisSettings> &field)
 {
-    const AnalysisSettings defaults;
-    const auto value = field.get(defaults);
-    if (!value)
-        return;
     const QString name = QString::fromStdString(field.name);
-    auto *row = new SettingRow(field, settingLabel(name), *value);
+    auto *row = new SettingRow(field, settingLabel(name), defaultValue(field));
     row->setLabelWidth(labelWidth);
     connect(row, &SettingRow::edited, this,
             [this, name](const FieldValue &edited) { emit settingEdited(name, edited); });
@@ -87,15 +84,21 @@ void SettingsForm::setSettings(const AnalysisSettings &settings)
 {
     m_settings = settings;
     clearErrors();
+    QSet<QString> used; // sections of which something is held: the chosen detector's, not the others'
     for (const auto &field : AnalysisSettings::fields()) {
-        SettingRow *row = m_rows.value(QString::fromStdString(field.name));
+        const QString name = QString::fromStdString(field.name);
+        SettingRow *row = m_rows.value(name);
         const auto value = field.get(settings);
         if (!row)
             continue;
         row->setVisible(value.has_value());
-        if (value)
-            row->setValue(*value);
+        if (!value)
+            continue;
+        row->setValue(*value);
+        used.insert(prefixOf(name));
     }
+    for (auto section = m_sections.begin(); section != m_sections.end(); ++section)
+        section.value()->setVisible(used.contains(section.key()));
 }
 
 void SettingsForm::setError(const QString &name, const QString &sentence)

@@ -49,6 +49,20 @@ QString settingLabel(const QString &name)
         {"model.rounding", "Rounding"},
         {"model.likelihood", "Signal law"},
         {"model.snr", "Design SNR"},
+        {"model.motion", "Motion"},
+        {"detector.kind", "Kind"},
+        {"pOfN.p", "P, frames needed"},
+        {"pOfN.n", "N, frames in window"},
+        {"pOfN.r1", "Event threshold r1"},
+        {"pOfN.r2", "Mean threshold r2"},
+        {"pOfN.widthCells", "Bandwidth"},
+        {"integrator.shape", "Shape"},
+        {"integrator.durationWindows", "Duration"},
+        {"blockViterbi.durationWindows", "Block length"},
+        {"shiryaevRoberts.lnK", "ln K"},
+        {"decide.forgetCells", "Forget half width"},
+        {"decide.resets", "Forget under tracks"},
+        {"decide.inhibits", "Inhibit round tracks"},
         {"smd.reset", "Reset rule"},
         {"smd.lnK", "ln K"},
         {"decide.falseAlarmsPerHour", "False alarms"},
@@ -74,7 +88,10 @@ QString stageLabel(const QString &prefix)
     static const QHash<QString, QString> labels{
         {"selection", "Selection"},    {"spectrogram", "Spectrogram"},
         {"noise", "Noise background"}, {"model", "Signal model"},
-        {"smd", "Detector"},           {"decide", "Threshold"},
+        {"detector", "Detector"},      {"decide", "Threshold"},
+        {"smd", "Sequential Markov"},  {"pOfN", "P out of N"},
+        {"integrator", "Integrator"},  {"blockViterbi", "Fixed-window Viterbi"},
+        {"shiryaevRoberts", "Shiryaev–Roberts"},
         {"track", "Tracks"},
     };
     const auto found = labels.constFind(prefix);
@@ -96,6 +113,16 @@ QString choiceLabel(const QString &choice)
         {"calibrated", "calibrated"},
         {"half", "regulated"},
         {"mean", "Parsons' mean"},
+        {"smd", "sequential Markov"},
+        {"pOfN", "P out of N"},
+        {"integrator", "integrator"},
+        {"energy", "single-frame energy"},
+        {"blockViterbi", "fixed-window Viterbi"},
+        {"shiryaevRoberts", "Shiryaev–Roberts"},
+        {"slopes", "slope set"},
+        {"nonManoeuvring", "rates kept"},
+        {"manoeuvring", "manoeuvring"},
+        {"bank", "both in parallel"},
         {"falseAlarmsPerHour", "false alarms/h"},
         {"pfaPerCell", "Pfa per cell"},
         {"thresholdNats", "nats"},
@@ -110,7 +137,9 @@ bool isSeldomUsed(const QString &name)
                                      "model.rounding",         "model.likelihood",    "smd.lnK",
                                      "decide.linkCells",       "decide.inhibitCells", "track.windowCells",
                                      "track.decayNats",        "track.ceilingNats",   "track.smoothingFrames",
-                                     "spectrogram.binsPerCell"};
+                                     "spectrogram.binsPerCell", "model.motion",        "decide.forgetCells",
+                                     "decide.resets",         "decide.inhibits",     "pOfN.r2",
+                                     "pOfN.widthCells"};
     return names.contains(name);
 }
 

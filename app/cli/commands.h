@@ -3,7 +3,9 @@
 #include "analysis/AnalysisSettings.h"
 #include "base/RunContext.h"
 #include "recording/openRecording.h"
+#include "spectrum/SimulatedPings.h"
 
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -54,6 +56,9 @@ void addMerge(CLI::App &app, Common &common);
 void addCalibrate(CLI::App &app, Common &common);
 void addInject(CLI::App &app, Common &common);
 void addSequential(CLI::App &app, Common &common);
+
+/// The simulated pings of a scene file whose kind is "pings"; nothing if the file is another.
+std::shared_ptr<const SimulatedPings> openPings(const std::string &path);
 
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);

@@ -61,6 +61,8 @@ AnalysisSettings AnalysisOptions::settings() const
     }
     if (!preset.empty())
         settings = faintline::preset(preset).settings;
+    else if (session.empty() && openPings(file))
+        settings = faintline::preset("sonar").settings;
     if (channel >= 0)
         settings.selection.channel = channel;
     if (from != 0.0)
@@ -86,10 +88,23 @@ RecordingPointer AnalysisOptions::recording() const
     return openAny(file, open);
 }
 
+std::shared_ptr<const SimulatedPings> openPings(const std::string &path)
+{
+    if (!path.ends_with(".json"))
+        return nullptr;
+    const Json json = readJsonFile(path);
+    return isPingScene(json) ? std::make_shared<SimulatedPings>(pingSceneFromJson(json)) : nullptr;
+}
+
 RecordingPointer openAny(const std::string &path, const OpenOptions &options)
 {
     if (path.ends_with(".json"))
-        return std::make_shared<SimulatedRecording>(lineSceneFromJson(readJsonFile(path)));
+    {
+        const Json json = readJsonFile(path);
+        if (isPingScene(json))
+            throw Error(path, "is a scene of sonar pings, not a recording; 'detect', 'simulate' and 'info' take it");
+        return std::make_shared<SimulatedRecording>(lineSceneFromJson(json));
+    }
     return openRecording(path, options);
 }
 

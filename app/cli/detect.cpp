@@ -2,15 +2,18 @@
 
 #include "analysis/analyse.h"
 #include "analysis/explain.h"
+#include "analysis/regulation.h"
 #include "base/json.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "base/AtomicFile.h"
 #include "detect/SumDetector.h"
+#include "evaluate/trackScore.h"
 #include "exchange/writeEvents.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -39,24 +42,49 @@ namespace {
                     100.0 * analysis.calibration->continuedFraction, analysis.threshold);
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
         std::printf(": %.3g false alarms an hour on noise\n", perHour);
+        if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
+            std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s: strong signals drag it down\n",
+                        analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(), time.value(static_cast<double>(dragged.front())));
         std::printf("%zu event(s)\n", found.size());
         for (const Event &e : found) {
             std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
                 std::printf(" %.8g %s", e.position[axis], analysis.grid().axes[axis].unit.c_str());
-            std::printf(", drift %.3g %s/s, %.1f nat%s\n", e.driftPerSecond, analysis.grid().axes.back().unit.c_str(), e.statistic,
-                        e.isOpen ? ", still there at the end" : "");
+            for (std::size_t axis = 0; axis < e.position.size(); ++axis)
+                std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], analysis.grid().axes[axis].unit.c_str());
+            std::printf(", %.1f nat%s%s%s\n", e.statistic, e.isConfirmed ? "" : ", not confirmed",
+                        e.isOpen ? ", still there at the end" : "",
+                        !analysis.bank.empty() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
         }
+    }
+
+    /// Simulated pings know their targets: what was found of them.
+    void printScore(const Analysis &analysis, const SimulatedPings &pings)
+    {
+        const TrackScore score = scoreTracks(analysis.tracks, pings.truth(), pings.grid(), {3, 1});
+        for (std::size_t i = 0; i < score.targets.size(); ++i) {
+            const TargetScore &own = score.targets[i];
+            std::printf("target %zu: ", i + 1);
+            if (!own.isDetected()) {
+                std::printf("not found\n");
+                continue;
+            }
+            std::printf("found in its ping %td, %s, %d track(s), RMS error %.2f ranges and %.2f beams, followed in %td of %td pings\n",
+                        own.detectLatency,
+                        own.isConfirmed() ? ("confirmed in " + std::to_string(own.confirmLatency)).c_str() : "not confirmed",
+                        own.tracks, own.rmsCells[0], own.rmsCells[1], own.matchedPoints, own.presentPings);
+        }
+        std::printf("false tracks: %d, of them confirmed: %d\n", score.falseTracks, score.falseConfirmed);
     }
 
     std::shared_ptr<const Analysis> detectInFrames(const DetectOptions &options, const RunContext &context, const StatisticSink &sink,
                                                    const NormalisedFramesPointer &frames)
     {
         AnalysisSettings settings = options.analysis.settings();
+        if (options.model.empty())
+            return analyse(frames, settings, context, sink);
         MarkovModel model;
-        if (options.model.empty()) {
-            model = makeModel(settings.model, frames->grid());
-        } else {
+        {
             const ModelFile file = readModelFile(options.model);
             model = file.model;
             for (const KinematicAxis &axis : model.space.axes())
@@ -90,8 +118,11 @@ namespace {
         NormalisedFramesPointer frames;
         RecordingPointer recording;
         std::vector<Index> shape;
-        if (!options.frames.empty()) {
+        if (!options.frames.empty())
             frames = readFrames(options.frames, options.grid);
+        else
+            frames = openPings(options.analysis.file);
+        if (frames) {
             shape.push_back(frames->time().count);
             for (const Axis &axis : frames->grid().axes)
                 shape.push_back(axis.count);
@@ -121,6 +152,8 @@ namespace {
             writer->finish();
         if (options.summary)
             printSummary(*analysis);
+        if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)
+            printScore(*analysis, *pings);
     }
 
     void printExplanation(const Explanation &explanation, const Analysis &analysis, bool asJson)

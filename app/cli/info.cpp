@@ -43,6 +43,31 @@ namespace {
             std::printf("note          %s\n", note.c_str());
     }
 
+    void print(const SimulatedPings &pings, const std::string &file)
+    {
+        const PingScene &scene = pings.scene();
+        const Axis &range = pings.grid().axes[0];
+        const Axis &bearing = pings.grid().axes[1];
+        std::printf("file          %s\n", file.c_str());
+        std::printf("container     scene of sonar pings, seed %d\n", scene.seed);
+        std::printf("pings         %d, one every %s s\n", scene.pings, formatNumber(scene.priSeconds).c_str());
+        std::printf("range         %td cells of %s m, %s … %s m\n", range.count, formatNumber(range.step).c_str(),
+                    formatNumber(range.first).c_str(), formatNumber(range.last()).c_str());
+        std::printf("bearing       %td beams of %s°%s\n", bearing.count, formatNumber(bearing.step).c_str(),
+                    bearing.cyclic ? ", all round" : "");
+        std::printf("looks         %d\n", scene.looks);
+        if (scene.reverberation)
+            std::printf("reverberation %s dB over the noise in the first range cell\n", formatNumber(scene.reverberation->levelDb).c_str());
+        for (std::size_t i = 0; i < scene.targets.size(); ++i) {
+            const PingTarget &target = scene.targets[i];
+            const TruthTarget &truth = pings.truth().targets[i];
+            std::printf("target %zu      %s dB, %s, pings %d … %td, from %.6g m, %.4g° to %.6g m, %.4g°\n", i + 1,
+                        formatNumber(target.snrDb).c_str(), std::string(echoNames[static_cast<std::size_t>(target.echo)]).c_str(),
+                        truth.firstPing, truth.firstPing + std::ssize(truth.cell) - 1, truth.rangeMetres.front(),
+                        truth.bearingDegrees.front(), truth.rangeMetres.back(), truth.bearingDegrees.back());
+        }
+    }
+
     std::string rangeOf(const FieldInfo &field)
     {
         switch (field.kind) {
@@ -81,6 +106,13 @@ void addInfo(CLI::App &app, Common &)
     command->add_option("--raw-type", options->open.rawType, "Sample type of a raw file, as in SigMF");
     command->add_option("--raw-rate", options->open.rawRateHz, "Sample rate of a raw file, Hz");
     command->callback([options] {
+        if (const auto pings = openPings(options->file)) {
+            if (options->json)
+                std::printf("%s\n", toJson(pings->scene()).dump(2).c_str());
+            else
+                print(*pings, options->file);
+            return;
+        }
         const RecordingPointer recording = openAny(options->file, options->open);
         if (options->json)
             std::printf("%s\n", toJson(recording->info()).dump(2).c_str());
@@ -95,15 +127,13 @@ void addDescribe(CLI::App &app, Common &)
     CLI::App *command = app.add_subcommand("describe", "Every setting: name, unit, range, default, sentence; and the presets");
     command->add_option("SETTING", *name, "One setting, or the beginning of several");
     command->callback([name] {
-        const AnalysisSettings defaults;
         bool any = false;
         for (const auto &field : AnalysisSettings::fields()) {
             if (!field.name.starts_with(*name))
                 continue;
             any = true;
-            const auto value = field.get(defaults);
             std::printf("%s%s%s\n    %s; default %s\n    %s\n", field.name.c_str(), field.unit.empty() ? "" : ", ", field.unit.c_str(),
-                        rangeOf(field).c_str(), value ? formatFieldValue(*value).c_str() : "-", field.sentence.c_str());
+                        rangeOf(field).c_str(), formatFieldValue(defaultValue(field)).c_str(), field.sentence.c_str());
         }
         if (!any)
             settingField(*name); // says which is the nearest

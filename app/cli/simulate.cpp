@@ -2,10 +2,12 @@
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
+#include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "recording/ScanScene.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
+#include "spectrum/SimulatedPings.h"
 
 #include <CLI/CLI.hpp>
 
@@ -38,6 +40,27 @@ namespace {
             writeTextFile(truth, scanTruth(scene, trajectory).dump(2) + "\n");
     }
 
+    /// Frames of shape (pings, ranges, beams), and the grid they lie on beside them: NAME.npy, NAME.grid.json.
+    void simulatePings(PingScene scene, int seed, const std::string &out, const std::string &truth, const RunContext &context)
+    {
+        if (!out.ends_with(".npy"))
+            throw Error(out, "pings are written as frames: give a name that ends in .npy");
+        if (seed >= 0)
+            scene.seed = seed;
+        const SimulatedPings pings(scene);
+        NumPyWriter writer(out, {pings.time().count, pings.grid().axes[0].count, pings.grid().axes[1].count});
+        std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
+        for (Index ping = 0; ping < pings.time().count; ++ping) {
+            context.checkpoint(static_cast<double>(ping) / static_cast<double>(pings.time().count), "simulating pings");
+            pings.read(ping, 1, y);
+            writer.write(y);
+        }
+        writeTextFile(out.substr(0, out.size() - 4) + ".grid.json", gridFileText({pings.grid(), pings.time()}));
+        if (!truth.empty())
+            writeTextFile(truth, toJson(pings.truth()).dump(2) + "\n");
+        writer.finish();
+    }
+
 } // namespace
 
 void addSimulate(CLI::App &app, Common &common)
@@ -50,9 +73,10 @@ void addSimulate(CLI::App &app, Common &common)
         std::string type = "float32";
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("simulate", "Make a recording of known lines in noise, and its truth");
+    CLI::App *command =
+        app.add_subcommand("simulate", "Make a recording of known lines in noise, or pings with known targets, and its truth");
     command->add_option("SCENARIO", options->scene, "The scene, JSON")->required();
-    command->add_option("--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; a radar's scans: .npy")->required();
+    command->add_option("--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; a sonar's pings or a radar's scans: .npy")->required();
     command->add_option("--truth", options->truth, "Write the truth, .json");
     command->add_option("--seed", options->seed, "Seed in place of the scene's own")->check(CLI::Range(0, 2147483647));
     command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
@@ -60,6 +84,10 @@ void addSimulate(CLI::App &app, Common &common)
         const Json json = readJsonFile(options->scene);
         if (json.is_object() && json.value("kind", Json()) == "scans") {
             simulateScans(scanSceneFromJson(json), options->seed, options->out, options->truth, common.context());
+            return;
+        }
+        if (isPingScene(json)) {
+            simulatePings(pingSceneFromJson(json), options->seed, options->out, options->truth, common.context());
             return;
         }
         LineScene scene = lineSceneFromJson(json);

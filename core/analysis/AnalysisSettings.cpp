@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/json.h"
+#include "model/sonarModels.h"
 
 #include <algorithm>
 #include <utility>
@@ -71,12 +72,35 @@ namespace {
         return row.back();
     }
 
+    /// Parsons' chain with the constants that were found to do well (README of the core).
+    AnalysisSettings sonarSettings()
+    {
+        AnalysisSettings sonar;
+        sonar.model.motion = Motion::Manoeuvring;
+        sonar.model.likelihood = LikelihoodKind::Linear;
+        sonar.detector = SmdSettings{SmdSettings::Reset::Mean, 0.0};
+        sonar.decide.by = DecideSettings::By::Nats;
+        sonar.decide.thresholdNats = 24.0;
+        sonar.decide.linkCells = {3.0, 1.0};
+        sonar.decide.inhibitCells = {3.0, 1.0};
+        sonar.decide.forgetCells = {12.0, 1.0};
+        sonar.track.windowCells = {12.0, 1.0};
+        sonar.track.decayNats = 0.5;
+        sonar.track.ceilingNats = 10.0;
+        sonar.track.endNats = 8.0;
+        sonar.track.confirmNats = 6.0;
+        sonar.track.confirmFrames = 3;
+        return sonar;
+    }
+
 } // namespace
 
 const std::vector<Field<ModelSettings>> &ModelSettings::fields()
 {
     using S = ModelSettings;
     static const std::vector<Field<S>> table{
+        field(&S::motion, "motion", motionNames,
+              "How signals move: slopes as given here, or a sonar's targets that keep their rates, that turn, or both kinds in parallel."),
         field(&S::lowestSlope, "lowestSlope", "bins/frame", -100.0, 100.0, "Most negative slope a line may have."),
         field(&S::highestSlope, "highestSlope", "bins/frame", -100.0, 100.0, "Most positive slope a line may have."),
         field(&S::slopeChange, "slopeChange", "", 0.0, 1.0,
@@ -104,7 +128,11 @@ const std::vector<Field<DecideSettings>> &DecideSettings::fields()
         field(&S::linkCells, "linkCells", "bins", 0.0, 1000.0,
               "Threshold crossings this near belong to one event, per axis; the last number repeats."),
         field(&S::inhibitCells, "inhibitCells", "cells", 0.0, 1000.0,
-              "Half the width, in resolution cells, kept from the detector round a track."),
+              "Half the width, in resolution cells, kept from the detector round a track, per axis; the last number repeats."),
+        field(&S::forgetCells, "forgetCells", "cells", 0.0, 1000.0,
+              "Half the width that the detector forgets round a new track, per axis; none: as inhibitCells."),
+        field(&S::resets, "resets", "Whether the detector forgets what a track has taken over."),
+        field(&S::inhibits, "inhibits", "Whether the data round a track are kept from the detector."),
     };
     return table;
 }
@@ -137,6 +165,15 @@ const Field<AnalysisSettings> &settingField(std::string_view name)
         return editDistance(a.name, name) < editDistance(b.name, name);
     });
     throw Error(std::string(name), "is no setting; the nearest is " + nearest->name + " (all of them: faintline-cli describe)");
+}
+
+FieldValue defaultValue(const Field<AnalysisSettings> &field)
+{
+    AnalysisSettings settings;
+    const std::string_view stage = std::string_view(field.name).substr(0, field.name.find('.'));
+    if (const auto found = std::find(detectorNames.begin(), detectorNames.end(), stage); found != detectorNames.end())
+        settings.detector = detectorOfKind(static_cast<std::size_t>(found - detectorNames.begin()));
+    return field.get(settings).value();
 }
 
 void setSetting(AnalysisSettings &settings, std::string_view name, std::string_view text)
@@ -227,6 +264,15 @@ const std::vector<Preset> &presets()
         AnalysisSettings whistles;
         whistles.model.lowestSlope = -4;
         whistles.model.highestSlope = 4;
+        AnalysisSettings sonar = sonarSettings();
+        all.push_back({"sonar", "Active sonar, targets that turn: Parsons' manoeuvring model.", sonar});
+        sonar.model.motion = Motion::NonManoeuvring;
+        sonar.decide.thresholdNats = 40.0;
+        sonar.track.decayNats = 1.0;
+        all.push_back({"sonarSteady", "Active sonar, targets that keep their rates: Parsons' non-manoeuvring model.", sonar});
+        sonar.model.motion = Motion::Bank;
+        all.push_back({"sonarBank", "Active sonar, both models in parallel at equal false-alarm probability.", sonar});
+
         all.push_back({"whistles", "Fast sweeps such as whistles and calls: nine slopes.", whistles});
         return all;
     }();
@@ -246,11 +292,20 @@ const Preset &preset(std::string_view name)
 
 MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
 {
+    if (settings.motion != Motion::Slopes)
+        return sonarModel(grid, settings.motion == Motion::Manoeuvring ? manoeuvring() : nonManoeuvring());
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)
         axes.push_back({axis.name, axis.count, axis.cyclic, settings.lowestSlope, settings.highestSlope - settings.lowestSlope + 1,
                         settings.slopeChange, {}, settings.rounding});
     return {StateSpace(std::move(axes)), Likelihood(settings.likelihood, settings.snr), 1.0};
+}
+
+std::vector<MarkovModel> makeModels(const ModelSettings &settings, const Grid &grid)
+{
+    if (settings.motion != Motion::Bank)
+        return {makeModel(settings, grid)};
+    return {sonarModel(grid, nonManoeuvring()), sonarModel(grid, manoeuvring())};
 }
 
 } // namespace faintline

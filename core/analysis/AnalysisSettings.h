@@ -14,8 +14,18 @@
 
 namespace faintline {
 
+/// How signals move from frame to frame.
+enum class Motion {
+    Slopes,         ///< a slope set and the law of its change, alike on every axis
+    NonManoeuvring, ///< sonar targets that keep their rates (sonarModels.h)
+    Manoeuvring,    ///< sonar targets that turn
+    Bank            ///< both of these in parallel (ModelBank)
+};
+inline constexpr std::array<std::string_view, 4> motionNames{"slopes", "nonManoeuvring", "manoeuvring", "bank"};
+
 /// What a signal is taken to do: how its slope changes, and how it differs from noise.
 struct ModelSettings {
+    Motion motion = Motion::Slopes;
     int lowestSlope = -2;  ///< slope set, in bins per frame
     int highestSlope = 2;
     std::vector<double> slopeChange{1.0 / 3.0, 1.0 / 3.0}; ///< h(0), h(1), …; h(0) + 2 Σ h(i) = 1
@@ -37,7 +47,10 @@ struct DecideSettings {
     double thresholdNats = 20.0;
     By by = By::FalseAlarmsPerHour;  ///< which of the three counts; setting one of them makes it count
     std::vector<double> linkCells{3.0};
-    double inhibitCells = 2.5;
+    std::vector<double> inhibitCells{2.5}; ///< per axis; the last number repeats
+    std::vector<double> forgetCells;       ///< per axis; empty: as inhibitCells
+    bool resets = true;                    ///< the detector forgets what a track has taken over
+    bool inhibits = true;                  ///< the data round a track are kept from the detector
 
     static const std::vector<Field<DecideSettings>> &fields();
     bool operator==(const DecideSettings &) const = default;
@@ -60,6 +73,9 @@ struct AnalysisSettings {
 
 /// The table's row of that name. Throws Error that names the nearest known ones.
 const Field<AnalysisSettings> &settingField(std::string_view name);
+
+/// Its default; of a detector's own settings, with that detector chosen.
+FieldValue defaultValue(const Field<AnalysisSettings> &field);
 
 /// Sets one setting from text, checked. Throws Error.
 void setSetting(AnalysisSettings &settings, std::string_view name, std::string_view text);
@@ -87,7 +103,10 @@ struct Preset {
 const std::vector<Preset> &presets();
 const Preset &preset(std::string_view name);
 
-/// The model for frames on a grid: the slope set and law on every axis.
+/// The model for frames on a grid: the slope set and law on every axis, or that of a sonar's targets; a bank's first one.
 MarkovModel makeModel(const ModelSettings &settings, const Grid &grid);
+
+/// All models of a bank, or the only one.
+std::vector<MarkovModel> makeModels(const ModelSettings &settings, const Grid &grid);
 
 } // namespace faintline

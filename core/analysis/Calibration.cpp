@@ -419,13 +419,36 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
     });
 }
 
-std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &model, const AnalysisSettings &settings,
+MarkovModel handyPiece(const MarkovModel &model)
+{
+    constexpr Index many = 20000;
+    constexpr Index handy = 5000;
+    if (model.space.cellCount() <= many)
+        return model;
+    std::vector<KinematicAxis> axes = model.space.axes();
+    KinematicAxis *longest = nullptr;
+    for (KinematicAxis &axis : axes)
+        if (!axis.cyclic && (!longest || axis.cells > longest->cells))
+            longest = &axis;
+    if (!longest)
+        return model;
+    const Index others = model.space.cellCount() / longest->cells;
+    longest->cells = std::clamp<Index>(handy / others, 4 * longest->largestDisplacement() + 1, longest->cells);
+    longest->cyclic = true;
+    return {StateSpace(std::move(axes)), model.likelihood, model.transitionScale};
+}
+
+std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &whole, const AnalysisSettings &settings,
                                                                const RunContext &context, double cellFrames)
 {
+    const MarkovModel model = handyPiece(whole);
     Grid grid;
     for (const KinematicAxis &axis : model.space.axes())
         grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
-    const auto frames = static_cast<Index>(std::clamp(4e6 / static_cast<double>(grid.size()), 600.0, 4000.0));
+    // Sonar's hundred rates a cell cost more than they teach: their paths overlap.
+    constexpr double mostStates = 1.2e8; ///< a segment
+    const double longest = std::min(4e6 / static_cast<double>(grid.size()), mostStates / static_cast<double>(model.space.stateCount()));
+    const auto frames = static_cast<Index>(std::clamp(longest, 600.0, 4000.0));
     const auto segment = [&](int number) -> NormalisedFramesPointer {
         Random random(1000, static_cast<std::uint64_t>(number));
         std::vector<float> values(static_cast<std::size_t>(frames * grid.size()));
@@ -433,7 +456,8 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
             value = static_cast<float>(random.exponential());
         return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
     };
-    const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / static_cast<double>(frames * grid.size()))));
+    const double wanted = std::min(cellFrames, 4.0 * mostStates / static_cast<double>(model.space.planeCount()));
+    const int segments = std::max(4, static_cast<int>(std::ceil(wanted / static_cast<double>(frames * grid.size()))));
     return calibrateOn(segment, segments, model, settings, context);
 }
 

@@ -1,6 +1,7 @@
 #include "analysis/analyse.h"
 
 #include "analysis/chain.h"
+#include "analysis/regulation.h"
 #include "spectrum/NoiseNormaliser.h"
 
 #include <algorithm>
@@ -111,9 +112,10 @@ namespace {
         analysis.tracks = chain->tracks();
     }
 
-    /// Least-squares slope of the track's position against time, per second.
-    double driftOf(const Track &track, const Axis &time, const Axis &axis)
+    /// Least-squares slope of the track's position along an axis against time, per second.
+    double driftOf(const Track &track, const Axis &time, const Grid &grid, std::size_t along)
     {
+        const Axis &axis = grid.axes[along];
         const auto n = static_cast<double>(track.points.size());
         if (n < 2.0)
             return 0.0;
@@ -121,9 +123,15 @@ namespace {
         double sumF = 0.0;
         double sumTT = 0.0;
         double sumTF = 0.0;
+        double before = 0.0;
         for (const TrackPoint &point : track.points) {
             const double t = static_cast<double>(point.frame - track.points.front().frame) * time.step;
-            const double f = axis.value(static_cast<double>(point.cell % axis.count)) - axis.first;
+            double f = axis.step * static_cast<double>(point.cell / grid.stride(along) % axis.count);
+            if (axis.cyclic && &point != &track.points.front()) {
+                const double turn = axis.step * static_cast<double>(axis.count);
+                f += turn * std::round((before - f) / turn);
+            }
+            before = f;
             sumT += t;
             sumF += f;
             sumTT += t * t;
@@ -151,7 +159,10 @@ std::vector<Event> events(const Analysis &analysis)
         const std::vector<Index> coordinates = grid.coordinates(point.cell);
         for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
             event.position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
-        event.driftPerSecond = driftOf(track, time, grid.axes.back());
+        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
+            event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
+        event.driftPerSecond = event.ratesPerSecond.back();
+        event.model = track.model;
         event.statistic = track.peakStatistic;
         event.isConfirmed = track.isConfirmed;
         event.isOpen = track.isOpen;
@@ -190,18 +201,66 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
     return analysis;
 }
 
+namespace {
+
+    std::shared_ptr<Analysis> analysisOf(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings)
+    {
+        checkSettings(settings);
+        auto analysis = std::make_shared<Analysis>();
+        analysis->settings = settings;
+        analysis->frames = std::move(frames);
+        analysis->model = model;
+        analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
+        return analysis;
+    }
+
+    /// Calibrates every model and shifts their statistics so that each crosses the threshold with the first one's probability.
+    void calibrateBank(Analysis &analysis, const std::vector<MarkovModel> &models, const RunContext &context)
+    {
+        const auto count = static_cast<double>(models.size());
+        for (std::size_t i = 0; i < models.size(); ++i)
+            analysis.bank.push_back(
+                {models[i],
+                 calibrateOnIndependentCells(models[i], analysis.settings,
+                                             context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)),
+                 0.0});
+        analysis.calibration = analysis.bank.front().calibration;
+        analysis.threshold = thresholdNats(analysis.settings.decide, *analysis.calibration, analysis.cellFramesPerHour);
+        const double pfa = analysis.calibration->exceedanceAt(analysis.threshold);
+        for (BankMember &member : analysis.bank)
+            member.offset = member.calibration->thresholdForPfa(pfa) - analysis.calibration->thresholdForPfa(pfa);
+    }
+
+    void regulateAndRun(Analysis &analysis, const RunContext &context, const StatisticSink &sink)
+    {
+        if (const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector))
+            analysis.lnKBand = regulationBand(analysis.model, resetRule(*smd, analysis.calibration->lnK), context.part(0.0, 0.1));
+        run(analysis, context.part(0.1, 1.0), sink);
+    }
+
+} // namespace
+
+std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings, const RunContext &context,
+                                        const StatisticSink &sink)
+{
+    const std::vector<MarkovModel> models = makeModels(settings.model, frames->grid());
+    if (models.size() == 1)
+        return analyse(std::move(frames), models.front(), settings, context, sink);
+    if (!std::holds_alternative<SmdSettings>(settings.detector))
+        throw Error("model.motion = bank", "is for the sequential Markov detector; choose detector.kind = smd");
+    const auto analysis = analysisOf(std::move(frames), models.front(), settings);
+    calibrateBank(*analysis, models, context.part(0.0, 0.5));
+    regulateAndRun(*analysis, context.part(0.5, 1.0), sink);
+    return analysis;
+}
+
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,
                                         const RunContext &context, const StatisticSink &sink)
 {
-    checkSettings(settings);
-    auto analysis = std::make_shared<Analysis>();
-    analysis->settings = settings;
-    analysis->frames = std::move(frames);
-    analysis->model = model;
+    const auto analysis = analysisOf(std::move(frames), model, settings);
     analysis->calibration = calibrateOnIndependentCells(model, settings, context.part(0.0, 0.5));
-    analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
     analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
-    run(*analysis, context.part(0.5, 1.0), sink);
+    regulateAndRun(*analysis, context.part(0.5, 1.0), sink);
     return analysis;
 }
 

@@ -3,6 +3,7 @@
 #include "analysis/AnalysisSettings.h"
 #include "analysis/Calibration.h"
 #include "base/RunContext.h"
+#include "detect/NoiseBand.h"
 #include "recording/Recording.h"
 #include "spectrum/NormalisedFrames.h"
 #include "spectrum/PeakPyramid.h"
@@ -16,6 +17,13 @@
 
 namespace faintline {
 
+/// One of several models that run in parallel.
+struct BankMember {
+    MarkovModel model;
+    std::shared_ptr<const Calibration> calibration;
+    double offset = 0.0; ///< taken off its statistic, nat: equal false-alarm probability at the threshold
+};
+
 /// What a run of the chain leaves behind. Immutable; parts that a change of settings leaves valid are shared.
 struct Analysis {
     AnalysisSettings settings;
@@ -23,6 +31,7 @@ struct Analysis {
     NormalisedFramesPointer frames;       ///< random access, recomputed on demand
     std::shared_ptr<const NoiseBackground> background; ///< null for ready-made frames
     MarkovModel model;
+    std::vector<BankMember> bank;         ///< several models in parallel, `model` the first; empty: `model` alone
     std::shared_ptr<const Calibration> calibration;
     double threshold = 0.0;               ///< nat
     double cellFramesPerHour = 0.0;       ///< cells × frames of an hour of this recording
@@ -30,6 +39,7 @@ struct Analysis {
     std::shared_ptr<const PeakPyramid> statistic; ///< D in nats
     std::vector<Track> tracks;            ///< ordered by detection, then cell
     std::vector<float> lnK;               ///< per frame
+    NoiseBand lnKBand;                    ///< where it stays on noise, under a law that regulates it (regulation.h)
     std::vector<float> continuedFraction; ///< per frame
     std::vector<double> statisticCounts;  ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: the data's own histogram
 
@@ -48,6 +58,8 @@ struct Event {
     double statistic = 0.0;         ///< largest, nat
     bool isConfirmed = false;
     bool isOpen = false;
+    std::vector<double> ratesPerSecond; ///< as driftPerSecond, along every axis
+    std::size_t model = 0;          ///< of a bank, the one that found it
 };
 
 /// The events of an analysis at its threshold, ordered by onset, then frequency.
@@ -64,7 +76,11 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
                                         const StatisticSink &sink = {});
 
-/// The same from ready-made frames on any grid, with a model of one's own.
+/// The same from ready-made frames on any grid, with the settings' own model or bank of models …
+std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings, const RunContext &context = {},
+                                        const StatisticSink &sink = {});
+
+/// … or with a model of one's own.
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,
                                         const RunContext &context = {}, const StatisticSink &sink = {});
 

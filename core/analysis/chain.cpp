@@ -2,6 +2,7 @@
 
 #include "base/logmath.h"
 #include "detect/GuidedDetector.h"
+#include "detect/ModelBank.h"
 #include "spectrum/NoiseNormaliser.h"
 
 #include <algorithm>
@@ -12,6 +13,8 @@ namespace faintline {
 namespace {
 
     constexpr double shoulderNats = 8.0;
+    constexpr Index manyStates = 1'000'000; ///< of so many, tracing a path back over tens of frames takes seconds
+    constexpr Index onsetFramesOfMany = 16;
 
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
     {
@@ -58,14 +61,24 @@ namespace {
         chain.linkCells = perAxis(settings.decide.linkCells, analysis.grid());
         chain.track = settings.track;
         double binsPerCell = 1.0;
-        const auto inhibitBins = [&] { return static_cast<Index>(std::ceil(settings.decide.inhibitCells * binsPerCell)); };
+        const auto inBins = [&](std::vector<double> cells) {
+            for (double &value : cells)
+                value = std::ceil(value * binsPerCell);
+            return perAxis(cells, analysis.grid());
+        };
         if (const auto *spectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get())) {
             binsPerCell = spectral->spectrogram().binsPerCell();
             chain.spill = spillOf(spectral->spectrogram());
             chain.skirtStep = static_cast<Index>(std::ceil(binsPerCell));
-            chain.blind = blindPlaces(spectral->spectrogram(), inhibitBins());
+            chain.blind = blindPlaces(spectral->spectrogram(), inBins(settings.decide.inhibitCells).back());
         }
-        chain.inhibitCells.assign(analysis.grid().axes.size(), inhibitBins());
+        chain.inhibitCells = inBins(settings.decide.inhibitCells);
+        if (!settings.decide.forgetCells.empty())
+            chain.forgetCells = inBins(settings.decide.forgetCells);
+        if (analysis.model.space.stateCount() > manyStates)
+            chain.onsetFrames = onsetFramesOfMany;
+        chain.resets = settings.decide.resets;
+        chain.inhibits = settings.decide.inhibits;
         return chain;
     }
 
@@ -75,17 +88,32 @@ std::unique_ptr<Detector> makeDetector(const Analysis &analysis)
 {
     const AnalysisSettings &settings = analysis.settings;
     const auto *smd = std::get_if<SmdSettings>(&settings.detector);
+    if (!analysis.bank.empty()) {
+        std::vector<ModelBank::Member> members;
+        for (const BankMember &member : analysis.bank)
+            members.push_back({member.model, resetRule(*smd, member.calibration->lnK), member.offset});
+        return std::make_unique<ModelBank>(members);
+    }
     const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr;
     return makeDetector(settings.detector, analysis.model, analysis.grid(), isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{},
                         smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
 }
 
-std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector)
 {
-    std::unique_ptr<Detector> detector = makeDetector(analysis);
     if (!detector->hasPaths())
         detector = std::make_unique<GuidedDetector>(std::move(detector), analysis.model, ResetRule{ResetLaw::Fixed, analysis.calibration->lnK});
-    return std::make_unique<DetectionChain>(analysis.model, analysis.grid(), std::move(detector), chainSettings(analysis));
+    std::vector<MarkovModel> models;
+    for (const BankMember &member : analysis.bank)
+        models.push_back(member.model);
+    if (models.empty())
+        models.push_back(analysis.model);
+    return std::make_unique<DetectionChain>(std::move(models), analysis.grid(), std::move(detector), chainSettings(analysis));
+}
+
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
+{
+    return makeChain(analysis, makeDetector(analysis));
 }
 
 } // namespace faintline

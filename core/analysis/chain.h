@@ -10,7 +10,8 @@ namespace faintline {
 /// The detection chain that an analysis's settings, model, calibration and threshold describe, at its first frame.
 std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis);
 
-/// The detector of that chain alone, without tracks and what they feed back.
+/// The detector, or bank of detectors, of such a chain at its first frame, and the chain round a detector that may have settled on noise.
 std::unique_ptr<Detector> makeDetector(const Analysis &analysis);
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector);
 
 } // namespace faintline

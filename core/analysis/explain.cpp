@@ -61,7 +61,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
         // Before its tracker was seeded, the path is the detector's own.
         const PathStep seed = path.steps.front();
         const auto before = runTo(detailed, seed.frame, statistic, context.part(0.6, 1.0));
-        explanation.steps = before->detectorPathInto(seed.state);
+        explanation.steps = before->detectorPathInto(seed.state, path.model);
         explanation.steps.insert(explanation.steps.end(), path.steps.begin() + 1, path.steps.end());
     }
     for (PathStep &step : explanation.steps) {

@@ -87,6 +87,8 @@ FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info)
         const auto number = value.get<double>();
         if (std::floor(number) == number && std::abs(number) < 2147483648.0)
             result = static_cast<int>(number);
+    } else if (value.is_number() && info.kind == FieldKind::Numbers) {
+        result = std::vector{value.get<double>()}; // a list of one
     } else if (value.is_number()) {
         result = value.get<double>();
     } else if (value.is_array() && info.kind == FieldKind::Numbers

@@ -36,6 +36,9 @@ public:
     /// Forgets the evidence of the past in a box of cells, as if only noise had been there.
     virtual void forget(const Grid &grid, const CellBox &box) = 0;
 
+    /// Names the cells, ascending, that a tracker looks after: until the next call their states do not count in the regulation.
+    virtual void inhibit(std::span<const Index> /*cells*/) {}
+
     /// The scores of all states after the last frame (StateSpace order), empty for detectors without states.
     virtual std::span<const float> scores() const { return {}; }
 
@@ -44,10 +47,17 @@ public:
 
     /// What the detector's regulation did in the last frame.
     struct Regulation {
-        double lnK = 0.0;               ///< in force for the last frame
+        double lnK = 0.0;               ///< what the law gave for the last frame
         double continuedFraction = 0.0; ///< of the states, those whose path went on rather than being reset
+        double stepLnK = 0.0;           ///< what was added on the way into the last frame (under Mean, the ln K of the frame before)
     };
     virtual Regulation regulation() const { return {}; }
+
+    /// A bank of models is made of detectors; any other detector is its own only member.
+    virtual std::size_t memberCount() const { return 1; }
+    virtual const Detector &member(std::size_t /*number*/) const { return *this; }
+    /// The member whose statistic a cell shows after the last frame.
+    virtual std::size_t winnerAt(Index /*cell*/) const { return 0; }
 };
 
 template <class Visit>

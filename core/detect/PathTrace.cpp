@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 namespace faintline {
@@ -14,25 +15,14 @@ namespace {
     class Corridor
     {
     public:
-        Corridor(const MarkovModel &model, const Grid &grid, Index cell, Index length)
-            : m_grid(grid), m_origin(grid.coordinates(cell))
+        Corridor(const MarkovModel &model, const Grid &grid, Index endState, Index length)
+            : m_grid(grid), m_origin(grid.coordinates(model.space.cellOf(endState)))
         {
+            const StateSpace::Coordinates end = model.space.coordinates(endState);
             std::vector<KinematicAxis> axes = model.space.axes();
             for (std::size_t i = 0; i < axes.size(); ++i) {
-                const Index reach = length * axes[i].largestDisplacement();
-                if (axes[i].cyclic && 2 * reach + 1 >= axes[i].cells) {
-                    m_origin[i] = 0;
-                    continue;
-                }
-                Index from = m_origin[i] - reach;
-                Index to = m_origin[i] + reach;
-                if (!axes[i].cyclic) {
-                    from = std::max<Index>(0, from);
-                    to = std::min(axes[i].cells - 1, to);
-                }
-                axes[i].cells = to - from + 1;
-                axes[i].cyclic = false;
-                m_origin[i] = from;
+                restrictRates(axes[i], end.rates[i], length);
+                restrictCells(axes[i], i, length);
             }
             space = StateSpace(std::move(axes));
             m_cells.resize(static_cast<std::size_t>(space.cellCount()));
@@ -68,24 +58,74 @@ namespace {
 
         Index toLocal(const StateSpace &whole, Index state) const
         {
-            return whole.planeOf(state) * space.cellCount() + localCell(whole.cellOf(state));
+            StateSpace::Coordinates c = whole.coordinates(state);
+            for (std::size_t i = 0; i < c.rates.size(); ++i)
+                c.rates[i] -= m_lowestRate[i];
+            c.cells.assign(c.cells.size(), 0);
+            return space.state(c) + localCell(whole.cellOf(state));
         }
 
         Index toGlobal(const StateSpace &whole, Index local) const
         {
-            return space.planeOf(local) * whole.cellCount() + m_cells[static_cast<std::size_t>(space.cellOf(local))];
+            StateSpace::Coordinates c = space.coordinates(local);
+            const Index cell = m_cells[static_cast<std::size_t>(space.cellOf(local))];
+            c.cells = m_grid.coordinates(cell);
+            for (std::size_t i = 0; i < c.rates.size(); ++i)
+                c.rates[i] += m_lowestRate[i];
+            return whole.state(c);
         }
 
         StateSpace space;
 
     private:
+        /// Rates from which the end's can be reached: it changes by so much in a step and no more.
+        void restrictRates(KinematicAxis &axis, Index endRate, Index length)
+        {
+            Index reach = 0;
+            for (std::size_t change = 0; change < axis.rateChange.size(); ++change)
+                if (axis.rateChange[change] > 0.0)
+                    reach = static_cast<Index>(change) * length;
+            const Index lowest = std::max<Index>(0, endRate - reach);
+            const Index highest = std::min<Index>(axis.rateCount - 1, endRate + reach);
+            axis.firstRate += static_cast<int>(lowest);
+            axis.rateCount = static_cast<int>(highest - lowest + 1);
+            m_lowestRate.push_back(static_cast<int>(lowest));
+        }
+
+        /// Cells that so many steps at these rates lead from.
+        void restrictCells(KinematicAxis &axis, std::size_t i, Index length)
+        {
+            Index least = 0;
+            Index most = 0;
+            for (const KinematicAxis::Move &move : axis.moves()) {
+                least = std::min<Index>(least, move.cells);
+                most = std::max<Index>(most, move.cells);
+            }
+            Index from = m_origin[i] - length * most;
+            Index to = m_origin[i] - length * least;
+            if (axis.cyclic && to - from + 1 >= axis.cells) {
+                m_origin[i] = 0;
+                return;
+            }
+            if (!axis.cyclic) {
+                from = std::max<Index>(0, from);
+                to = std::min(axis.cells - 1, to);
+            }
+            axis.cells = to - from + 1;
+            axis.cyclic = false;
+            m_origin[i] = from;
+        }
+
         const Grid &m_grid;
         std::vector<Index> m_origin;
+        std::vector<int> m_lowestRate;
         std::vector<Index> m_cells;
     };
 
     constexpr double scoreTolerance = 1e-4;
     constexpr float unreached = -std::numeric_limits<float>::infinity();
+    constexpr std::size_t historyBytes = std::size_t(64) << 20;
+    constexpr Index shortestCorridor = 8;
 
     void forget(const CellBox &box, const Grid &grid, const Corridor &corridor, std::vector<float> &scores)
     {
@@ -98,13 +138,23 @@ namespace {
         });
     }
 
-    /// Scores of the corridor's states for every frame from `first` on; all paths start inside the corridor.
-    std::vector<std::vector<float>> runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record,
-                                                const Corridor &corridor, Index first, Index last)
+    /// Scores of the corridor's states in the newest frames, as many as fit into the memory set aside.
+    struct CorridorScores {
+        Index firstFrame = 0;
+        std::deque<std::vector<float>> scores;
+
+        const std::vector<float> &at(Index frame) const { return scores[static_cast<std::size_t>(frame - firstFrame)]; }
+    };
+
+    /// Goes from frame `first` to `last`; all paths start inside the corridor.
+    CorridorScores runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, const Corridor &corridor,
+                               Index first, Index last)
     {
         const Index cells = corridor.space.cellCount();
+        const auto states = static_cast<std::size_t>(corridor.space.stateCount());
+        const std::size_t most = std::max<std::size_t>(2, historyBytes / (sizeof(float) * states));
         Recursion<MaxPlus<float>> recursion(corridor.space, model.transitionScale);
-        std::vector<std::vector<float>> history;
+        CorridorScores history{first, {}};
         std::vector<float> y(static_cast<std::size_t>(cells));
         std::vector<float> lambda(y.size());
         for (Index frame = first; frame <= last; ++frame) {
@@ -112,21 +162,28 @@ namespace {
             for (std::size_t i = 0; i < y.size(); ++i)
                 y[i] = whole[static_cast<std::size_t>(corridor.cells()[i])];
             model.likelihood.apply(y, lambda);
-            std::vector<float> scores(static_cast<std::size_t>(corridor.space.stateCount()));
-            const auto lnK = static_cast<float>(record.lnK(frame));
-            std::span<const float> predicted;
-            if (frame > first)
-                predicted = recursion.predict(history.back());
-            for (std::size_t n = 0, cell = 0; n < scores.size(); ++n, ++cell) {
-                if (cell == y.size())
-                    cell = 0;
-                const float going = frame > first ? predicted[n] + lnK : unreached;
-                scores[n] = lambda[cell] + (going > 0.0f ? going : 0.0f);
+            std::vector<float> scores(states);
+            if (frame == first) {
+                for (std::size_t n = 0; n < states; ++n)
+                    scores[n] = lambda[n % y.size()];
+            } else {
+                const auto lnK = static_cast<float>(record.lnK(frame));
+                recursion.predict(history.scores.back(), [&](Index plane, Index firstCell, std::span<const float> predicted) {
+                    float *to = scores.data() + plane * cells + firstCell;
+                    for (std::size_t i = 0; i < predicted.size(); ++i) {
+                        const float going = predicted[i] + lnK;
+                        to[i] = lambda[static_cast<std::size_t>(firstCell) + i] + (going > 0.0f ? going : 0.0f);
+                    }
+                });
             }
             if (frame < last)
                 for (const CellBox &box : record.forgotten(frame))
                     forget(box, grid, corridor, scores);
-            history.push_back(std::move(scores));
+            history.scores.push_back(std::move(scores));
+            if (history.scores.size() > most) {
+                history.scores.pop_front();
+                ++history.firstFrame;
+            }
         }
         return history;
     }
@@ -154,44 +211,55 @@ namespace {
 std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, Index frame,
                                 Index state, double detectorScore)
 {
-    const Index known = frame - record.firstFrame + 1;
-    for (Index length = 16;; length *= 2) {
+    std::vector<PathStep> path;
+    bool isReset = false;
+    for (Index length = shortestCorridor; !isReset;) {
+        const Index known = frame - record.firstFrame + 1;
         const Index used = std::min(length, known);
         const Index first = frame - used + 1;
-        const Corridor corridor(model, grid, model.space.cellOf(state), used - 1);
-        const auto history = runCorridor(model, grid, record, corridor, first, frame);
+        const Corridor corridor(model, grid, state, used - 1);
+        const CorridorScores history = runCorridor(model, grid, record, corridor, first, frame);
 
         Index local = corridor.toLocal(model.space, state);
         // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's score.
-        if (used < known && static_cast<double>(history.back()[static_cast<std::size_t>(local)]) < detectorScore - scoreTolerance)
+        if (used < known && static_cast<double>(history.at(frame)[static_cast<std::size_t>(local)]) < detectorScore - scoreTolerance) {
+            length *= 2;
             continue;
-        std::vector<PathStep> path;
-        for (Index t = frame;; --t) {
+        }
+        while (!isReset) {
             PathStep step;
-            step.frame = t;
+            step.frame = frame;
             step.state = corridor.toGlobal(model.space, local);
             const Index cell = model.space.cellOf(step.state);
-            step.logLikelihoodRatio = model.likelihood.at(static_cast<double>(record.frame(t)[static_cast<std::size_t>(cell)]));
-            const Index before = t == first ? -1
-                                            : origin(model, corridor, history[static_cast<std::size_t>(t - 1 - first)], local,
-                                                     record.lnK(t), step.lnTransition);
+            step.logLikelihoodRatio = model.likelihood.at(static_cast<double>(record.frame(frame)[static_cast<std::size_t>(cell)]));
+            const Index before =
+                frame == first ? -1 : origin(model, corridor, history.at(frame - 1), local, record.lnK(frame), step.lnTransition);
             if (before < 0)
                 step.lnTransition = 0.0;
             else
-                step.lnK = record.lnK(t);
+                step.lnK = record.lnK(frame);
             path.push_back(step);
-            if (before < 0)
+            isReset = before < 0;
+            if (isReset)
                 break;
             local = before;
+            --frame;
+            if (frame == history.firstFrame && frame > first)
+                break; // older scores were let go: once more, from here
         }
-        std::reverse(path.begin(), path.end());
-        double score = 0.0;
-        for (PathStep &step : path) {
-            score += step.logLikelihoodRatio + step.lnTransition + step.lnK;
-            step.score = score;
+        if (!isReset) {
+            state = corridor.toGlobal(model.space, local);
+            detectorScore = static_cast<double>(history.at(frame)[static_cast<std::size_t>(local)]);
+            length = std::max(shortestCorridor, frame - first + 1);
         }
-        return path;
     }
+    std::reverse(path.begin(), path.end());
+    double score = 0.0;
+    for (PathStep &step : path) {
+        score += step.logLikelihoodRatio + step.lnTransition + step.lnK;
+        step.score = score;
+    }
+    return path;
 }
 
 } // namespace faintline

@@ -3,59 +3,115 @@
 #include "base/multiversion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace faintline {
 
 namespace {
 
-    // The inner loops: `first` writes, `join` combines with what is there. Overloads pick the semiring.
+    constexpr Index tileCells = 4096;  ///< such a piece of every source plane of a target fits into the second-level cache
+    constexpr Index lanes = 64;        ///< values kept in registers while all sources are joined to them
 
-    FAINTLINE_MULTIVERSION
-    void firstMax(float *to, const float *from, Index n, float weight)
-    {
-        for (Index i = 0; i < n; ++i)
-            to[i] = from[i] + weight;
-    }
+    struct MaxJoin {
+        template <class Real>
+        Real first(Real value, Real weight) const
+        {
+            return value + weight;
+        }
+        template <class Real>
+        Real next(Real best, Real value, Real weight) const
+        {
+            const Real candidate = value + weight;
+            return candidate > best ? candidate : best;
+        }
+        template <class Real>
+        Real last(Real best, Real) const
+        {
+            return best;
+        }
+    };
 
-    FAINTLINE_MULTIVERSION
-    void joinMax(float *to, const float *from, Index n, float weight)
+    /// Where all weights are the same: max(a + w, b + w) = max(a, b) + w to the last bit, for rounding is monotone.
+    struct EqualMaxJoin {
+        template <class Real>
+        Real first(Real value, Real) const
+        {
+            return value;
+        }
+        template <class Real>
+        Real next(Real best, Real value, Real) const
+        {
+            return value > best ? value : best;
+        }
+        template <class Real>
+        Real last(Real best, Real weight) const
+        {
+            return best + weight;
+        }
+    };
+
+    struct SumJoin {
+        double first(double value, double weight) const { return value * weight; }
+        double next(double sum, double value, double weight) const { return sum + value * weight; }
+        double last(double sum, double) const { return sum; }
+    };
+
+    /// to[i] = ⊕_k from_k[i] ⊗ weight_k, the sources in their order.
+    template <class Real, class Join>
+    [[gnu::always_inline]] inline void joinAll(Real *to, Index n, const ShiftedPlane<Real> *sources, std::size_t count, Join join)
     {
-        for (Index i = 0; i < n; ++i) {
-            const float candidate = from[i] + weight;
-            to[i] = candidate > to[i] ? candidate : to[i];
+        Index i = 0;
+        for (; i + lanes <= n; i += lanes) {
+            Real sum[lanes];
+            for (Index lane = 0; lane < lanes; ++lane)
+                sum[lane] = join.first(sources[0].from[i + lane], sources[0].weight);
+            for (std::size_t k = 1; k < count; ++k) {
+                const Real *from = sources[k].from + i;
+                const Real weight = sources[k].weight;
+                for (Index lane = 0; lane < lanes; ++lane)
+                    sum[lane] = join.next(sum[lane], from[lane], weight);
+            }
+            for (Index lane = 0; lane < lanes; ++lane)
+                to[i + lane] = join.last(sum[lane], sources[0].weight);
+        }
+        for (; i < n; ++i) {
+            Real sum = join.first(sources[0].from[i], sources[0].weight);
+            for (std::size_t k = 1; k < count; ++k)
+                sum = join.next(sum, sources[k].from[i], sources[k].weight);
+            to[i] = join.last(sum, sources[0].weight);
         }
     }
 
-    FAINTLINE_MULTIVERSION
-    void firstMax(double *to, const double *from, Index n, double weight)
+    template <class Real>
+    bool haveEqualWeights(const ShiftedPlane<Real> *sources, std::size_t count)
     {
-        for (Index i = 0; i < n; ++i)
-            to[i] = from[i] + weight;
+        return std::all_of(sources, sources + count, [&](const ShiftedPlane<Real> &s) { return s.weight == sources[0].weight; });
     }
 
     FAINTLINE_MULTIVERSION
-    void joinMax(double *to, const double *from, Index n, double weight)
+    void joinMax(float *to, Index n, const ShiftedPlane<float> *sources, std::size_t count)
     {
-        for (Index i = 0; i < n; ++i) {
-            const double candidate = from[i] + weight;
-            to[i] = candidate > to[i] ? candidate : to[i];
-        }
+        joinAll(to, n, sources, count, MaxJoin());
     }
 
     FAINTLINE_MULTIVERSION
-    void firstSum(double *to, const double *from, Index n, double weight)
+    void joinEqualMax(float *to, Index n, const ShiftedPlane<float> *sources, std::size_t count)
     {
-        for (Index i = 0; i < n; ++i)
-            to[i] = from[i] * weight;
+        joinAll(to, n, sources, count, EqualMaxJoin());
+    }
+
+    void joinEqualMax(double *to, Index n, const ShiftedPlane<double> *sources, std::size_t count)
+    {
+        joinAll(to, n, sources, count, EqualMaxJoin());
     }
 
     FAINTLINE_MULTIVERSION
-    void joinSum(double *to, const double *from, Index n, double weight)
+    void joinMax(double *to, Index n, const ShiftedPlane<double> *sources, std::size_t count)
     {
-        for (Index i = 0; i < n; ++i)
-            to[i] += from[i] * weight;
+        joinAll(to, n, sources, count, MaxJoin());
     }
 
     FAINTLINE_MULTIVERSION
@@ -88,14 +144,10 @@ namespace {
             multiplyEach(to, departures, n);
     }
 
-    template <class Semiring>
-    void combine(bool isFirst, typename Semiring::Real *to, const typename Semiring::Real *from, Index n,
-                 typename Semiring::Real weight)
+    FAINTLINE_MULTIVERSION
+    void joinSum(double *to, Index n, const ShiftedPlane<double> *sources, std::size_t count)
     {
-        if constexpr (Semiring::logarithmic)
-            isFirst ? firstMax(to, from, n, weight) : joinMax(to, from, n, weight);
-        else
-            isFirst ? firstSum(to, from, n, weight) : joinSum(to, from, n, weight);
+        joinAll(to, n, sources, count, SumJoin());
     }
 
     template <class Semiring>
@@ -107,22 +159,19 @@ namespace {
             return 0;
     }
 
-    /// Planes of the other axes stay as they are: a move of one axis is repeated for each of their rate combinations.
-    struct PlaneLayout {
-        Index outer; ///< combinations of the axes before
-        Index inner; ///< combinations of the axes after
-    };
-
-    PlaneLayout planeLayout(const StateSpace &space, std::size_t axis)
+    template <class Semiring>
+    void joinSources(typename Semiring::Real *to, Index n, const std::vector<ShiftedPlane<typename Semiring::Real>> &sources)
     {
-        PlaneLayout layout{1, 1};
-        for (std::size_t a = 0; a < space.axes().size(); ++a) {
-            if (a < axis)
-                layout.outer *= space.axes()[a].rateCount;
-            if (a > axis)
-                layout.inner *= space.axes()[a].rateCount;
+        if (sources.empty()) {
+            std::fill_n(to, n, nothing<Semiring>());
+        } else if constexpr (Semiring::logarithmic) {
+            if (haveEqualWeights(sources.data(), sources.size()))
+                joinEqualMax(to, n, sources.data(), sources.size());
+            else
+                joinMax(to, n, sources.data(), sources.size());
+        } else {
+            joinSum(to, n, sources.data(), sources.size());
         }
-        return layout;
     }
 
     /// An axis that never moves and loses no probability needs no step of its own.
@@ -133,40 +182,78 @@ namespace {
         });
     }
 
+    /// Rows first … second-1 are those in which no shift reaches beyond the axis's ends.
+    template <class Shifts>
+    std::pair<Index, Index> interior(const Shifts &shifts, Index cells)
+    {
+        Index low = 0;
+        Index high = cells;
+        for (const auto &shift : shifts) {
+            low = std::max(low, shift.cells);
+            high = std::min(high, cells + shift.cells);
+        }
+        return low < high ? std::pair{low, high} : std::pair{cells, cells};
+    }
+
+    /// The row a shift takes its value from, or -1 where there is none.
+    Index sourceRow(Index row, Index shift, Index cells, bool cyclic)
+    {
+        const Index source = row - shift;
+        if (source >= 0 && source < cells)
+            return source;
+        if (!cyclic)
+            return -1;
+        const Index rest = source % cells;
+        return rest < 0 ? rest + cells : rest;
+    }
+
 } // namespace
 
 template <class Semiring>
 Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
-    : m_planeSize(space.cellCount()), m_result(static_cast<std::size_t>(space.stateCount()))
+    : m_planeSize(space.cellCount()), m_planeCount(space.planeCount()), m_groups(space.axes().front().rateCount),
+      m_groupSize(m_planeCount / m_groups)
 {
     Index inner = space.cellCount();
+    Index before = 1; // rate combinations within a group: of the later axes before this one …
+    Index after = m_groupSize; // … and after it
     for (std::size_t axis = 0; axis < space.axes().size(); ++axis) {
         const KinematicAxis &a = space.axes()[axis];
         inner /= a.cells;
+        if (axis > 0)
+            after /= a.rateCount;
+        AxisStep step{a.cells, inner, a.cyclic, {}};
         const std::vector<KinematicAxis::Move> moves = a.moves();
-        if (isIdentity(moves))
-            continue;
-        AxisStep step{a.cells, inner, space.cellCount() / (a.cells * inner), a.cyclic, {}};
-        const PlaneLayout planes = planeLayout(space, axis);
-        for (Index before = 0; before < planes.outer; ++before)
-            for (int toRate = 0; toRate < a.rateCount; ++toRate)
-                for (Index after = 0; after < planes.inner; ++after) {
-                    const auto plane = [&](int rate) { return (before * a.rateCount + rate) * planes.inner + after; };
-                    const std::size_t shiftsBefore = step.shifts.size();
-                    for (const KinematicAxis::Move &move : moves) {
-                        if (move.toRate != toRate)
-                            continue;
-                        const double ln = move.lnProbability * transitionScale;
-                        step.shifts.push_back({plane(move.fromRate), plane(toRate), move.cells,
-                                               static_cast<Real>(Semiring::logarithmic ? ln : std::exp(ln))});
-                    }
-                    if (step.shifts.size() == shiftsBefore) // a rate that nothing leads to
-                        step.shifts.push_back({plane(toRate), plane(toRate), 0, nothing<Semiring>()});
-                }
-        m_steps.push_back(std::move(step));
+        if (!isIdentity(moves)) {
+            std::vector<std::vector<Shift>> byRate(static_cast<std::size_t>(a.rateCount));
+            for (const KinematicAxis::Move &move : moves) {
+                const double ln = move.lnProbability * transitionScale;
+                byRate[static_cast<std::size_t>(move.toRate)].push_back(
+                    {move.fromRate, move.cells, static_cast<Real>(Semiring::logarithmic ? ln : std::exp(ln))});
+            }
+            if (axis == 0)
+                step.shifts = std::move(byRate);
+            else
+                for (Index b = 0; b < before; ++b)
+                    for (Index toRate = 0; toRate < a.rateCount; ++toRate)
+                        for (Index c = 0; c < after; ++c) {
+                            std::vector<Shift> shifts = byRate[static_cast<std::size_t>(toRate)];
+                            for (Shift &shift : shifts)
+                                shift.fromPlane = (b * a.rateCount + shift.fromPlane) * after + c;
+                            step.shifts.push_back(std::move(shifts));
+                        }
+        }
+        if (axis == 0)
+            m_first = std::move(step);
+        else if (!step.shifts.empty())
+            m_later.push_back(std::move(step));
+        if (axis > 0)
+            before *= a.rateCount;
     }
-    if (m_steps.size() > 1)
-        m_scratch.resize(m_result.size());
+    m_tileRows = std::clamp<Index>(tileCells / m_first.inner, 1, m_first.cells);
+    const auto tileSize = static_cast<std::size_t>(m_groupSize * m_tileRows * m_first.inner);
+    m_tile.resize(tileSize);
+    m_otherTile.resize(m_later.empty() ? 0 : tileSize);
     preparePlaces(space, transitionScale);
 }
 
@@ -222,56 +309,129 @@ template <class Semiring>
 void Recursion<Semiring>::apply(const MatrixStep &step, std::span<const Real> from, std::span<Real> to) const
 {
     const Index block = step.cells * step.inner;
+    std::vector<ShiftedPlane<Real>> sources(static_cast<std::size_t>(step.cells));
     for (Index first = 0; first < std::ssize(from); first += block)
-        for (Index row = 0; row < step.cells; ++row)
+        for (Index row = 0; row < step.cells; ++row) {
             for (Index source = 0; source < step.cells; ++source)
-                combine<Semiring>(source == 0, to.data() + first + row * step.inner, from.data() + first + source * step.inner, step.inner,
-                                  step.weights[static_cast<std::size_t>(source * step.cells + row)]);
+                sources[static_cast<std::size_t>(source)] = {from.data() + first + source * step.inner,
+                                                             step.weights[static_cast<std::size_t>(source * step.cells + row)]};
+            joinSources<Semiring>(to.data() + first + row * step.inner, step.inner, sources);
+        }
 }
 
 template <class Semiring>
 std::span<typename Semiring::Real> Recursion<Semiring>::predict(std::span<const Real> scores)
 {
-    scores = prepare(scores);
-    if (m_steps.empty()) {
-        std::copy(scores.begin(), scores.end(), m_result.begin());
-        return m_result;
-    }
-    // The last step writes m_result; the ones before alternate so that none reads what it writes.
-    std::span<const Real> from = scores;
-    for (std::size_t i = 0; i < m_steps.size(); ++i) {
-        const bool toResult = (m_steps.size() - 1 - i) % 2 == 0;
-        std::vector<Real> &to = toResult ? m_result : m_scratch;
-        apply(m_steps[i], from, to);
-        from = to;
-    }
+    m_result.resize(static_cast<std::size_t>(m_planeSize * m_planeCount));
+    predict(scores, [this](Index plane, Index firstCell, std::span<const Real> predicted) {
+        std::copy(predicted.begin(), predicted.end(), m_result.begin() + plane * m_planeSize + firstCell);
+    });
     return m_result;
 }
 
 template <class Semiring>
-void Recursion<Semiring>::apply(const AxisStep &step, std::span<const Real> from, std::span<Real> to) const
+void Recursion<Semiring>::predict(std::span<const Real> scores, const Tile &take)
 {
-    Index plane = -1;
-    for (const Shift &shift : step.shifts) {
-        const bool isFirst = shift.toPlane != plane;
-        plane = shift.toPlane;
-        join(step, shift, isFirst, from.data() + shift.fromPlane * m_planeSize, to.data() + shift.toPlane * m_planeSize);
+    scores = prepare(scores);
+    for (Index firstRow = 0; firstRow < m_first.cells; firstRow += m_tileRows) {
+        const Index rows = std::min(m_tileRows, m_first.cells - firstRow);
+        const Index size = rows * m_first.inner;
+        for (Index rate = 0; rate < m_groups; ++rate) {
+            firstAxis(scores.data(), rate, firstRow, rows, m_tile.data());
+            for (const AxisStep &step : m_later) {
+                laterAxis(step, m_tile.data(), size, m_otherTile.data());
+                std::swap(m_tile, m_otherTile);
+            }
+            for (Index plane = 0; plane < m_groupSize; ++plane)
+                take(rate * m_groupSize + plane, firstRow * m_first.inner,
+                     std::span<const Real>(m_tile).subspan(static_cast<std::size_t>(plane * size), static_cast<std::size_t>(size)));
+        }
     }
 }
 
 template <class Semiring>
-void Recursion<Semiring>::join(const AxisStep &step, const Shift &shift, bool isFirst, const Real *from, Real *to) const
+void Recursion<Semiring>::firstAxis(const Real *scores, Index targetRate, Index firstRow, Index rows, Real *to)
 {
-    const Index row = step.cells * step.inner;
-    const Index size = std::min<Index>(std::abs(shift.cells), step.cells) * step.inner; // cells that leave the row
-    const bool up = shift.cells >= 0;
-    for (Index block = 0; block < step.blocks; ++block, from += row, to += row) {
-        combine<Semiring>(isFirst, to + (up ? size : 0), from + (up ? 0 : size), row - size, shift.weight);
-        Real *edge = to + (up ? 0 : row - size);
-        if (step.cyclic)
-            combine<Semiring>(isFirst, edge, from + (up ? row - size : 0), size, shift.weight);
-        else if (isFirst)
-            std::fill_n(edge, size, nothing<Semiring>());
+    const Index inner = m_first.inner;
+    const Index size = rows * inner;
+    for (Index plane = 0; plane < m_groupSize; ++plane, to += size) {
+        const auto from = [&](Index rate, Index row) { return scores + (rate * m_groupSize + plane) * m_planeSize + row * inner; };
+        if (m_first.shifts.empty()) {
+            std::copy_n(from(targetRate, firstRow), size, to);
+            continue;
+        }
+        const std::vector<Shift> &shifts = m_first.shifts[static_cast<std::size_t>(targetRate)];
+        const auto [low, high] = interior(shifts, m_first.cells);
+        const Index inside = std::clamp(low, firstRow, firstRow + rows);
+        const Index outside = std::clamp(high, inside, firstRow + rows);
+        if (inside < outside) {
+            m_sources.clear();
+            for (const Shift &shift : shifts)
+                m_sources.push_back({from(shift.fromPlane, inside - shift.cells), shift.weight});
+            joinSources<Semiring>(to + (inside - firstRow) * inner, (outside - inside) * inner, m_sources);
+        }
+        for (Index row = firstRow; row < firstRow + rows; ++row) {
+            if (row == inside && inside < outside)
+                row = outside;
+            if (row == firstRow + rows)
+                break;
+            m_sources.clear();
+            for (const Shift &shift : shifts)
+                if (const Index source = sourceRow(row, shift.cells, m_first.cells, m_first.cyclic); source >= 0)
+                    m_sources.push_back({from(shift.fromPlane, source), shift.weight});
+            joinSources<Semiring>(to + (row - firstRow) * inner, inner, m_sources);
+        }
+    }
+}
+
+template <class Semiring>
+void Recursion<Semiring>::laterAxis(const AxisStep &step, const Real *from, Index size, Real *to)
+{
+    for (const std::vector<Shift> &shifts : step.shifts) {
+        const auto [low, high] = interior(shifts, step.cells);
+        // In one sweep over all rows, as if they were one long row; what that gets wrong at their ends is put right afterwards.
+        const Index begin = low * step.inner;
+        const Index end = size - (step.cells - high) * step.inner;
+        if (low < high) {
+            m_sources.clear();
+            for (const Shift &shift : shifts)
+                m_sources.push_back({from + shift.fromPlane * size + begin - shift.cells * step.inner, shift.weight});
+            joinSources<Semiring>(to + begin, end - begin, m_sources);
+        }
+        for (Index row = 0; row < step.cells; ++row) {
+            if (row == low)
+                row = high;
+            if (row < step.cells)
+                laterEdge(step, shifts, row, from, size, to);
+        }
+        to += size;
+    }
+}
+
+template <class Semiring>
+void Recursion<Semiring>::laterEdge(const AxisStep &step, const std::vector<Shift> &shifts, Index row, const Real *from, Index size,
+                                    Real *to)
+{
+    m_sources.clear();
+    for (const Shift &shift : shifts)
+        if (const Index source = sourceRow(row, shift.cells, step.cells, step.cyclic); source >= 0)
+            m_sources.push_back({from + shift.fromPlane * size + source * step.inner, shift.weight});
+    const Index period = step.cells * step.inner;
+    for (Index block = 0; block < size; block += period) {
+        if (step.inner == 1) { // a few cells at a time: not worth a call
+            Real sum = nothing<Semiring>();
+            for (const ShiftedPlane<Real> &source : m_sources) {
+                if constexpr (Semiring::logarithmic)
+                    sum = MaxJoin().next(sum, source.from[block], source.weight);
+                else
+                    sum = SumJoin().next(sum, source.from[block], source.weight);
+            }
+            to[block + row] = sum;
+        } else {
+            joinSources<Semiring>(to + block + row * step.inner, step.inner, m_sources);
+            for (ShiftedPlane<Real> &source : m_sources)
+                source.from += period;
+        }
     }
 }
 

@@ -36,23 +36,31 @@ namespace {
         }
     }
 
-    /// Σ max(M + ln K, 0) in a fixed order: eight partial sums, so that the bits do not depend on the vector width.
+    /// Σ max(M + ln K, 0) in a fixed order, so that the bits do not depend on the vector width: partial sums of a few values
+    /// each in single precision, the rest in double.
     FAINTLINE_MULTIVERSION
     double sumContinued(const float *predicted, float lnK, Index n)
     {
-        double partial[8] = {};
+        constexpr Index lanes = 16;
+        constexpr Index run = 8 * lanes;
+        double total[lanes] = {};
         Index i = 0;
-        for (; i + 8 <= n; i += 8)
-            for (int lane = 0; lane < 8; ++lane) {
-                const float going = predicted[i + lane] + lnK;
-                partial[lane] += going > 0.0f ? static_cast<double>(going) : 0.0;
-            }
+        for (; i + run <= n; i += run) {
+            float partial[lanes] = {};
+            for (Index j = 0; j < run; j += lanes)
+                for (Index lane = 0; lane < lanes; ++lane) {
+                    const float going = predicted[i + j + lane] + lnK;
+                    partial[lane] += going > 0.0f ? going : 0.0f;
+                }
+            for (Index lane = 0; lane < lanes; ++lane)
+                total[lane] += static_cast<double>(partial[lane]);
+        }
         double sum = 0.0;
         for (; i < n; ++i) {
             const float going = predicted[i] + lnK;
             sum += going > 0.0f ? static_cast<double>(going) : 0.0;
         }
-        for (double lane : partial)
+        for (double lane : total)
             sum += lane;
         return sum;
     }
@@ -61,7 +69,8 @@ namespace {
 
 Smd::Smd(const MarkovModel &model, const ResetRule &rule)
     : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule), m_recursion(model.space, model.transitionScale),
-      m_scores(static_cast<std::size_t>(model.space.stateCount())), m_lambda(static_cast<std::size_t>(model.space.cellCount())),
+      m_scores(static_cast<std::size_t>(model.space.stateCount())), m_next(m_scores.size()),
+      m_lambda(static_cast<std::size_t>(model.space.cellCount())),
       m_lnK(rule.law == ResetLaw::Fixed || rule.law == ResetLaw::Half ? rule.lnK : 0.0)
 {
 }
@@ -76,7 +85,7 @@ void Smd::update(std::span<const float> y, std::span<float> statistic)
             std::copy(m_lambda.begin(), m_lambda.end(), m_scores.begin() + plane * cells);
         std::copy(m_lambda.begin(), m_lambda.end(), statistic.begin());
         m_isFirst = false;
-        m_regulation = {m_lnK, 0.0};
+        m_regulation = {m_lnK, 0.0, m_lnK};
         if (m_rule.law == ResetLaw::Mean) {
             // W(0) = 0 everywhere, so K(0) = K0.
             m_offset = m_rule.k0;
@@ -88,29 +97,51 @@ void Smd::update(std::span<const float> y, std::span<float> statistic)
         return;
     }
 
-    const std::span<const float> predicted = m_recursion.predict(m_scores);
     const auto lnK = static_cast<float>(m_lnK);
     std::fill(statistic.begin(), statistic.end(), unreached);
-    Index continued = 0;
-    double sum = 0.0;
-    for (Index plane = 0; plane < planes; ++plane) {
-        const float *from = predicted.data() + plane * cells;
-        float *to = m_scores.data() + plane * cells;
+    Continued all;
+    m_recursion.predict(m_scores, [&](Index plane, Index cell, std::span<const float> predicted) {
+        const auto n = std::ssize(predicted);
+        const float *lambda = m_lambda.data() + cell;
+        float *to = m_next.data() + plane * cells + cell;
+        float *best = statistic.data() + cell;
         if (m_rule.law == ResetLaw::None) {
-            joinNothing(from, m_lambda.data(), lnK, cells, to, statistic.data());
-            continued += cells;
-            continue;
+            joinNothing(predicted.data(), lambda, lnK, n, to, best);
+            all.count += n;
+            return;
         }
-        continued += joinReset(from, m_lambda.data(), lnK, cells, to, statistic.data());
+        all.count += joinReset(predicted.data(), lambda, lnK, n, to, best);
         if (m_rule.law == ResetLaw::Mean)
-            sum += sumContinued(from, lnK, cells);
+            all.sum += sumContinued(predicted.data(), lnK, n);
+        const Continued apart = inhibitedPart(cell, predicted);
+        all.count -= apart.count;
+        all.sum -= apart.sum;
+    });
+    std::swap(m_scores, m_next);
+    const Index counted = m_rule.law == ResetLaw::None ? cells : cells - std::ssize(m_inhibited);
+    if (counted > 0) {
+        const auto states = static_cast<double>(counted * m_space.planeCount());
+        m_regulation = {m_lnK, static_cast<double>(all.count) / states, m_lnK};
+        regulate(m_regulation.continuedFraction, all.sum / states);
     }
-    const auto states = static_cast<double>(m_space.stateCount());
-    m_regulation = {m_lnK, static_cast<double>(continued) / states};
-    regulate(m_regulation.continuedFraction, sum / states);
     if (m_offset != 0.0)
         for (float &value : statistic)
             value += static_cast<float>(m_offset);
+}
+
+Smd::Continued Smd::inhibitedPart(Index firstCell, std::span<const float> predicted) const
+{
+    Continued part;
+    if (m_rule.law == ResetLaw::None)
+        return part;
+    const auto lnK = static_cast<float>(m_lnK);
+    for (auto cell = std::lower_bound(m_inhibited.begin(), m_inhibited.end(), firstCell);
+         cell != m_inhibited.end() && *cell < firstCell + std::ssize(predicted); ++cell)
+        if (const float going = predicted[static_cast<std::size_t>(*cell - firstCell)] + lnK; going > 0.0f) {
+            ++part.count;
+            part.sum += static_cast<double>(going);
+        }
+    return part;
 }
 
 void Smd::regulate(double continuedFraction, double meanContinued)

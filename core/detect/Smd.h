@@ -38,7 +38,9 @@ struct ResetRule {
 /// u = ln(N Λ), the log-likelihood ratio in nats above the background of a uniform initial law 1/N; a path is *reset* where
 /// the second argument of the outer max wins (only if strictly greater). D(t, cell) = max over the cell's rates.
 /// Decision: D > threshold. Under Mean the statistic is u + K(t), which is Parsons' ln Λ, and K(t) applies to the next
-/// frame's predecessors. Source: Billon 2005 section 3, Parsons 2008 eq. 8 and 10. Oracle: enumeration of all paths;
+/// frame's predecessors. The reset fraction and the mean that regulate K are taken over the cells that are not inhibited.
+/// Half is integral control, ln K += gain·(½ - fraction continued), whose answer takes some ten frames; gains of 1 and more swing.
+/// Source: Billon 2005 section 3, Parsons 2008 eq. 8 and 10. Oracle: enumeration of all paths;
 /// Lindley's recursion in closed form for one-to-one transitions.
 class Smd final : public Detector
 {
@@ -47,6 +49,7 @@ public:
 
     void update(std::span<const float> y, std::span<float> statistic) override;
     void forget(const Grid &grid, const CellBox &box) override;
+    void inhibit(std::span<const Index> cells) override { m_inhibited.assign(cells.begin(), cells.end()); }
     std::span<const float> scores() const override { return m_scores; }
     bool hasPaths() const override { return true; }
     Regulation regulation() const override { return m_regulation; }
@@ -65,6 +68,13 @@ public:
     void restore(const Memory &memory);
 
 private:
+    /// What of the states in some cells went on.
+    struct Continued {
+        Index count = 0;
+        double sum = 0.0; ///< Σ max(M + ln K, 0)
+    };
+
+    Continued inhibitedPart(Index firstCell, std::span<const float> predicted) const;
     void regulate(double continuedFraction, double meanContinued);
 
     StateSpace m_space;
@@ -72,10 +82,12 @@ private:
     ResetRule m_rule;
     Recursion<MaxPlus<float>> m_recursion;
     std::vector<float> m_scores;
+    std::vector<float> m_next; ///< the scores being written
     std::vector<float> m_lambda;
     double m_lnK;
     double m_offset = 0.0;
     bool m_isFirst = true;
+    std::vector<Index> m_inhibited;
     Regulation m_regulation;
 };
 

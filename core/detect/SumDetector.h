@@ -25,7 +25,7 @@ public:
     void update(std::span<const float> y, std::span<float> statistic) override;
     void forget(const Grid &grid, const CellBox &box) override;
     std::span<const float> scores() const override { return m_scores; }
-    Regulation regulation() const override { return {m_rule.lnK, 1.0}; }
+    Regulation regulation() const override { return {m_rule.lnK, 1.0, m_rule.lnK}; }
 
     /// ln of the mean of A over all states: the log-likelihood ratio of the uniform initial law.
     double lnMean() const { return m_lnMean; }

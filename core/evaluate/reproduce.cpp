@@ -3,6 +3,7 @@
 #include "base/Error.h"
 #include "evaluate/reproduceBillon.h"
 #include "evaluate/reproduceGrossi.h"
+#include "evaluate/reproduceParsons.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,7 @@ const std::vector<Reproducible> &reproducibles()
 {
     static const std::vector<Reproducible> list = [] {
         std::vector<Reproducible> all;
-        for (const auto &paper : {billonReproducibles(), grossiReproducibles()})
+        for (const auto &paper : {billonReproducibles(), grossiReproducibles(), parsonsReproducibles()})
             all.insert(all.end(), paper.begin(), paper.end());
         return all;
     }();

@@ -283,6 +283,17 @@ DoubleFrames readDoubleFrames(const std::string &path)
     return {std::move(array.shape), std::move(array.values)};
 }
 
+std::string gridFileText(const GridFile &file)
+{
+    Json json;
+    json["axes"] = Json::array();
+    for (const Axis &axis : file.grid.axes)
+        json["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"first", axis.first}, {"step", axis.step},
+                                {"count", axis.count}, {"cyclic", axis.cyclic}});
+    json["time"] = {{"first", file.time.first}, {"step", file.time.step}};
+    return json.dump(2) + "\n";
+}
+
 NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath)
 {
     NumPyArray array = readNumPy(path);

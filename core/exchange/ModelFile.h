@@ -50,6 +50,9 @@ struct GridFile {
 };
 GridFile readGridFile(const std::string &path, const std::vector<Index> &shape);
 
+/// A grid file's text, as readGridFile takes it.
+std::string gridFileText(const GridFile &file);
+
 /// Ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units). Values that are
 /// negative or not finite are refused.
 NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath);

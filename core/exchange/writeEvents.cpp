@@ -54,14 +54,29 @@ namespace {
         return position;
     }
 
+    /// On a grid of several axes, names of the rates along each.
+    std::vector<std::string> rateNames(const Grid &grid)
+    {
+        std::vector<std::string> names;
+        for (const Axis &axis : grid.axes)
+            if (grid.axes.size() > 1)
+                names.push_back(axis.name + "_per_s");
+        return names;
+    }
+
     std::string eventsCsv(const Analysis &analysis)
     {
-        std::string text = row({"event", "t_onset", "t_detect", "t_end", joined(positionNames(analysis.grid())), "drift_hz_per_s",
-                                "statistic", "confirmed", "open"});
-        for (const Event &e : events(analysis))
-            text += row({std::to_string(e.id), formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds), formatNumber(e.endSeconds),
-                         joined(e.position), formatNumber(e.driftPerSecond), formatNumber(e.statistic), e.isConfirmed ? "1" : "0",
-                         e.isOpen ? "1" : "0"});
+        std::vector<std::string> names{"event", "t_onset", "t_detect", "t_end", joined(positionNames(analysis.grid())), "drift_hz_per_s",
+                                       "statistic", "confirmed", "open"};
+        const std::vector<std::string> rates = rateNames(analysis.grid());
+        names.insert(names.end(), rates.begin(), rates.end());
+        std::string text = joined(names) + "\n";
+        for (const Event &e : events(analysis)) {
+            const std::vector<std::string> cells{std::to_string(e.id), formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
+                                                 formatNumber(e.endSeconds), joined(e.position), formatNumber(e.driftPerSecond),
+                                                 formatNumber(e.statistic), e.isConfirmed ? "1" : "0", e.isOpen ? "1" : "0"};
+            text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond)) + "\n";
+        }
         return text;
     }
 
@@ -76,6 +91,9 @@ namespace {
         for (std::size_t axis = 0; axis < names.size(); ++axis)
             json[names[axis]] = e.position[axis];
         json["drift_hz_per_s"] = e.driftPerSecond;
+        const std::vector<std::string> rates = rateNames(grid);
+        for (std::size_t axis = 0; axis < rates.size(); ++axis)
+            json[rates[axis]] = e.ratesPerSecond[axis];
         json["statistic"] = e.statistic;
         json["confirmed"] = e.isConfirmed;
         json["open"] = e.isOpen;

@@ -8,9 +8,9 @@ namespace faintline {
 
 /// Writes the events of an analysis, the kind by the extension: .csv, .json, .txt (Audacity labels), .sigmf-meta (annotations).
 ///
-/// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz at detection; or one column per axis), drift_hz_per_s,
-/// statistic (nat), confirmed, open. Numbers in the C locale, shortest form that reads back the same. Files appear only
-/// when complete. Throws Error for an unknown extension or a full disk.
+/// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz at detection; or one column per axis), drift_hz_per_s
+/// (along the last axis), statistic (nat), confirmed, open; on several axes AXIS_per_s of each. Numbers in the C locale, shortest form that
+/// reads back the same. Files appear only when complete. Throws Error for an unknown extension or a full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
 
 /// Throws Error where a name's extension is none that `writeEvents` or `writeTracks` knows: to be asked before a long run.

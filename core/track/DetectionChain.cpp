@@ -33,11 +33,18 @@ namespace {
 } // namespace
 
 DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<Detector> detector, ChainSettings settings)
-    : m_model(model), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
-      m_trackerModel(std::make_unique<TrackerModel>(model, grid, m_settings.track, m_settings.threshold)),
+    : DetectionChain(std::vector{model}, grid, std::move(detector), std::move(settings))
+{
+}
+
+DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<Detector> detector,
+                               ChainSettings settings)
+    : m_models(std::move(models)), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
       m_seenLimit(std::clamp<std::size_t>(recordBytes / (sizeof(float) * static_cast<std::size_t>(grid.size())), 16, 4096)),
       m_lambda(static_cast<std::size_t>(grid.size()))
 {
+    for (const MarkovModel &model : m_models)
+        m_trackerModels.push_back(std::make_unique<TrackerModel>(model, grid, m_settings.track, m_settings.threshold));
 }
 
 void DetectionChain::update(Index frame, std::span<const float> y, std::span<float> statistic)
@@ -47,22 +54,29 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         return;
     }
     // What the last frame's tracks took over is forgotten only now, so that between frames the scores are those shown.
-    for (const CellBox &box : m_boxes)
-        m_detector->forget(m_grid, box);
+    if (m_settings.resets)
+        for (const CellBox &box : forgottenBoxes())
+            m_detector->forget(m_grid, box);
     updateTrackers(frame, y);
 
     Seen seen;
     seen.y.assign(y.begin(), y.end());
     m_boxes.clear();
-    for (const HmmTracker &tracker : m_trackers)
+    m_newBoxes.clear();
+    m_boxTracks.clear();
+    for (const HmmTracker &tracker : m_trackers) {
         m_boxes.push_back(boxRound(tracker.coordinates(), y));
-    for (const std::vector<Index> &place : m_settings.blind)
+        m_boxTracks.push_back(tracker.track().id);
+    }
+    for (const std::vector<Index> &place : m_settings.blind) {
         m_boxes.push_back(boxRound(place, y));
-    for (const CellBox &box : m_boxes)
-        box.forEachCell(m_grid, [&](Index cell) { seen.y[static_cast<std::size_t>(cell)] = 0.0f; });
-    const double lnK = m_detector->regulation().lnK;
+        m_boxTracks.push_back(0);
+    }
+    const std::size_t leftAlone = m_settings.inhibits ? 0 : m_trackers.size();
+    keepFromDetector(std::span(m_boxes).subspan(leftAlone), seen.y);
     m_detector->update(seen.y, statistic);
-    seen.lnK = m_seen.empty() ? lnK : m_detector->regulation().lnK;
+    for (std::size_t i = 0; i < m_detector->memberCount(); ++i)
+        seen.lnK.push_back(m_detector->member(i).regulation().stepLnK);
     if (m_seen.size() == m_seenLimit) {
         m_seen.pop_front();
         ++m_firstSeen;
@@ -74,17 +88,43 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
     const auto clusters = findClusters(m_grid, statistic, m_settings.threshold, m_settings.shoulder, m_settings.linkCells);
     for (const Cluster &cluster : clusters)
         startTrack(frame, cluster, y);
-    m_seen.back().forgotten = m_boxes;
+    if (m_settings.resets)
+        m_seen.back().forgotten = forgottenBoxes();
     for (const HmmTracker &tracker : m_trackers)
         tracker.paint(statistic);
+}
+
+const std::vector<CellBox> &DetectionChain::forgottenBoxes() const
+{
+    return m_settings.forgetCells.empty() ? m_boxes : m_newBoxes;
+}
+
+void DetectionChain::keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y)
+{
+    std::vector<Index> cells;
+    for (const CellBox &box : boxes)
+        box.forEachCell(m_grid, [&](Index cell) {
+            y[static_cast<std::size_t>(cell)] = 0.0f;
+            cells.push_back(cell);
+        });
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    m_detector->inhibit(cells);
+}
+
+std::vector<DetectionChain::Inhibition> DetectionChain::inhibitions() const
+{
+    std::vector<Inhibition> result;
+    for (std::size_t i = 0; i < m_boxes.size(); ++i)
+        result.push_back({m_boxTracks[i], m_boxes[i]});
+    return result;
 }
 
 void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
 {
     if (m_trackers.empty())
         return;
-    m_model.likelihood.apply(y, m_lambda);
-    const double lnK = m_detector->regulation().lnK;
+    m_models.front().likelihood.apply(y, m_lambda);
     std::vector<HmmTracker> going;
     std::vector<std::vector<Index>> places; // as of the last frame: some trackers are about to move or end
     for (const HmmTracker &tracker : m_trackers)
@@ -93,7 +133,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     for (std::size_t i = 0; i < m_trackers.size(); ++i) {
         HmmTracker &tracker = m_trackers[i];
         const auto hidden = hideOthers(places, i);
-        const bool goesOn = tracker.update(frame, m_lambda, lnK);
+        const bool goesOn = tracker.update(frame, m_lambda, m_detector->member(tracker.track().model).regulation().lnK);
         for (const auto &[cell, value] : hidden)
             m_lambda[static_cast<std::size_t>(cell)] = value;
         if (goesOn)
@@ -119,11 +159,11 @@ std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const std::vecto
         return largest;
     };
     const std::vector<Index> &mine = places[own];
-    const auto nothing = static_cast<float>(m_model.likelihood.at(0.0));
+    const auto nothing = static_cast<float>(m_models.front().likelihood.at(0.0));
     std::vector<std::pair<Index, float>> hidden;
     for (std::size_t other = 0; other < places.size(); ++other) {
         const std::vector<Index> &centre = places[other];
-        if (other == own || distance(mine, centre) > m_trackerModel->largestExtent)
+        if (other == own || distance(mine, centre) > m_trackerModels.front()->largestExtent)
             continue;
         CellBox{centre, m_settings.inhibitCells}.forEachCell(m_grid, [&](Index cell) {
             const std::vector<Index> c = m_grid.coordinates(cell);
@@ -199,40 +239,47 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
     return box;
 }
 
+double DetectionChain::scoreOf(Index state, std::size_t model) const
+{
+    return static_cast<double>(m_detector->member(model).scores()[static_cast<std::size_t>(state)]);
+}
+
 Index DetectionChain::bestState(Index cell) const
 {
-    const std::span<const float> scores = m_detector->scores();
+    const std::size_t model = m_detector->winnerAt(cell);
+    const StateSpace &space = m_models[model].space;
+    const std::span<const float> scores = m_detector->member(model).scores();
     Index best = cell;
-    for (Index plane = 1; plane < m_model.space.planeCount(); ++plane) {
-        const Index state = plane * m_model.space.cellCount() + cell;
+    for (Index plane = 1; plane < space.planeCount(); ++plane) {
+        const Index state = plane * space.cellCount() + cell;
         if (scores[static_cast<std::size_t>(state)] > scores[static_cast<std::size_t>(best)])
             best = state;
     }
     return best;
 }
 
-RecursionRecord DetectionChain::record() const
+RecursionRecord DetectionChain::record(std::size_t model) const
 {
     RecursionRecord result;
     result.firstFrame = m_firstSeen;
     const auto at = [this](Index frame) -> const Seen & { return m_seen[static_cast<std::size_t>(frame - m_firstSeen)]; };
     result.frame = [at](Index frame) { return std::span<const float>(at(frame).y); };
-    result.lnK = [at](Index frame) { return at(frame).lnK; };
+    result.lnK = [at, model](Index frame) { return at(frame).lnK[model]; };
     result.forgotten = [at](Index frame) { return std::span<const CellBox>(at(frame).forgotten); };
     return result;
 }
 
-std::vector<PathStep> DetectionChain::detectorPathInto(Index state) const
+std::vector<PathStep> DetectionChain::detectorPathInto(Index state, std::size_t model) const
 {
-    return tracePath(m_model, m_grid, record(), m_firstSeen + std::ssize(m_seen) - 1, state,
-                     static_cast<double>(m_detector->scores()[static_cast<std::size_t>(state)]));
+    return tracePath(m_models[model], m_grid, record(model), m_firstSeen + std::ssize(m_seen) - 1, state, scoreOf(state, model));
 }
 
 DetectionChain::PathInto DetectionChain::pathInto(Index cell) const
 {
     PathInto path;
+    const std::size_t model = m_detector->winnerAt(cell);
     Index state = bestState(cell);
-    double best = static_cast<double>(m_detector->scores()[static_cast<std::size_t>(state)]);
+    double best = scoreOf(state, model);
     const HmmTracker *following = nullptr;
     for (const HmmTracker &tracker : m_trackers) {
         Index candidate = 0;
@@ -243,7 +290,8 @@ DetectionChain::PathInto DetectionChain::pathInto(Index cell) const
         }
     }
     path.isTracked = following != nullptr;
-    path.steps = following ? following->explain(state) : detectorPathInto(state);
+    path.model = following ? following->track().model : model;
+    path.steps = following ? following->explain(state) : detectorPathInto(state, model);
     return path;
 }
 
@@ -253,18 +301,27 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     Track track;
     track.id = m_nextId++;
     track.detectFrame = frame;
-    for (const PathStep &step : detectorPathInto(state))
-        track.points.push_back({step.frame, m_model.space.cellOf(step.state), m_model.space.planeOf(step.state), step.score});
+    track.model = m_detector->winnerAt(cluster.peakCell);
+    const std::size_t model = track.model;
+    const StateSpace &space = m_models[model].space;
+    RecursionRecord recent = record(model);
+    if (m_settings.onsetFrames > 0)
+        recent.firstFrame = std::max(recent.firstFrame, frame - m_settings.onsetFrames + 1);
+    for (const PathStep &step : tracePath(m_models[model], m_grid, recent, frame, state, scoreOf(state, model)))
+        track.points.push_back({step.frame, space.cellOf(step.state), space.planeOf(step.state), step.score});
     dropRunUp(track.points);
     track.onsetFrame = track.points.front().frame;
     track.isConfirmed = m_settings.track.confirmFrames <= 1 && m_settings.track.confirmNats <= 0.0;
+    track.confirmFrame = track.isConfirmed ? frame : -1;
 
-    const double offset = static_cast<double>(cluster.peakStatistic)
-        - static_cast<double>(m_detector->scores()[static_cast<std::size_t>(state)]);
-    m_trackers.emplace_back(*m_trackerModel, std::move(track), state, cluster.cells, m_detector->scores(), offset);
+    const double offset = static_cast<double>(cluster.peakStatistic) - scoreOf(state, model);
+    m_boxTracks.push_back(track.id);
+    m_trackers.emplace_back(*m_trackerModels[model], std::move(track), state, cluster.cells, m_detector->member(model).scores(), offset);
 
     // The box must hold the whole cluster, or its rim would start a second track in the next frame.
     CellBox box = boxRound(m_grid.coordinates(cluster.peakCell), y);
+    for (std::size_t axis = 0; axis < m_settings.forgetCells.size(); ++axis)
+        box.halfWidth[axis] = std::max(box.halfWidth[axis], m_settings.forgetCells[axis]);
     for (Index cell : cluster.cells) {
         const std::vector<Index> c = m_grid.coordinates(cell);
         for (std::size_t axis = 0; axis < c.size(); ++axis) {
@@ -275,6 +332,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
             box.halfWidth[axis] = std::max(box.halfWidth[axis], distance + m_settings.linkCells[axis]);
         }
     }
+    m_newBoxes.push_back(box);
     m_boxes.push_back(std::move(box));
 }
 

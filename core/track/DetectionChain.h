@@ -22,10 +22,14 @@ struct ChainSettings {
     double shoulder = 0.0;            ///< cells above this round a crossing belong to the same excursion and are forgotten with it
     std::vector<Index> linkCells;     ///< crossings this near belong to one cluster, per axis
     std::vector<Index> inhibitCells;  ///< half the box kept from the detector round a track, per axis
+    std::vector<Index> forgetCells;   ///< half the box the detector forgets round a new track, per axis; may be empty: as inhibitCells
     /// Cells where no signal is looked for, by coordinates: kept from the detector as if a track were there all the time.
     std::vector<std::vector<Index>> blind;
     TrackSettings track;
+    Index onsetFrames = 0;            ///< how far back the beginning of a new track is looked for; 0: as far as its path goes
     bool feedback = true;             ///< false: detector only, no reset, no inhibition, no tracks
+    bool resets = true;               ///< the detector forgets what a track has taken over
+    bool inhibits = true;             ///< y is kept from the detector round the tracks
     /// Half-width along the last axis over which a signal of power y spills into its neighbours; may be empty.
     std::function<Index(double y)> spill;
     /// Bins of one resolution cell along the last axis: a strong signal's skirts are followed outward in such steps; 0: not.
@@ -37,11 +41,15 @@ struct ChainSettings {
 /// For each frame, in this order: the trackers take the raw frame, and those whose signal is gone end; y is set to 0 in a box
 /// round every track and the detector takes the rest; crossings are clustered; the peak of each cluster starts a track,
 /// whose past is traced back to its onset, and the detector forgets the box round it. The statistic shown is the
-/// detector's, raised to the trackers' scores where they follow something. Deterministic; one object per thread.
+/// detector's, raised to the trackers' scores where they follow something. Under a bank of models a track belongs to the model
+/// whose statistic crossed: its path is traced, and followed, with that one. Deterministic; one object per thread.
 class DetectionChain
 {
 public:
     DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<Detector> detector, ChainSettings settings);
+
+    /// One model for each member of the detector, all with the same likelihood.
+    DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<Detector> detector, ChainSettings settings);
 
     /// Takes frame number `frame` (ascending, no gaps); writes the statistic of every cell.
     void update(Index frame, std::span<const float> y, std::span<float> statistic);
@@ -57,39 +65,53 @@ public:
     struct PathInto {
         std::vector<PathStep> steps; ///< under a tracker: from the frame it was seeded in
         bool isTracked = false;
+        std::size_t model = 0; ///< of a bank, the one whose path it is
     };
     PathInto pathInto(Index cell) const;
 
-    /// The detector's best path into a state of the newest frame.
-    std::vector<PathStep> detectorPathInto(Index state) const;
+    /// The detector's best path into a state of the newest frame, by one of its models.
+    std::vector<PathStep> detectorPathInto(Index state, std::size_t model = 0) const;
 
-    /// The boxes kept from the detector in the last frame.
+    /// The boxes kept from the detector in the last frame, those of tracks started in it included.
     const std::vector<CellBox> &inhibited() const { return m_boxes; }
+
+    /// A box kept from the detector, and the track that it was kept for.
+    struct Inhibition {
+        int track = 0; ///< 0: a place where no signal is looked for
+        CellBox box;
+    };
+    /// The same with their tracks, in the order of `inhibited()`.
+    std::vector<Inhibition> inhibitions() const;
 
 private:
     /// One frame as the detector saw it.
     struct Seen {
         std::vector<float> y;
-        double lnK = 0.0;
+        std::vector<double> lnK; ///< of each model
         std::vector<CellBox> forgotten;
     };
 
+    const std::vector<CellBox> &forgottenBoxes() const;
+    void keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y);
     void updateTrackers(Index frame, std::span<const float> y);
     std::vector<std::pair<Index, float>> hideOthers(const std::vector<std::vector<Index>> &places, std::size_t own);
     void endDuplicates();
     CellBox boxRound(const std::vector<Index> &centre, std::span<const float> y) const;
     void startTrack(Index frame, const Cluster &cluster, std::span<const float> y);
     Index bestState(Index cell) const;
-    RecursionRecord record() const;
+    double scoreOf(Index state, std::size_t model) const;
+    RecursionRecord record(std::size_t model) const;
 
-    MarkovModel m_model;
+    std::vector<MarkovModel> m_models;
     Grid m_grid;
     std::unique_ptr<Detector> m_detector;
     ChainSettings m_settings;
-    std::unique_ptr<TrackerModel> m_trackerModel;
+    std::vector<std::unique_ptr<TrackerModel>> m_trackerModels;
     std::vector<HmmTracker> m_trackers;
     std::vector<Track> m_ended;
     std::vector<CellBox> m_boxes;
+    std::vector<CellBox> m_newBoxes;  ///< of them, those of tracks started in the last frame
+    std::vector<int> m_boxTracks;     ///< the track of each box
     std::deque<Seen> m_seen;
     Index m_firstSeen = 0;
     std::size_t m_seenLimit;

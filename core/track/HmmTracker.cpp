@@ -175,8 +175,10 @@ bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
     follow(frame, lambda, lnK);
     const double ceiling = model.threshold + model.settings.ceilingNats;
     if (m_level >= model.threshold + model.settings.confirmNats
-        && frame - m_track.detectFrame + 1 >= model.settings.confirmFrames)
+        && frame - m_track.detectFrame + 1 >= model.settings.confirmFrames && !m_track.isConfirmed) {
         m_track.isConfirmed = true;
+        m_track.confirmFrame = frame;
+    }
     m_level = std::min(m_level, ceiling);
     m_levels.push_back(m_level);
     const auto lag = static_cast<std::size_t>(model.settings.smoothingFrames);

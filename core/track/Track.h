@@ -24,6 +24,8 @@ struct Track {
     bool isConfirmed = false;
     bool isOpen = false;     ///< still followed when the data ended
     std::vector<TrackPoint> points; ///< onset … end, one per frame
+    Index confirmFrame = -1; ///< where it was confirmed, -1: never
+    std::size_t model = 0;   ///< which of a bank's models found it and follows it
 };
 
 } // namespace faintline

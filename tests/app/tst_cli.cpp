@@ -36,6 +36,7 @@ private slots:
     void isTheLibrary();
     void explainsItsTerms();
     void framesInPlaceOfARecording();
+    void pingsFromAScene();
 
     void billonsVectors_data();
     void billonsVectors();
@@ -376,6 +377,32 @@ void tst_cli::framesInPlaceOfARecording()
     QVERIFY2(std::abs(events[0][4] - (1000.0 + 10.0 * ((detect - 5.0) / 2.0 + 5.0))) <= 20.0, content("target.csv").data());
     QVERIFY2(std::abs(events[0][5] - 5.0) < 0.6, content("target.csv").data()); // 10 m in 2 s
     QCOMPARE(readNumPy(pathOf("T.npy")).shape, (std::vector<Index>{40, 50}));
+}
+
+void tst_cli::pingsFromAScene()
+{
+    writeBytes(pathOf("pings.json"), R"({"kind": "pings", "pings": 30, "rangeCells": 90, "beams": 8, "targets": [{"snrDb": 12, "rangeMetres": 3200,
+        "bearingDegrees": 315, "appearPing": 4, "legs": [{"rangeCellsPerPing": 2, "beamsPerPing": 0.2}]}]})");
+    const Outcome info = run(m_folder, {"info", "pings.json"});
+    QVERIFY2(info.out.contains("range         90 cells of 10 m, 3000 … 3890 m") && info.out.contains("target 1      12 dB, constant, pings 4 … 29"),
+             info.out.data());
+    QCOMPARE(run(m_folder, {"simulate", "pings.json", "--out", "P.npy", "--truth", "P.json"}).code, 0);
+    QCOMPARE(readNumPy(pathOf("P.npy")).shape, (std::vector<Index>{30, 90, 8}));
+    const Json truth = parseJson(content("P.json").toStdString(), "truth");
+    QCOMPARE(truth["targets"][0]["cell"].size(), std::size_t(26));
+    // From the scene and from the frames written: the same events, byte for byte.
+    const QStringList settings{"--preset", "sonar", "--set", "decide.thresholdNats=20"};
+    QCOMPARE(run(m_folder, QStringList{"detect", "pings.json", "--events", "a.csv"} + settings).code, 0);
+    QCOMPARE(run(m_folder, QStringList{"detect", "--frames", "P.npy", "--grid", "P.grid.json", "--events", "b.csv"} + settings).code, 0);
+    QVERIFY(content("a.csv").startsWith("event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,open,range_per_s,bearing_per_s\n"));
+    QCOMPARE(content("a.csv"), content("b.csv"));
+    bool isFound = false;
+    for (const auto &event : numbersOf(content("a.csv"))) // 20 m and 9° in 40 s
+        isFound = isFound || (event[8] == 1.0 && std::abs(event[10] - 0.5) < 0.1 && std::abs(event[11] - 0.225) < 0.1);
+    QVERIFY2(isFound, content("a.csv").data());
+    const Outcome wrong = run(m_folder, {"simulate", "pings.json", "--out", "P.wav"});
+    QCOMPARE(wrong.code, 2);
+    QVERIFY(wrong.err.contains("P.wav: pings are written as frames"));
 }
 
 void tst_cli::billonsVectors_data()

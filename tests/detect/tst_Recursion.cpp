@@ -88,6 +88,8 @@ private slots:
     void tracedTermsAddUp();
     void aThousandFramesStayFinite();
     void shiftByACellShiftsTheAnswer();
+    void tilesAreTheDefinition_data();
+    void tilesAreTheDefinition();
 
 private:
     void rows()
@@ -297,6 +299,55 @@ void tst_Recursion::shiftByACellShiftsTheAnswer()
     }
     std::rotate(b.begin(), b.begin() + 5, b.end());
     QCOMPARE(a, b);
+}
+
+void tst_Recursion::tilesAreTheDefinition_data()
+{
+    // Grids of several tiles, with their edges, wraps and blocks: state by state against the list of predecessors.
+    QTest::addColumn<int>("index");
+    QTest::newRow("range and cyclic bearing") << 0;
+    QTest::newRow("both cyclic") << 1;
+    QTest::newRow("random walk in bearing") << 2;
+    QTest::newRow("rates that nothing leads to") << 3;
+    QTest::newRow("one long axis") << 4;
+    QTest::newRow("three axes") << 5;
+}
+
+void tst_Recursion::tilesAreTheDefinition()
+{
+    const double ninth = 1.0 / 9.0;
+    const std::vector<std::vector<KinematicAxis>> spaces{
+        {rated(700, false, -3, 7, {ninth, ninth, ninth, ninth, ninth}, Rounding::Trunc), rated(20, true, -1, 3, {0.5, 0.25}, Rounding::Trunc)},
+        {rated(500, true, -2, 5, {0.4, 0.3}), rated(12, true, -2, 5, {0.6, 0.2})},
+        {rated(900, false, 1, 3, {1.0}), walk(10, false, {0.5, 0.25})},
+        {rated(300, false, -1, 3, {0.0, 0.5}), rated(16, true, 2, 1, {1.0})},
+        {rated(9000, false, -2, 5, {1.0 / 3.0, 1.0 / 3.0})},
+        {walk(40, false, {0.5, 0.25}), rated(30, false, -2, 4, {0.5, 0.25}), rated(8, true, -1, 2, {0.5, 0.25})}};
+    QFETCH(int, index);
+    const StateSpace space(spaces[static_cast<std::size_t>(index)]);
+    Random random(78, 0);
+    std::vector<float> scores(static_cast<std::size_t>(space.stateCount()));
+    for (float &score : scores)
+        score = static_cast<float>(10.0 * random.exponential());
+    Recursion<MaxPlus<float>> recursion(space);
+    const std::span<const float> predicted = recursion.predict(scores);
+    std::vector<int> visits(scores.size(), 0);
+    Recursion<MaxPlus<float>> tiled(space);
+    tiled.predict(scores, [&](Index plane, Index firstCell, std::span<const float> part) {
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            const std::size_t n = static_cast<std::size_t>(plane * space.cellCount() + firstCell) + i;
+            ++visits[n];
+            QCOMPARE(part[i], predicted[n]);
+        }
+    });
+    for (Index state = 0; state < space.stateCount(); state += state % 97 == 0 ? 1 : 61) {
+        double best = minus;
+        for (const StateSpace::Predecessor &p : space.predecessors(state))
+            best = std::max(best, static_cast<double>(scores[static_cast<std::size_t>(p.state)]) + p.lnProbability);
+        const auto found = static_cast<double>(predicted[static_cast<std::size_t>(state)]);
+        QVERIFY2(best == minus ? found == minus : std::abs(found - best) < 2e-5, qPrintable(QString("state %1").arg(state)));
+    }
+    QVERIFY(std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; }));
 }
 
 QTEST_APPLESS_MAIN(tst_Recursion)

@@ -179,7 +179,7 @@ void tst_writeEvents::severalAxes()
     const Grid grid{{{"bearing", "°", 0.0, 90.0, 2, true}, {"range", "m", 100.0, 10.0, 5, false}}};
     analysis.frames = std::make_shared<FrameArray>(analysis.time(), grid, std::vector<float>(80, 1.0f));
     const QByteArray events = written(analysis, "s.csv");
-    QVERIFY(events.startsWith("event,t_onset,t_detect,t_end,bearing,range,drift_hz_per_s,statistic,confirmed,open\n"
+    QVERIFY(events.startsWith("event,t_onset,t_detect,t_end,bearing,range,drift_hz_per_s,statistic,confirmed,open,bearing_per_s,range_per_s\n"
                               "2,0.75,2.25,3.75,0,110,0,"));
     const QByteArray tracks = written(analysis, "st.csv", true);
     QVERIFY(tracks.startsWith("track,t,bearing,range,statistic\n"

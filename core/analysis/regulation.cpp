@@ -1,0 +1,44 @@
+#include "analysis/regulation.h"
+
+#include "base/Random.h"
+
+#include <cmath>
+
+namespace faintline {
+
+NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const RunContext &context)
+{
+    constexpr int settlingFrames = 150;
+    constexpr int frames = 400;
+    if (rule.law != ResetLaw::Mean && rule.law != ResetLaw::Half)
+        return {};
+    const MarkovModel piece = handyPiece(model);
+    Smd detector(piece, rule);
+    std::vector<float> y(static_cast<std::size_t>(piece.space.cellCount()));
+    std::vector<float> statistic(y.size());
+    std::vector<double> lnK;
+    Random random(2000, 0);
+    for (int frame = 0; frame < frames; ++frame) {
+        context.checkpoint(static_cast<double>(frame) / frames, "settling K on noise");
+        for (float &value : y)
+            value = static_cast<float>(random.exponential());
+        detector.update(y, statistic);
+        if (frame >= settlingFrames)
+            lnK.push_back(detector.regulation().lnK);
+    }
+    NoiseBand band = noiseBand(lnK);
+    band.deviation *= std::sqrt(static_cast<double>(piece.space.cellCount()) / static_cast<double>(model.space.cellCount()));
+    return band;
+}
+
+std::vector<Index> draggedFrames(const Analysis &analysis)
+{
+    std::vector<Index> frames;
+    if (analysis.lnKBand.deviation > 0.0)
+        for (std::size_t frame = 0; frame < analysis.lnK.size(); ++frame)
+            if (static_cast<double>(analysis.lnK[frame]) < analysis.lnKBand.low())
+                frames.push_back(static_cast<Index>(frame));
+    return frames;
+}
+
+} // namespace faintline

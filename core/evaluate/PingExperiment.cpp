@@ -1,0 +1,90 @@
+#include "evaluate/PingExperiment.h"
+
+#include "analysis/chain.h"
+#include "base/Error.h"
+#include "base/parallel.h"
+#include "detect/Smd.h"
+#include "spectrum/SimulatedPings.h"
+
+namespace faintline {
+
+namespace {
+
+    PingScene seeded(PingScene scene, std::uint64_t seed)
+    {
+        scene.seed = static_cast<int>(seed & 0x7fffffff);
+        return scene;
+    }
+
+    /// All that makes a chain, without a run.
+    Analysis plan(const PingExperiment &experiment)
+    {
+        Analysis analysis;
+        analysis.settings = experiment.settings;
+        analysis.frames = std::make_shared<SimulatedPings>(experiment.scene);
+        analysis.model = makeModel(experiment.settings.model, analysis.grid());
+        auto calibration = std::make_shared<Calibration>();
+        calibration->lnK = std::get<SmdSettings>(experiment.settings.detector).lnK;
+        analysis.calibration = calibration;
+        analysis.threshold = experiment.settings.decide.thresholdNats;
+        return analysis;
+    }
+
+    Smd::Memory settle(const PingExperiment &experiment, const Analysis &analysis, const ResetRule &rule, const RunContext &context)
+    {
+        PingScene scene = seeded(experiment.scene, experiment.seed);
+        scene.targets.clear();
+        scene.pings = std::max(1, experiment.settlingPings);
+        const SimulatedPings noise(scene);
+        Smd detector(analysis.model, rule);
+        std::vector<float> y(static_cast<std::size_t>(noise.grid().size()));
+        std::vector<float> statistic(y.size());
+        for (int ping = 0; ping < experiment.settlingPings; ++ping) {
+            context.checkpoint(static_cast<double>(ping) / experiment.settlingPings, "settling on noise");
+            noise.read(ping, 1, y);
+            detector.update(y, statistic);
+        }
+        return detector.memory();
+    }
+
+    TrackScore runOnce(const PingExperiment &experiment, const Analysis &analysis, const ResetRule &rule, const Smd::Memory &settled,
+                       std::uint64_t run, const RunContext &context)
+    {
+        const SimulatedPings pings(seeded(experiment.scene, experiment.seed + 7919u * (run + 1)));
+        auto detector = std::make_unique<Smd>(analysis.model, rule);
+        detector->restore(settled);
+        const auto chain = makeChain(analysis, std::move(detector));
+        std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
+        std::vector<float> statistic(y.size());
+        for (Index ping = 0; ping < pings.time().count; ++ping) {
+            if (context.stop.stop_requested())
+                throw Cancelled();
+            pings.read(ping, 1, y);
+            chain->update(ping, y, statistic);
+        }
+        chain->finish();
+        return scoreTracks(chain->tracks(), pings.truth(), pings.grid(), experiment.gateCells);
+    }
+
+} // namespace
+
+std::vector<TrackScore> runPings(const PingExperiment &experiment, const RunContext &context)
+{
+    checkSettings(experiment.settings);
+    const auto *smd = std::get_if<SmdSettings>(&experiment.settings.detector);
+    if (!smd || experiment.settings.model.motion == Motion::Bank)
+        throw Error("experiment", "runs one sequential Markov detector; choose detector.kind = smd and one model");
+    const Analysis analysis = plan(experiment);
+    const ResetRule rule = resetRule(*smd, smd->lnK);
+    const Smd::Memory settled = settle(experiment, analysis, rule, context.part(0.0, 0.2));
+    std::vector<TrackScore> scores(static_cast<std::size_t>(experiment.runs));
+    parallelFor(experiment.runs, context.part(0.2, 1.0), "following targets", [&]() -> std::function<void(Index)> {
+        return [&](Index run) {
+            scores[static_cast<std::size_t>(run)] =
+                runOnce(experiment, analysis, rule, settled, static_cast<std::uint64_t>(run), context);
+        };
+    });
+    return scores;
+}
+
+} // namespace faintline

@@ -1,0 +1,204 @@
+#include "recording/PingScene.h"
+
+#include "base/logmath.h"
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    std::string targetName(std::size_t i)
+    {
+        return "targets[" + std::to_string(i) + "]";
+    }
+
+    std::string legName(std::size_t target, std::size_t leg)
+    {
+        return targetName(target) + ".legs[" + std::to_string(leg) + "]";
+    }
+
+    /// The objects of a list under a key; none where the key is missing.
+    std::vector<Json> listOf(const Json &object, const std::string &key, const std::string &where)
+    {
+        const auto found = object.find(key);
+        if (found == object.end())
+            return {};
+        if (!found->is_array())
+            throw Error(jsonName(where, key), "must be a list, [ … ]");
+        return {found->begin(), found->end()};
+    }
+
+    void checkTarget(const PingScene &scene, const PingTarget &target, std::size_t i)
+    {
+        const std::string name = targetName(i);
+        checkFields(target, PingTarget::fields(), name);
+        for (std::size_t leg = 0; leg < target.legs.size(); ++leg) {
+            checkFields(target.legs[leg], PingLeg::fields(), legName(i, leg));
+            if (target.legs[leg].pings == 0 && leg + 1 < target.legs.size())
+                throw Error(legName(i, leg) + ".pings = 0", "lasts to the end, but another leg follows; give its length");
+        }
+        if (target.vanishPing != 0 && target.vanishPing <= target.appearPing)
+            throw Error(name + ".vanishPing = " + std::to_string(target.vanishPing),
+                        "must come after appearPing = " + std::to_string(target.appearPing) + ", or be 0 for never");
+        if (target.appearPing >= scene.pings)
+            throw Error(name + ".appearPing = " + std::to_string(target.appearPing),
+                        "must be one of the pings, 0 … " + std::to_string(scene.pings - 1));
+        const Axis range = pingGrid(scene).axes[0];
+        const double cell = range.position(target.rangeMetres);
+        if (cell < -0.5 || cell >= static_cast<double>(range.count) - 0.5)
+            throw Error(name + ".rangeMetres = " + formatNumber(target.rangeMetres),
+                        "must lie within the range cells, " + formatNumber(range.first) + " … " + formatNumber(range.last()) + " m");
+    }
+
+} // namespace
+
+const std::vector<Field<PingLeg>> &PingLeg::fields()
+{
+    using S = PingLeg;
+    static const std::vector<Field<S>> table{
+        field(&S::pings, "pings", "pings", 0.0, 1e6, "How long the leg lasts; 0 is to the end."),
+        field(&S::rangeRateMetresPerSecond, "rangeRateMetresPerSecond", "m/s", -1e6, 1e6, "Rate of range, outward positive."),
+        field(&S::bearingRateDegreesPerSecond, "bearingRateDegreesPerSecond", "°/s", -360.0, 360.0, "Rate of bearing."),
+        field(&S::rangeCellsPerPing, "rangeCellsPerPing", "cells/ping", -1e4, 1e4, "Rate of range in cells; adds to the one in m/s."),
+        field(&S::beamsPerPing, "beamsPerPing", "beams/ping", -1e3, 1e3, "Rate of bearing in beams; adds to the one in °/s."),
+        field(&S::turnPings, "turnPings", "pings", 1.0, 1e6, "Pings over which the rates slide from the last leg's to this one's."),
+    };
+    return table;
+}
+
+const std::vector<Field<PingTarget>> &PingTarget::fields()
+{
+    using S = PingTarget;
+    static const std::vector<Field<S>> table{
+        field(&S::snrDb, "snrDb", "dB", -60.0, 80.0, "Power of the echo over the noise power in a cell, reverberation not counted."),
+        field(&S::echo, "echo", echoNames, "Constant added power, a power drawn anew in every ping, or a constant amplitude."),
+        field(&S::rangeMetres, "rangeMetres", "m", 0.0, 1e9, "Range where it appears."),
+        field(&S::bearingDegrees, "bearingDegrees", "°", -360.0, 720.0, "Bearing where it appears."),
+        field(&S::appearPing, "appearPing", "ping", 0.0, 1e6, "First ping with it, counted from 0."),
+        field(&S::vanishPing, "vanishPing", "ping", 0.0, 1e6, "First ping without it; 0 is never."),
+        field(&S::weaveCellsPerPing, "weaveCellsPerPing", "cells/ping", 0.0, 1e4, "Amplitude of a sinusoid added to its range rate."),
+        field(&S::weavePings, "weavePings", "pings", 1.0, 1e6, "Period of that sinusoid."),
+    };
+    return table;
+}
+
+const std::vector<Field<Reverberation>> &Reverberation::fields()
+{
+    using S = Reverberation;
+    static const std::vector<Field<S>> table{
+        field(&S::levelDb, "levelDb", "dB", -60.0, 80.0, "Its power over the noise in the first range cell."),
+        field(&S::decayPower, "decayPower", "", 0.0, 10.0, "It falls with range to this power."),
+        field(&S::normalisation, "normalisation", pingNormalisationNames, "Whether the mean it is divided by is known or estimated."),
+    };
+    return table;
+}
+
+const std::vector<Field<PingScene>> &PingScene::fields()
+{
+    using S = PingScene;
+    static const std::vector<Field<S>> table{
+        field(&S::pings, "pings", "pings", 1.0, 1e6, "How many pings there are."),
+        field(&S::priSeconds, "priSeconds", "s", 1e-6, 1e6, "Time from ping to ping."),
+        field(&S::rangeCells, "rangeCells", "cells", 1.0, 1e6, "Range cells of a ping."),
+        field(&S::firstRangeMetres, "firstRangeMetres", "m", 0.0, 1e9, "Range of the first cell's centre."),
+        field(&S::rangeStepMetres, "rangeStepMetres", "m", 1e-6, 1e6, "Length of a range cell."),
+        field(&S::beams, "beams", "beams", 1.0, 1e4, "Beams of a ping."),
+        field(&S::firstBearingDegrees, "firstBearingDegrees", "°", -360.0, 360.0, "Bearing of the first beam."),
+        field(&S::beamStepDegrees, "beamStepDegrees", "°", 0.0, 360.0, "From beam to beam; 0 is all round, 360°/beams."),
+        field(&S::looks, "looks", "", 1.0, 1000.0, "Powers averaged in a cell."),
+        field(&S::seed, "seed", "", 0.0, 2147483647.0, "Names the random numbers: the same seed gives the same pings."),
+    };
+    return table;
+}
+
+Grid pingGrid(const PingScene &scene)
+{
+    const double step = scene.beamStepDegrees > 0.0 ? scene.beamStepDegrees : 360.0 / scene.beams;
+    const bool isAllRound = std::abs(step * scene.beams - 360.0) < 1e-9 * 360.0;
+    return {{{"range", "m", scene.firstRangeMetres, scene.rangeStepMetres, scene.rangeCells, false},
+             {"bearing", "°", scene.firstBearingDegrees, step, scene.beams, isAllRound}}};
+}
+
+Axis pingTime(const PingScene &scene)
+{
+    return {"time", "s", 0.0, scene.priSeconds, scene.pings, false};
+}
+
+double backgroundPower(const PingScene &scene, Index rangeCell)
+{
+    if (!scene.reverberation)
+        return 1.0;
+    const Axis range = pingGrid(scene).axes[0];
+    const double ratio = range.value(static_cast<double>(rangeCell)) / range.first;
+    return 1.0 + ratioFromDb(scene.reverberation->levelDb) * std::pow(ratio, -scene.reverberation->decayPower);
+}
+
+void checkScene(const PingScene &scene)
+{
+    checkFields(scene, PingScene::fields());
+    const double cells = static_cast<double>(scene.rangeCells) * scene.beams;
+    if (cells > 1e7)
+        throw Error("rangeCells = " + std::to_string(scene.rangeCells),
+                    "times beams gives " + formatNumber(cells) + " cells; there may be 1e7");
+    if (scene.beamStepDegrees * scene.beams > 360.0 * (1.0 + 1e-9))
+        throw Error("beamStepDegrees = " + formatNumber(scene.beamStepDegrees),
+                    "times beams is more than 360°; at most " + formatNumber(360.0 / scene.beams) + "°");
+    if (scene.reverberation) {
+        checkFields(*scene.reverberation, Reverberation::fields(), "reverberation");
+        if (scene.firstRangeMetres <= 0.0)
+            throw Error("firstRangeMetres = 0", "must be above 0 where there is reverberation, whose level refers to it");
+        constexpr int fewestCells = 32;
+        if (scene.reverberation->normalisation == PingNormalisation::Estimated && cells < fewestCells)
+            throw Error("reverberation.normalisation = estimated", "needs at least " + std::to_string(fewestCells) + " cells in a ping");
+    }
+    for (std::size_t i = 0; i < scene.targets.size(); ++i)
+        checkTarget(scene, scene.targets[i], i);
+}
+
+bool isPingScene(const Json &json)
+{
+    const auto kind = json.is_object() ? json.find("kind") : json.end();
+    return kind != json.end() && *kind == "pings";
+}
+
+PingScene pingSceneFromJson(const Json &json)
+{
+    PingScene scene;
+    readFields(json, PingScene::fields(), scene, {}, {"kind", "reverberation", "targets"});
+    if (!isPingScene(json))
+        throw Error("kind", "must be \"pings\" for a scene of sonar pings");
+    if (const auto found = json.find("reverberation"); found != json.end())
+        readFields(*found, Reverberation::fields(), scene.reverberation.emplace(), "reverberation");
+    for (const Json &entry : listOf(json, "targets", {})) {
+        const std::size_t i = scene.targets.size();
+        PingTarget &target = scene.targets.emplace_back();
+        readFields(entry, PingTarget::fields(), target, targetName(i), {"legs"});
+        for (const Json &leg : listOf(entry, "legs", targetName(i))) {
+            const std::size_t number = target.legs.size();
+            readFields(leg, PingLeg::fields(), target.legs.emplace_back(), legName(i, number));
+        }
+    }
+    checkScene(scene);
+    return scene;
+}
+
+Json toJson(const PingScene &scene)
+{
+    Json json;
+    json["kind"] = "pings";
+    json.update(writeFields(scene, PingScene::fields()));
+    if (scene.reverberation)
+        json["reverberation"] = writeFields(*scene.reverberation, Reverberation::fields());
+    json["targets"] = Json::array();
+    for (const PingTarget &target : scene.targets) {
+        Json entry = writeFields(target, PingTarget::fields());
+        entry["legs"] = Json::array();
+        for (const PingLeg &leg : target.legs)
+            entry["legs"].push_back(writeFields(leg, PingLeg::fields()));
+        json["targets"].push_back(std::move(entry));
+    }
+    return json;
+}
+
+} // namespace faintline

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "base/Grid.h"
+#include "base/json.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace faintline {
+
+/// What a target's echo does to the power y of its cell, S its SNR as a power ratio and n the complex noise, E|n|² = 1.
+enum class Echo {
+    Constant,    ///< y = |n|² + S: constant added power (Parsons 2008, section 3)
+    Fluctuating, ///< y ~ (1 + S)·Exp(1) in every ping anew (Grossi and Lops 2006, eq. 10)
+    Complex      ///< y = |n + √S e^{iφ}|²: constant amplitude, random phase (Billon 2005)
+};
+inline constexpr std::array<std::string_view, 3> echoNames{"constant", "fluctuating", "complex"};
+
+/// Rates of range and bearing that hold for some pings. Physical rates and rates in cells add up, so either may be given.
+struct PingLeg {
+    int pings = 0; ///< how long it lasts; 0: to the end
+    double rangeRateMetresPerSecond = 0.0;
+    double bearingRateDegreesPerSecond = 0.0;
+    double rangeCellsPerPing = 0.0;
+    double beamsPerPing = 0.0;
+    int turnPings = 1; ///< the rates slide from the last leg's to these over so many pings
+
+    static const std::vector<Field<PingLeg>> &fields();
+    bool operator==(const PingLeg &) const = default;
+};
+
+/// A point target: where it starts, how it moves, how strong its echo is.
+///
+/// With v(k) the rate k pings after it appeared, its position is p(k+1) = p(k) + (v(k) + v(k+1))/2 on each axis, and it fills the
+/// nearest cell. Bearings wrap; a target beyond the range cells is silent until it comes back.
+struct PingTarget {
+    double snrDb = 7.0;
+    Echo echo = Echo::Constant;
+    double rangeMetres = 0.0;
+    double bearingDegrees = 0.0;
+    int appearPing = 0;
+    int vanishPing = 0;             ///< first ping without it; 0: never
+    double weaveCellsPerPing = 0.0; ///< amplitude of a sinusoid added to the range rate
+    double weavePings = 20.0;       ///< its period
+    std::vector<PingLeg> legs;      ///< in order; none: it stands still
+
+    /// Its own members, without legs.
+    static const std::vector<Field<PingTarget>> &fields();
+    bool operator==(const PingTarget &) const = default;
+};
+
+/// Whose mean the pings are divided by where there is reverberation.
+enum class PingNormalisation {
+    Known,    ///< the true mean
+    Estimated ///< the mean of the cells round about in the same ping (SimulatedPings)
+};
+inline constexpr std::array<std::string_view, 2> pingNormalisationNames{"known", "estimated"};
+
+/// Reverberation: a background power levelDb above the noise in the first range cell that falls with (range)^-decayPower.
+struct Reverberation {
+    double levelDb = 20.0;
+    double decayPower = 3.0;
+    PingNormalisation normalisation = PingNormalisation::Known;
+
+    static const std::vector<Field<Reverberation>> &fields();
+    bool operator==(const Reverberation &) const = default;
+};
+
+/// An active sonar's pings to be simulated: a grid of range × bearing, targets, noise. The defaults are Parsons' simulation
+/// (2008, section 3): 2500 range cells of 10 m, 20 beams all round, a ping every 40 s.
+struct PingScene {
+    int pings = 60;
+    double priSeconds = 40.0; ///< from ping to ping
+    int rangeCells = 2500;
+    double firstRangeMetres = 3000.0; ///< centre of the first range cell
+    double rangeStepMetres = 10.0;
+    int beams = 20;
+    double firstBearingDegrees = 0.0;
+    double beamStepDegrees = 0.0; ///< 0: all round, 360°/beams
+    int looks = 1;                ///< M: powers averaged in a cell; y is χ² with 2M degrees of freedom, of mean 1
+    int seed = 1;
+    std::optional<Reverberation> reverberation;
+    std::vector<PingTarget> targets;
+
+    /// The scene's own members.
+    static const std::vector<Field<PingScene>> &fields();
+    bool operator==(const PingScene &) const = default;
+};
+
+/// Range, then bearing: the axes of a ping. The bearing is cyclic where the beams go all round.
+Grid pingGrid(const PingScene &scene);
+
+/// Time of the pings.
+Axis pingTime(const PingScene &scene);
+
+/// Power of noise and reverberation in a range cell, the noise's being 1.
+double backgroundPower(const PingScene &scene, Index rangeCell);
+
+/// Checks the scene. Throws Error naming the key.
+void checkScene(const PingScene &scene);
+
+/// Whether a scene's JSON is one of pings: {"kind": "pings", …}.
+bool isPingScene(const Json &json);
+
+/// The scene of {"kind": "pings", "reverberation": {…}, "targets": [{…, "legs": [{…}]}], …}. Keys that are not known are
+/// errors, missing ones take their defaults. Throws Error as checkScene does.
+PingScene pingSceneFromJson(const Json &json);
+
+Json toJson(const PingScene &scene);
+
+} // namespace faintline

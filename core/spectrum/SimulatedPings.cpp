@@ -1,0 +1,160 @@
+#include "spectrum/SimulatedPings.h"
+
+#include "base/Random.h"
+#include "base/logmath.h"
+#include "base/multiversion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace faintline {
+
+namespace {
+
+    constexpr float halfPower = std::numbers::sqrt2_v<float> / 2.0f; ///< deviation of each part of the complex noise
+
+    FAINTLINE_MULTIVERSION
+    void addPowers(const float *noise, Index cells, float *power)
+    {
+        for (Index i = 0; i < cells; ++i)
+            power[i] += noise[2 * i] * noise[2 * i] + noise[2 * i + 1] * noise[2 * i + 1];
+    }
+
+    /// Range half-width of the window round a cell: shorter at the axis's ends, so that the cell stays in its middle.
+    Index windowAt(Index range, Index rangeCells)
+    {
+        constexpr Index widest = 16;
+        constexpr Index narrowest = 4;
+        return std::clamp(std::min(range, rangeCells - 1 - range), narrowest, widest);
+    }
+
+} // namespace
+
+SimulatedPings::SimulatedPings(const PingScene &scene)
+    : NormalisedFrames(pingTime(scene), pingGrid(scene)), m_scene(scene)
+{
+    checkScene(scene);
+    m_truth = pingTruth(scene);
+    for (Index range = 0; range < scene.rangeCells; ++range)
+        m_background.push_back(static_cast<float>(backgroundPower(scene, range)));
+}
+
+void SimulatedPings::read(Index first, Index count, std::span<float> out) const
+{
+    const auto cells = static_cast<std::size_t>(grid().size());
+    for (Index i = 0; i < count; ++i)
+        readPing(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells));
+}
+
+void SimulatedPings::readPing(Index ping, std::span<float> y) const
+{
+    const Index cells = grid().size();
+    std::vector<float> noise(2 * y.size());
+    std::fill(y.begin(), y.end(), 0.0f);
+    Random random(static_cast<std::uint64_t>(m_scene.seed), static_cast<std::uint64_t>(ping));
+    // Echoes interfere with the noise look by look: their cells' noise is kept.
+    std::vector<float> kept;
+    std::vector<Index> occupied;
+    for (const TruthTarget &target : m_truth.targets)
+        if (const Index cell = target.cellAt(ping); cell >= 0 && std::find(occupied.begin(), occupied.end(), cell) == occupied.end())
+            occupied.push_back(cell);
+    std::sort(occupied.begin(), occupied.end());
+    for (int look = 0; look < m_scene.looks; ++look) {
+        random.normals(noise, halfPower);
+        addPowers(noise.data(), cells, y.data());
+        for (Index cell : occupied)
+            kept.insert(kept.end(), noise.begin() + 2 * cell, noise.begin() + 2 * cell + 2);
+    }
+    const float share = 1.0f / static_cast<float>(m_scene.looks);
+    const Index beams = m_scene.beams;
+    for (Index range = 0; range < m_scene.rangeCells; ++range)
+        for (float &value : y.subspan(static_cast<std::size_t>(range * beams), static_cast<std::size_t>(beams)))
+            value *= share * m_background[static_cast<std::size_t>(range)];
+    if (!occupied.empty())
+        addEchoes(ping, kept, y);
+
+    if (m_scene.reverberation && m_scene.reverberation->normalisation == PingNormalisation::Estimated)
+        divideByEstimate(y);
+    else if (m_scene.reverberation)
+        for (Index range = 0; range < m_scene.rangeCells; ++range)
+            for (float &value : y.subspan(static_cast<std::size_t>(range * beams), static_cast<std::size_t>(beams)))
+                value /= m_background[static_cast<std::size_t>(range)];
+}
+
+void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::span<float> power) const
+{
+    struct Sum {
+        double constant = 0.0;    ///< powers that add to the cell's
+        double fluctuating = 0.0; ///< powers that raise the noise's
+        double amplitude = 0.0;
+    };
+    std::map<Index, Sum> sums;
+    for (std::size_t i = 0; i < m_truth.targets.size(); ++i) {
+        const Index cell = m_truth.targets[i].cellAt(ping);
+        if (cell < 0)
+            continue;
+        const double snr = ratioFromDb(m_scene.targets[i].snrDb);
+        Sum &sum = sums[cell];
+        switch (m_scene.targets[i].echo) {
+        case Echo::Constant: sum.constant += snr; break;
+        case Echo::Fluctuating: sum.fluctuating += snr; break;
+        case Echo::Complex: sum.amplitude += std::sqrt(snr); break;
+        }
+    }
+    std::size_t number = 0;
+    for (const auto &[cell, sum] : sums) {
+        const double background = static_cast<double>(m_background[static_cast<std::size_t>(cell / m_scene.beams)]);
+        // The noise's phase is uniform and fresh in every look, so the echo's own phase need not be drawn.
+        double total = 0.0;
+        for (int look = 0; look < m_scene.looks; ++look) {
+            const std::size_t at = 2 * (static_cast<std::size_t>(look) * sums.size() + number);
+            const double scale = std::sqrt(background + sum.fluctuating);
+            const double real = scale * static_cast<double>(noise[at]) + sum.amplitude;
+            const double imaginary = scale * static_cast<double>(noise[at + 1]);
+            total += real * real + imaginary * imaginary;
+        }
+        power[static_cast<std::size_t>(cell)] = static_cast<float>(total / m_scene.looks + sum.constant);
+        ++number;
+    }
+}
+
+void SimulatedPings::divideByEstimate(std::span<float> power) const
+{
+    constexpr Index guardRanges = 2;
+    constexpr Index guardBeams = 1;
+    const Index ranges = m_scene.rangeCells;
+    const Index beams = m_scene.beams;
+    std::vector<double> rows(static_cast<std::size_t>(ranges) + 1, 0.0); // Σ over beams and over the ranges before
+    for (Index range = 0; range < ranges; ++range) {
+        double sum = 0.0;
+        for (Index beam = 0; beam < beams; ++beam)
+            sum += static_cast<double>(power[static_cast<std::size_t>(range * beams + beam)]);
+        rows[static_cast<std::size_t>(range) + 1] = rows[static_cast<std::size_t>(range)] + sum;
+    }
+    const std::vector<float> raw(power.begin(), power.end());
+    for (Index range = 0; range < ranges; ++range) {
+        const Index half = windowAt(range, ranges);
+        const Index from = std::max<Index>(0, range - half);
+        const Index to = std::min(ranges - 1, range + half);
+        const double all = rows[static_cast<std::size_t>(to) + 1] - rows[static_cast<std::size_t>(from)];
+        for (Index beam = 0; beam < beams; ++beam) {
+            double guarded = 0.0;
+            Index guardedCount = 0;
+            for (Index r = std::max(from, range - guardRanges); r <= std::min(to, range + guardRanges); ++r)
+                for (Index b = -std::min(guardBeams, (beams - 1) / 2); b <= std::min(guardBeams, (beams - 1) / 2); ++b)
+                    if (const Index inside = grid().axes[1].wrapped(beam + b); inside >= 0) {
+                        guarded += static_cast<double>(raw[static_cast<std::size_t>(r * beams + inside)]);
+                        ++guardedCount;
+                    }
+            const auto count = static_cast<double>((to - from + 1) * beams - guardedCount);
+            const double looks = count * m_scene.looks;
+            const double mean = (all - guarded) / count * looks / (looks - 1.0);
+            auto &value = power[static_cast<std::size_t>(range * beams + beam)];
+            value = mean > 0.0 ? static_cast<float>(static_cast<double>(value) / mean) : 0.0f;
+        }
+    }
+}
+
+} // namespace faintline

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "recording/PingScene.h"
+#include "recording/PingTruth.h"
+#include "spectrum/NormalisedFrames.h"
+
+namespace faintline {
+
+/// A scene of sonar pings as normalised frames: a pure function of (scene, ping), computed where it is read.
+///
+///   y(r, b) = [ (1/M) Σ_l |√m(r) n_l + echo|² + … ] / m̂(r, b)
+///
+/// n_l: complex white noise, E|n|² = 1, one look of M; m(r): power of noise and reverberation, the noise's being 1; the echo as
+/// the target's kind says. m̂ is m where that is known. Estimated, it is the mean of the same ping's cells at ±16 ranges in
+/// all beams, the cell's own neighbourhood of ±2 × ±1 left out (at the ends of the range axis the window shrinks to keep its
+/// middle, to ±4 at the least), times NM/(NM - 1), so that y has mean exactly 1 on a level background of N cells.
+/// Cost: 2M normals a cell. Memory: two frames. Thread-safe.
+class SimulatedPings final : public NormalisedFrames
+{
+public:
+    /// Throws Error where checkScene does.
+    explicit SimulatedPings(const PingScene &scene);
+
+    void read(Index first, Index count, std::span<float> out) const override;
+
+    const PingScene &scene() const { return m_scene; }
+    const PingTruth &truth() const { return m_truth; }
+
+private:
+    void readPing(Index ping, std::span<float> y) const;
+    void addEchoes(Index ping, std::span<const float> noise, std::span<float> power) const;
+    void divideByEstimate(std::span<float> power) const;
+
+    PingScene m_scene;
+    PingTruth m_truth;
+    std::vector<float> m_background; ///< m of each range cell
+};
+
+} // namespace faintline
