@@ -32,7 +32,8 @@ namespace {
     constexpr Index blockFrames = 128;
     constexpr Index blockCells = 64;
     constexpr std::size_t leastMaxima = 100;
-    constexpr std::array<double, 3> eventsWanted{800.0, 200.0, 50.0}; ///< at the thresholds where events are counted
+    /// Events per cell and frame at the thresholds where they are counted: 800, 200 and 50 in the usual 4·10⁷ cells × frames.
+    constexpr std::array<double, 3> eventRates{2e-5, 5e-6, 1.25e-6};
     constexpr double leastEvents = 20.0;
 
     /// Noise to calibrate on, in segments that can be made independently of each other.
@@ -204,9 +205,8 @@ namespace {
         }
     }
 
-    /// Thresholds at which chains may be expected to find about the wanted numbers of events in `cellFrames`, by a rough look at the maxima
-    /// of space-time blocks: with P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), Λ and θ from two quantiles.
-    std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, std::span<const double> wanted, double cellFrames)
+    /// Thresholds at which chains may be expected to find events at about the wanted rates, by a rough look at the maxima of space-time blocks: with P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), Λ and θ from two quantiles.
+    std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock)
     {
         // A detector that decides in blocks of its own has blocks of ours without a decision.
         const auto blocks = static_cast<double>(maxima.size());
@@ -220,8 +220,8 @@ namespace {
         const auto quantile = [&](double p) { return static_cast<double>(maxima[static_cast<std::size_t>(p * static_cast<double>(maxima.size()))]); };
         const double theta = std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
         std::vector<double> thresholds;
-        for (const double events : wanted)
-            thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum * cellFrames / events) / theta);
+        for (const double rate : eventRates)
+            thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum / rate) / theta);
         return thresholds;
     }
 
@@ -297,9 +297,8 @@ namespace {
             [&](const Tail &part) { add(part, rough); });
         const double cells = static_cast<double>(first->grid().size());
         const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
-        const double cellFrames = rough.cellFrames / roughCount * segmentCount;
         const std::vector<double> thresholds =
-            thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns, eventsWanted, cellFrames);
+            thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns);
 
         Tail tail;
         inRounds(
