@@ -1,0 +1,267 @@
+#include "base/Error.h"
+#include "evaluate/Campaign.h"
+#include "evaluate/PdCurve.h"
+#include "exchange/CampaignFile.h"
+#include "recording/SimulatedRecording.h"
+#include "recording/writeRecording.h"
+
+#include <QtTest>
+
+#include <QTemporaryDir>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+using namespace faintline;
+
+namespace {
+
+    Contestant contestant(const char *name, const DetectorSettings &detector)
+    {
+        Contestant result{name, {}};
+        result.settings.detector = detector;
+        return result;
+    }
+
+    LineExperiment smallExperiment()
+    {
+        LineExperiment experiment;
+        experiment.frames = 120;
+        experiment.blockFrames = 60;
+        experiment.runs = 6;
+        experiment.durationWindows = 20.0;
+        experiment.snrDb = {-3.0, 3.0};
+        experiment.wanderCells = 0.5;
+        experiment.detectors = {contestant("SMD", SmdSettings{SmdSettings::Reset::Fixed, 0.69}), contestant("3 of 4", PofNSettings{3, 4}),
+                                contestant("integrator", IntegratorSettings{IntegratorSettings::Shape::Boxcar, 20.0})};
+        return experiment;
+    }
+
+    std::vector<int> firstRuns(int count)
+    {
+        std::vector<int> runs(static_cast<std::size_t>(count));
+        std::iota(runs.begin(), runs.end(), 0);
+        return runs;
+    }
+
+    RunContext onThreads(int threads)
+    {
+        RunContext context;
+        context.threads = threads;
+        return context;
+    }
+
+} // namespace
+
+class tst_Campaign : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void threadsAndOrderChangeNothing();
+    void shardsMergeToTheWhole();
+    void killedAndResumed();
+    void everyTrialCanBeMadeAgain();
+    void billonsEstimateByHand();
+    void thresholdsAndRoc();
+    void strongLinesAreFoundAndAbsentOnesNot();
+    void jsonRoundTrip();
+    void injectedIntoARecording();
+    void refusals_data();
+    void refusals();
+
+private:
+    QTemporaryDir m_folder;
+    std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
+};
+
+void tst_Campaign::threadsAndOrderChangeNothing()
+{
+    const LineExperiment experiment = smallExperiment();
+    const auto one = runExperiment(experiment, {0, 1, 2, 3}, onThreads(1));
+    QVERIFY(runExperiment(experiment, {0, 1, 2, 3}, onThreads(3)) == one);
+    const auto other = runExperiment(experiment, {3, 1}, onThreads(2));
+    QVERIFY(other[0] == one[3] && other[1] == one[1]);
+    QVERIFY(!(one[0].signal == one[1].signal));
+}
+
+void tst_Campaign::shardsMergeToTheWhole()
+{
+    const Experiment experiment = smallExperiment();
+    Campaign whole = begin(experiment);
+    carryOut(whole, firstRuns(6));
+    writeCurve(whole, path("whole.csv"));
+    std::vector<Campaign> parts;
+    for (const int shard : {2, 0, 1}) {
+        Campaign part = begin(experiment);
+        carryOut(part, runsOfShard(experiment, shard, 3));
+        writeCampaign(part, path("shard"));
+        parts.push_back(readCampaign(path("shard")));
+    }
+    writeCurve(merge(parts), path("merged.csv"));
+    QFile a(m_folder.filePath("whole.csv"));
+    QFile b(m_folder.filePath("merged.csv"));
+    QVERIFY(a.open(QFile::ReadOnly) && b.open(QFile::ReadOnly));
+    const QByteArray bytes = a.readAll();
+    QCOMPARE(bytes.count('\n'), 1 + 3 * 2);
+    QCOMPARE(b.readAll(), bytes);
+
+    parts.pop_back();
+    QVERIFY_EXCEPTION_THROWN(merge(parts), Error);             // a shard is missing
+    QVERIFY_EXCEPTION_THROWN(merge({whole, whole}), Error);    // twice the same
+    Campaign foreign = whole;
+    setSeed(foreign.experiment, 99);
+    QVERIFY_EXCEPTION_THROWN(merge({whole, foreign}), Error);
+}
+
+void tst_Campaign::killedAndResumed()
+{
+    const Experiment experiment = smallExperiment();
+    const std::string out = path("resumed");
+    const Campaign whole = carryOutResumably(experiment, firstRuns(6), path("undisturbed"));
+    // Killed in the middle of the third line.
+    const Campaign some = carryOutResumably(experiment, {0, 1, 2}, out);
+    QFile parts(QString::fromStdString(out + ".part"));
+    QVERIFY(parts.open(QFile::ReadWrite));
+    QVERIFY(parts.resize(parts.size() - 40));
+    parts.close();
+    QCOMPARE(readCampaign(out + ".part").outcomes.size(), std::size_t(2));
+    const Campaign resumed = carryOutResumably(experiment, firstRuns(6), out);
+    QVERIFY(resumed.outcomes == whole.outcomes);
+    QVERIFY(readCampaign(out + ".part").outcomes.size() == 6);
+    Experiment other = experiment;
+    setSeed(other, 2);
+    QVERIFY_EXCEPTION_THROWN(carryOutResumably(other, {0}, out), Error);
+    removeParts(out);
+    QVERIFY(!QFile::exists(QString::fromStdString(out + ".part")));
+}
+
+void tst_Campaign::everyTrialCanBeMadeAgain()
+{
+    LineExperiment experiment = smallExperiment();
+    experiment.wanderCells = 0.0;
+    experiment.detectors = {contestant("energy", EnergySettings{})};
+    const RunOutcome outcome = runExperiment(experiment, {2}).front();
+    for (const int signal : {0, 3, experiment.signalsPerRun() - 1}) {
+        const LineTrial trial = remakeTrial(experiment, experiment.snrDb[1], 2, signal);
+        std::vector<float> y(static_cast<std::size_t>(trial.frames->grid().size()));
+        float largest = 0.0f;
+        for (std::size_t k = 0; k < trial.path.size(); ++k) {
+            trial.frames->read(trial.firstFrame + static_cast<Index>(k), 1, y);
+            largest = std::max(largest, y[static_cast<std::size_t>(trial.path[k])]);
+        }
+        QCOMPARE(largest, outcome.signal[0][1][static_cast<std::size_t>(signal)]);
+    }
+}
+
+void tst_Campaign::billonsEstimateByHand()
+{
+    LineExperiment experiment;
+    experiment.snrDb = {0.0};
+    RunOutcome outcome;
+    outcome.noise = {{1.0f, 2.0f, 3.0f}};
+    outcome.signal = {{{2.0f, 2.5f, 9.0f}}}; // exceeds 1, 2 and 3 of the blocks: 2 is not above 2
+    const std::vector<RunOutcome> outcomes{outcome};
+    const PdPoint point = pdAgainstBlocks(experiment, outcomes, 0, 0);
+    QVERIFY(std::abs(point.pd - 6.0 / 9.0) < 1e-15);
+    QCOMPARE(point.trials, 3);
+    QVERIFY(point.interval.contains(point.pd));
+}
+
+void tst_Campaign::thresholdsAndRoc()
+{
+    LineExperiment experiment;
+    experiment.snrDb = {0.0};
+    RunOutcome outcome;
+    outcome.noise = {{4.0f, 1.0f, 3.0f, 2.0f}};
+    outcome.signal = {{{0.5f, 2.5f, 3.5f, 9.0f}}};
+    const std::vector<RunOutcome> outcomes{outcome};
+    QCOMPARE(blockThreshold(outcomes, 0, 0.25), 3.0); // one block of four exceeds it
+    QCOMPARE(pdAtThreshold(experiment, outcomes, 0, 0, 3.0).pd, 0.5);
+    const auto roc = rocCurve(experiment, outcomes, 0, 0);
+    QCOMPARE(roc.size(), std::size_t(4));
+    QCOMPARE(roc[0].threshold, 4.0);
+    QCOMPARE(roc[0].falseAlarmsPerBlock, 0.0);
+    QCOMPARE(roc[0].pd, 0.25);
+    QVERIFY(std::abs(roc[2].falseAlarmsPerBlock - std::log(2.0)) < 1e-15);
+    QCOMPARE(roc[2].pd, 0.75);
+}
+
+void tst_Campaign::strongLinesAreFoundAndAbsentOnesNot()
+{
+    LineExperiment experiment = smallExperiment();
+    experiment.snrDb = {-40.0, 15.0};
+    Campaign campaign = begin(experiment);
+    carryOut(campaign, {0, 1, 2}, onThreads(2));
+    const auto curve = pdCurve(campaign);
+    QCOMPARE(curve.size(), std::size_t(6));
+    for (const CurvePoint &point : curve)
+        QVERIFY2(point.snrDb > 0.0 ? point.pd > 0.95 : point.pd < 0.2, point.detector.c_str());
+}
+
+void tst_Campaign::jsonRoundTrip()
+{
+    const Experiment lines = smallExperiment();
+    QVERIFY(experimentFromJson(toJson(lines), "test") == lines);
+    InjectionExperiment injection;
+    injection.recording = "a.wav";
+    injection.settings.spectrogram.windowSeconds = 0.5;
+    injection.detectors = {contestant("SMD", SmdSettings{})};
+    injection.wanderHz = 0.1;
+    QVERIFY(experimentFromJson(toJson(Experiment(injection)), "test") == Experiment(injection));
+}
+
+void tst_Campaign::injectedIntoARecording()
+{
+    LineScene scene;
+    scene.sampleRateHz = 500.0;
+    scene.durationSeconds = 240.0;
+    writeRecording(SimulatedRecording(scene), path("noise.wav"), WrittenType::Float32);
+    InjectionExperiment injection;
+    injection.recording = path("noise.wav");
+    injection.trials = 6;
+    injection.snrDb = {-30.0, 12.0};
+    injection.durationSeconds = 20.0;
+    injection.settings.spectrogram.windowSeconds = 0.5;
+    injection.detectors = {contestant("energy", EnergySettings{}), contestant("3 of 4", PofNSettings{3, 4})};
+    Campaign campaign = begin(injection);
+    QCOMPARE(campaign.thresholds.size(), std::size_t(2));
+    carryOut(campaign, firstRuns(6), onThreads(2));
+    for (const CurvePoint &point : pdCurve(campaign)) {
+        QCOMPARE(point.trials, 6);
+        QCOMPARE(point.pd, point.snrDb > 0.0 ? 1.0 : 0.0);
+    }
+    Campaign again = begin(injection);
+    carryOut(again, {5, 2}, onThreads(1));
+    QVERIFY(again.outcomes[0] == campaign.outcomes[2] && again.outcomes[1] == campaign.outcomes[5]);
+}
+
+void tst_Campaign::refusals_data()
+{
+    QTest::addColumn<QByteArray>("json");
+    QTest::addColumn<QByteArray>("names");
+    QTest::newRow("kind") << QByteArray(R"({"kind": "sonar"})") << QByteArray("kind");
+    QTest::newRow("no detector") << QByteArray(R"({"snrDb": [0]})") << QByteArray("detectors");
+    QTest::newRow("unknown key") << QByteArray(R"({"snr": [0], "detectors": [{"name": "a"}]})") << QByteArray("snr");
+    QTest::newRow("no SNR") << QByteArray(R"({"snrDb": [], "detectors": [{"name": "a"}]})") << QByteArray("snrDb");
+    QTest::newRow("longer than its block") << QByteArray(R"({"durationWindows": 151, "detectors": [{"name": "a"}]})") << QByteArray("durationWindows");
+    QTest::newRow("wanders too far") << QByteArray(R"({"wanderCells": 30, "detectors": [{"name": "a"}]})") << QByteArray("wanderCells");
+    QTest::newRow("bad setting") << QByteArray(R"({"detectors": [{"name": "a", "settings": {"smd.k": 1}}]})") << QByteArray("smd.k");
+    QTest::newRow("no recording") << QByteArray(R"({"kind": "injection", "detectors": [{"name": "a"}]})") << QByteArray("recording");
+}
+
+void tst_Campaign::refusals()
+{
+    QFETCH(QByteArray, json);
+    QFETCH(QByteArray, names);
+    try {
+        experimentFromJson(parseJson(json.toStdString(), "e.json"), "e.json");
+        QFAIL("was taken");
+    } catch (const Error &error) {
+        QVERIFY2(QByteArray(error.what()).contains(names), error.what());
+    }
+}
+
+QTEST_APPLESS_MAIN(tst_Campaign)
+#include "tst_Campaign.moc"

@@ -1,0 +1,185 @@
+#include "base/Random.h"
+#include "detect/Integrator.h"
+#include "detect/PofN.h"
+#include "detect/Smd.h"
+#include "evaluate/Interval.h"
+#include "evaluate/theory.h"
+
+#include <QtTest>
+
+#include <cmath>
+
+using namespace faintline;
+
+class tst_theory : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void closedFormsThatAreKnown();
+    void billonsParentheses();
+    void integratorAgainstMarcumQ();
+    void estimatedNoise();
+    void pOfNAgainstBinomial();
+    void lindley();
+    void intervals();
+    void wilsonCovers();
+};
+
+void tst_theory::closedFormsThatAreKnown()
+{
+    QVERIFY(std::abs(pfaOfMeanPower(3.0, 1) - std::exp(-3.0)) < 1e-15);
+    QVERIFY(std::abs(pfaOfMeanPower(1.5, 2) - std::exp(-3.0) * 4.0) < 1e-15); // e^-x (1 + x), x = 3
+    QVERIFY(std::abs(pfaOfMeanPower(thresholdOfMeanPower(1e-7, 20), 20) - 1e-7) < 1e-16);
+    QVERIFY(std::abs(pdOfMeanPower(2.0, 5, 0.0) - pfaOfMeanPower(2.0, 5)) < 1e-15);
+    // One look against the mean of M others: (1 + T/M)^-M.
+    QVERIFY(std::abs(pfaOfMeanPowerEstimated(6.0, 1, 16) - std::pow(1.0 + 6.0 / 16.0, -16.0)) < 1e-14);
+    // Many references know the noise.
+    QVERIFY(std::abs(pdOfMeanPowerEstimated(2.0, 10, 1000000, 0.8) - pdOfMeanPower(2.0, 10, 0.8)) < 1e-4);
+    QVERIFY(std::abs(pdOfPofN(3, 4, 0.5) - 5.0 / 16.0) < 1e-15);
+}
+
+void tst_theory::billonsParentheses()
+{
+    // Table 1 prints the SNR that theory asks for to reach the Pd it measured, at P_f,out = 100/7500.
+    const double pfa = 100.0 / (150.0 * 50.0);
+    const double pd[]{0.53, 0.83, 0.93, 0.98};
+    const double db[]{-6.1, -4.4, -3.7, -2.9};
+    for (int i = 0; i < 4; ++i)
+        QVERIFY(std::abs(10.0 * std::log10(snrOfMeanPower(pd[i], pfa, 100)) - db[i]) < 0.06);
+}
+
+void tst_theory::integratorAgainstMarcumQ()
+{
+    // Twelve points: looks × SNR; constant amplitude in complex noise, the detector itself.
+    constexpr int trials = 20000;
+    constexpr double pfa = 0.01;
+    std::uint64_t stream = 0;
+    for (const int looks : {1, 10, 100})
+        for (const double pd : {0.2, 0.5, 0.8, 0.95}) {
+            const double snr = snrOfMeanPower(pd, pfa, looks);
+            const auto threshold = static_cast<float>(thresholdOfMeanPower(pfa, looks));
+            Random random(11, stream++);
+            std::vector<float> noise(2 * trials);
+            std::vector<float> y(trials);
+            std::vector<float> mean(trials);
+            Integrator detector(trials, IntegratorSettings::Shape::Boxcar, looks);
+            for (int look = 0; look < looks; ++look) {
+                random.normals(noise, std::sqrt(0.5f));
+                for (std::size_t i = 0; i < y.size(); ++i) {
+                    const float re = noise[2 * i] + static_cast<float>(std::sqrt(snr));
+                    y[i] = re * re + noise[2 * i + 1] * noise[2 * i + 1];
+                }
+                detector.update(y, mean);
+            }
+            const auto found = std::count_if(mean.begin(), mean.end(), [&](float d) { return d > threshold; });
+            const double error = std::sqrt(pd * (1.0 - pd) / trials);
+            QVERIFY2(std::abs(static_cast<double>(found) / trials - pd) < 4.5 * error, qPrintable(QString("%1 looks, Pd %2").arg(looks).arg(pd)));
+        }
+}
+
+void tst_theory::estimatedNoise()
+{
+    constexpr int trials = 100000;
+    constexpr int looks = 4;
+    constexpr int references = 12;
+    constexpr double snr = 1.0;
+    constexpr double threshold = 2.2;
+    Random random(12, 0);
+    std::vector<float> normals(2 * (looks + references));
+    int found = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+        random.normals(normals, std::sqrt(0.5f));
+        double own = 0.0;
+        double others = 0.0;
+        for (int i = 0; i < looks + references; ++i) {
+            const double re = static_cast<double>(normals[static_cast<std::size_t>(2 * i)]) + (i < looks ? std::sqrt(snr) : 0.0);
+            const double im = static_cast<double>(normals[static_cast<std::size_t>(2 * i + 1)]);
+            (i < looks ? own : others) += re * re + im * im;
+        }
+        found += own / looks > threshold * others / references ? 1 : 0;
+    }
+    const double pd = pdOfMeanPowerEstimated(threshold, looks, references, snr);
+    QVERIFY(std::abs(static_cast<double>(found) / trials - pd) < 4.5 * std::sqrt(pd * (1.0 - pd) / trials));
+}
+
+void tst_theory::pOfNAgainstBinomial()
+{
+    // Independent cells, one cell wide: an event has probability e^-r1.
+    constexpr Index cells = 40000;
+    for (const auto &[p, n] : {std::pair{3, 4}, std::pair{6, 8}, std::pair{2, 5}}) {
+        PofN detector({{Axis{"cell", "", 0.0, 1.0, cells, false}}}, {p, n, 0.7, 0.0, 1.0});
+        Random random(13, static_cast<std::uint64_t>(n));
+        std::vector<float> y(cells);
+        std::vector<float> statistic(cells);
+        for (int frame = 0; frame < n; ++frame) {
+            for (float &value : y)
+                value = static_cast<float>(random.exponential());
+            detector.update(y, statistic);
+        }
+        const double expected = pdOfPofN(p, n, std::exp(-0.7));
+        const double found = static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 0.0f; })) / cells;
+        QVERIFY(std::abs(found - expected) < 4.5 * std::sqrt(expected * (1.0 - expected) / cells));
+    }
+}
+
+void tst_theory::lindley()
+{
+    // K = -2 ln 2 resets half.
+    QVERIFY(std::abs(lindleySigma(-2.0 * std::log(2.0)) - 0.5) < 1e-12);
+    QVERIFY(std::abs(1.0 - lindleySigma(-1.3) - 0.42297) < 1e-5);
+    constexpr double lnK = -1.386;
+    constexpr Index cells = 2000;
+    KinematicAxis axis;
+    axis.name = "cell";
+    axis.cells = cells;
+    Smd detector({StateSpace({axis}), Likelihood(LikelihoodKind::Linear), 1.0}, {ResetLaw::Fixed, lnK});
+    Random random(14, 0);
+    std::vector<float> y(cells);
+    std::vector<float> statistic(cells);
+    int frames = 0;
+    double above = 0.0;
+    for (int frame = 0; frame < 1100; ++frame) {
+        for (float &value : y)
+            value = static_cast<float>(random.exponential());
+        detector.update(y, statistic);
+        if (frame < 100 || frame % 20 != 0) // frames twenty apart are nearly independent
+            continue;
+        ++frames;
+        // Before this frame's y is added the score is L of Lindley's recursion; with it, D = max(L, 0) + y.
+        above += static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 6.0f; }));
+    }
+    // P(L⁺ + y > T) in closed form: L⁺ + y + ln K is the next L, so P = P(L > T + ln K).
+    const double expected = lindleyExceedance(6.0 + lnK, lnK);
+    const double n = static_cast<double>(cells) * frames;
+    QVERIFY(std::abs(above / n - expected) < 5.0 * std::sqrt(2.0 * expected / n));
+}
+
+void tst_theory::intervals()
+{
+    const Interval half = wilsonInterval(50, 100);
+    QVERIFY(std::abs(half.low - 0.40383) < 1e-4 && std::abs(half.high - 0.59617) < 1e-4);
+    QCOMPARE(wilsonInterval(0, 10).low, 0.0);
+    QCOMPARE(wilsonInterval(10, 10).high, 1.0);
+    const Interval ten = poissonInterval(10);
+    QVERIFY(std::abs(ten.low - 4.7954) < 1e-3 && std::abs(ten.high - 18.3904) < 1e-3);
+    QCOMPARE(poissonInterval(0).low, 0.0);
+    QVERIFY(std::abs(poissonInterval(0).high - 3.6889) < 1e-3);
+    QVERIFY(normalInterval(2.0, 0.5).contains(2.9) && !normalInterval(2.0, 0.5).contains(3.0));
+}
+
+void tst_theory::wilsonCovers()
+{
+    Random random(15, 0);
+    int covered = 0;
+    for (int i = 0; i < 4000; ++i) {
+        int hits = 0;
+        for (int k = 0; k < 60; ++k)
+            hits += random.uniform() < 0.9 ? 1 : 0;
+        covered += wilsonInterval(hits, 60).contains(0.9) ? 1 : 0;
+    }
+    QVERIFY(covered > 0.93 * 4000 && covered < 0.975 * 4000);
+}
+
+QTEST_APPLESS_MAIN(tst_theory)
+#include "tst_theory.moc"
