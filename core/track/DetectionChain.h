@@ -46,7 +46,8 @@ public:
     /// Takes frame number `frame` (ascending, no gaps); writes the statistic of every cell.
     void update(Index frame, std::span<const float> y, std::span<float> statistic);
 
-    /// Ends the tracks still open. Afterwards `tracks()` is complete, ordered by detection, then cell.
+    /// Ends the tracks still open and joins those that are one signal. Afterwards `tracks()` is complete, ordered by detection, then
+    /// cell.
     void finish();
 
     const std::vector<Track> &tracks() const { return m_ended; }
