@@ -143,7 +143,8 @@ namespace {
         return {std::move(background), std::move(isNoise)};
     }
 
-    /// How much higher a whole row of ln powers lies than another: the median difference, of 500 cells if there are more; 0 where it may be chance.
+    /// How much higher a whole row of ln powers lies than another: the median difference, of 500 cells if there are more; 0 where it
+    /// may be chance.
     float levelBetween(const float *upper, const float *lower, Index cells, double framesUsed)
     {
         std::vector<float> differences;
@@ -300,26 +301,23 @@ namespace {
         }
     }
 
-    /// Levels tell what changes within a block: their median over it belongs to the row, which came from medians over the same frames. Where
-    /// it is not 0 within its scatter, the cells are not exponential (crowded with lines), and it is taken off.
-    void removeOffsets(std::vector<float> &levels, std::size_t first, Index columns)
+    /// Levels tell what changes within a block. Where their median over it is far from 0, measured by their own deviation, the cells
+    /// are not exponential (crowded with lines) and the row, from medians over the same frames, stands for another mean: it is taken off.
+    void removeOffsets(std::vector<float> &levels, std::size_t first, Index bandCount)
     {
-        const std::size_t frames = (levels.size() - first) / static_cast<std::size_t>(std::max<Index>(1, columns));
+        const auto columns = static_cast<std::size_t>(bandCount + 1);
+        const std::size_t frames = (levels.size() - first) / columns;
         std::vector<float> series(frames);
-        std::vector<float> changes;
-        for (Index column = 0; frames > 7 && column < columns; ++column) {
-            const auto at = [&](std::size_t frame) -> float & { return levels[first + frame * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)]; };
-            changes.clear();
-            for (std::size_t frame = 0; frame < frames; ++frame) {
-                series[frame] = at(frame);
-                if (frame > 0)
-                    changes.push_back(std::abs(at(frame) - at(frame - 1)));
-            }
+        for (std::size_t column = 0; frames > 7 && column < columns; ++column) {
+            for (std::size_t frame = 0; frame < frames; ++frame)
+                series[frame] = levels[first + frame * columns + column];
             const float offset = medianOf(series);
-            const double scatter = 1.4826 * static_cast<double>(medianOf(changes)) / std::sqrt(2.0);
-            if (static_cast<double>(std::abs(offset)) > 4.0 * 1.25 * scatter / std::sqrt(static_cast<double>(frames)))
-                for (std::size_t frame = 0; frame < frames; ++frame)
-                    at(frame) -= offset;
+            for (float &value : series)
+                value = std::abs(value - offset);
+            if (std::abs(offset) < 1.4826f * medianOf(series))
+                continue;
+            for (std::size_t frame = 0; frame < frames; ++frame)
+                levels[first + frame * columns + column] -= offset;
         }
     }
 
@@ -345,7 +343,8 @@ namespace {
     }
 
     /// Levels over each window's own block → levels over the averaged and interpolated background.
-    void moveToBackground(std::vector<float> &levels, const std::vector<float> &rows, const NoiseBackground &background, double windowsPerBlock)
+    void moveToBackground(std::vector<float> &levels, const std::vector<float> &rows, const NoiseBackground &background,
+                          double windowsPerBlock)
     {
         const Index bands = background.bandCount;
         const Index cells = background.frequency.count;
@@ -541,7 +540,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         rows.insert(rows.end(), own.lnPower.begin(), own.lnPower.end());
         const std::size_t firstLevel = levels.size();
         appendLevels(block, own, background->bandCount, levels);
-        removeOffsets(levels, firstLevel, background->bandCount + 1);
+        removeOffsets(levels, firstLevel, background->bandCount);
     }
     background->lnPower = averageWhileSteady(rows, blockCount, cells, settings.halfWidthCells, std::min<double>(framesPerBlock, blockFrames));
     moveToBackground(levels, rows, *background, blockFrames / static_cast<double>(stride));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <iterator>
 
 namespace faintline {
 
@@ -63,7 +62,7 @@ namespace {
     }
 
     /// Puts the later track's points from the joint on behind the earlier one's, with a straight line between.
-    void append(Track &earlier, Track &&later, const Joint &joint, const Grid &grid)
+    void append(Track &earlier, const Track &later, const Joint &joint, const Grid &grid)
     {
         const TrackPoint end = earlier.points.back();
         const TrackPoint &next = later.points[joint.point];
@@ -78,8 +77,7 @@ namespace {
             }
             earlier.points.push_back({end.frame + i, grid.cell(c), next.plane, end.statistic});
         }
-        earlier.points.insert(earlier.points.end(), std::make_move_iterator(later.points.begin() + static_cast<std::ptrdiff_t>(joint.point)),
-                              std::make_move_iterator(later.points.end()));
+        earlier.points.insert(earlier.points.end(), later.points.begin() + static_cast<std::ptrdiff_t>(joint.point), later.points.end());
         earlier.endFrame = later.endFrame;
         earlier.peakStatistic = std::max(earlier.peakStatistic, later.peakStatistic);
         earlier.isConfirmed = earlier.isConfirmed || later.isConfirmed;
@@ -106,7 +104,7 @@ std::vector<Track> joinTracks(std::vector<Track> tracks, const Grid &grid, const
             }
         }
         if (best)
-            append(*best, std::move(track), joint, grid);
+            append(*best, track, joint, grid);
         else
             joined.push_back(std::move(track));
     }
