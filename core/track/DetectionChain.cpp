@@ -143,7 +143,7 @@ std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const std::vecto
 
 void DetectionChain::endDuplicates()
 {
-    // Two trackers on one signal: the younger one ends.
+    // Two trackers on one signal: the younger one ends. It was a second report of the same, unless it had a longer life of its own.
     for (std::size_t younger = m_trackers.size(); younger-- > 1;) {
         for (std::size_t older = 0; older < younger; ++older) {
             HmmTracker &young = m_trackers[younger];
@@ -151,9 +151,11 @@ void DetectionChain::endDuplicates()
                 young.separatedFrom(m_trackers[older].track().id);
                 continue;
             }
-            if (young.besides(m_trackers[older].track().id) < framesUntilDuplicate)
+            const int beside = young.besides(m_trackers[older].track().id);
+            if (beside < framesUntilDuplicate)
                 continue;
-            m_ended.push_back(young.finish(false));
+            if (2 * beside < young.age())
+                m_ended.push_back(young.finish(false));
             m_trackers.erase(m_trackers.begin() + static_cast<std::ptrdiff_t>(younger));
             break;
         }
