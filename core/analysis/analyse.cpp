@@ -108,7 +108,7 @@ namespace {
         }
         statistic->finish();
         analysis.statistic = statistic;
-        analysis.tracks = chain->tracks();
+        analysis.tracks = chain->joinedTracks();
     }
 
     /// Least-squares slope of the track's position against time, per second.

@@ -288,9 +288,13 @@ void DetectionChain::finish()
         m_ended.push_back(tracker.finish(true));
     m_trackers.clear();
     std::sort(m_ended.begin(), m_ended.end(), [](const Track &a, const Track &b) { return a.id < b.id; });
-    m_ended = joinTracks(std::move(m_ended), m_grid,
-                         {m_settings.threshold, m_settings.track.smoothingFrames, m_settings.linkCells, m_trackerModel->reach,
-                          m_trackerModel->halfWidth});
+}
+
+std::vector<Track> DetectionChain::joinedTracks() const
+{
+    return joinTracks(m_ended, m_grid,
+                      {m_settings.threshold, m_settings.track.smoothingFrames, m_settings.linkCells, m_trackerModel->reach,
+                       m_trackerModel->halfWidth});
 }
 
 } // namespace faintline

@@ -46,11 +46,12 @@ public:
     /// Takes frame number `frame` (ascending, no gaps); writes the statistic of every cell.
     void update(Index frame, std::span<const float> y, std::span<float> statistic);
 
-    /// Ends the tracks still open and joins those that are one signal. Afterwards `tracks()` is complete, ordered by detection, then
-    /// cell.
+    /// Ends the tracks still open. Afterwards `tracks()` is complete, ordered by detection, then cell.
     void finish();
 
     const std::vector<Track> &tracks() const { return m_ended; }
+    /// The same after the end, those that are pieces of one signal joined.
+    std::vector<Track> joinedTracks() const;
     const std::vector<HmmTracker> &trackers() const { return m_trackers; }
     const Detector &detector() const { return *m_detector; }
 
