@@ -13,6 +13,7 @@ namespace {
     constexpr int framesPerBlock = 64;   // more add nothing to the estimate's accuracy
     constexpr Index largestBlockCount = 1024;
     constexpr double likeness = 1.5;     // so many neighbouring cells tell as much as one, by the window's main lobe
+    constexpr float largestRatio = 1e30f;
     constexpr Index pivotCells = 5;      // at the band's edges, about which the sequence is continued
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
@@ -78,7 +79,7 @@ namespace {
     }
 
     /// Mean of ratio e^(value-median) over the cells within ±half that are not lines; answers which are not.
-    std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double largestRatio)
+    std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double mostRatio)
     {
         const Index n = std::ssize(values);
         std::vector<double> sum(static_cast<std::size_t>(n) + 1, 0.0);
@@ -87,7 +88,7 @@ namespace {
         for (Index i = 0; i < n; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const double ratio = std::exp(static_cast<double>(values[k] - medians[k]));
-            isNoise[k] = ratio < largestRatio && ratio > 1.0 / largestRatio;
+            isNoise[k] = ratio < mostRatio && ratio > 1.0 / mostRatio;
             sum[k + 1] = sum[k] + (isNoise[k] ? ratio : 0.0);
             count[k + 1] = count[k] + (isNoise[k] ? 1.0 : 0.0);
         }
@@ -584,7 +585,8 @@ void NormalisedSpectrogram::normalise(Index frame, std::span<float> values) cons
         const auto lower = std::min(static_cast<std::size_t>(position), inverse.size() - 1);
         const auto upper = std::min(lower + 1, inverse.size() - 1);
         const auto fraction = static_cast<float>(position - static_cast<double>(lower));
-        values[bin] *= inverse[lower] + fraction * (inverse[upper] - inverse[lower]);
+        const float y = values[bin] * (inverse[lower] + fraction * (inverse[upper] - inverse[lower]));
+        values[bin] = y <= largestRatio ? y : (y > largestRatio ? largestRatio : 0.0f); // samples too loud for a float: ∞, or ∞ · 0
     }
     if (m_settings.followLevel)
         guardAgainstClicks(values);

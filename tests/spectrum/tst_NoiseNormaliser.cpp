@@ -30,6 +30,7 @@ private slots:
     void nothingAboveABandEdge();
     void digitalSilence();
     void silenceAllOver();
+    void tooLoudForAFloat();
     void clicks();
     void shortBurstIsKept();
     void narrowBand_data();
@@ -341,6 +342,17 @@ void tst_NoiseNormaliser::silenceAllOver()
     oneSample[7777] = 1.0f;
     QVERIFY(normalised(oneSample).isSound());
     QVERIFY(normalised(std::vector<float>(20000, 0.5f)).isSound()); // nothing but a constant
+}
+
+void tst_NoiseNormaliser::tooLoudForAFloat()
+{
+    // The power of 10³⁷ is beyond a float: no NaN comes of it, all over or for a while.
+    for (const std::size_t from : {std::size_t(0), std::size_t(30000)}) {
+        std::vector<float> samples = gaussian(60000, 23);
+        for (std::size_t i = from; i < samples.size(); ++i)
+            samples[i] *= 1e37f;
+        QVERIFY(normalised(samples).isSound());
+    }
 }
 
 void tst_NoiseNormaliser::clicks()
