@@ -109,7 +109,7 @@ namespace {
         }
         statistic->finish();
         analysis.statistic = statistic;
-        analysis.tracks = chain->tracks();
+        analysis.tracks = chain->joinedTracks();
     }
 
     /// Least-squares slope of the track's position along an axis against time, per second.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace faintline {
 
@@ -10,10 +12,13 @@ namespace {
 
     constexpr int framesPerBlock = 64;   // more add nothing to the estimate's accuracy
     constexpr Index largestBlockCount = 1024;
+    constexpr double likeness = 1.5;     // so many neighbouring cells tell as much as one, by the window's main lobe
+    constexpr float largestRatio = 1e30f;
     constexpr Index pivotCells = 5;      // at the band's edges, about which the sequence is continued
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
     constexpr double roundingFloor = 1e-13;
+    constexpr double roundingMargin = 4.0; // of ln power: what lies no higher above the floor does not tell the noise's level
 
     /// The lower median of n exponentials of mean 1 has mean Σ_{i=0}^{k-1} 1/(n-i), k its rank.
     double medianMean(int n)
@@ -22,6 +27,12 @@ namespace {
         for (int i = 0; i < (n + 1) / 2; ++i)
             mean += 1.0 / (n - i);
         return mean;
+    }
+
+    /// Mean of the logarithm of n cells' median, neighbouring ones being alike (a window's main lobe).
+    double lnMedianMean(Index n)
+    {
+        return std::log(medianMean(static_cast<int>(n))) - 0.5 * 1.44 * 1.44 * likeness / static_cast<double>(n);
     }
 
     float medianOf(std::vector<float> &values)
@@ -67,18 +78,19 @@ namespace {
         return medians;
     }
 
-    /// Mean of ratio e^(value-median) over the cells within ±half that are not lines.
-    void refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double largestRatio)
+    /// Mean of ratio e^(value-median) over the cells within ±half that are not lines; answers which are not.
+    std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double mostRatio)
     {
         const Index n = std::ssize(values);
         std::vector<double> sum(static_cast<std::size_t>(n) + 1, 0.0);
         std::vector<double> count(static_cast<std::size_t>(n) + 1, 0.0);
+        std::vector<bool> isNoise(static_cast<std::size_t>(n));
         for (Index i = 0; i < n; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const double ratio = std::exp(static_cast<double>(values[k] - medians[k]));
-            const bool noise = ratio < largestRatio && ratio > 1.0 / largestRatio;
-            sum[k + 1] = sum[k] + (noise ? ratio : 0.0);
-            count[k + 1] = count[k] + (noise ? 1.0 : 0.0);
+            isNoise[k] = ratio < mostRatio && ratio > 1.0 / mostRatio;
+            sum[k + 1] = sum[k] + (isNoise[k] ? ratio : 0.0);
+            count[k + 1] = count[k] + (isNoise[k] ? 1.0 : 0.0);
         }
         for (Index i = 0; i < n; ++i) {
             const auto from = static_cast<std::size_t>(std::max<Index>(0, i - half));
@@ -87,10 +99,17 @@ namespace {
             if (cells >= 3.0)
                 medians[static_cast<std::size_t>(i)] += static_cast<float>(std::log((sum[to] - sum[from]) / cells));
         }
+        return isNoise;
     }
 
-    /// ln mean noise power per cell of one block of frames (frames × cells).
-    std::vector<float> blockBackground(const std::vector<float> &frames, Index cells, Index half)
+    /// What one block of frames says about its cells.
+    struct BlockBackground {
+        std::vector<float> lnPower; ///< ln mean noise power
+        std::vector<bool> isNoise;  ///< false where a line lies all through the block, and where there is but rounding
+    };
+
+    /// The background under one block of frames (frames × cells).
+    BlockBackground blockBackground(const std::vector<float> &frames, Index cells, Index half)
     {
         const Index frameCount = std::ssize(frames) / cells;
         std::vector<Index> loud;
@@ -104,7 +123,7 @@ namespace {
         }
         std::vector<float> ln(static_cast<std::size_t>(cells), silence);
         if (loud.empty())
-            return ln;
+            return {std::move(ln), std::vector<bool>(static_cast<std::size_t>(cells), true)};
         const int used = static_cast<int>(loud.size());
         const double bias = std::log(medianMean(used));
         const double floor = std::log(strongest * roundingFloor);
@@ -117,45 +136,70 @@ namespace {
                 static_cast<float>(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
         }
         std::vector<float> background = runningMedian(ln, half);
-        refine(ln, background, half, 1.0 + 5.0 / std::sqrt(static_cast<double>(used)));
-        for (float &value : background)
-            value = std::max(value, static_cast<float>(floor));
-        return background;
+        std::vector<bool> isNoise = refine(ln, background, half, 1.0 + 5.0 / std::sqrt(static_cast<double>(used)));
+        for (std::size_t cell = 0; cell < background.size(); ++cell) {
+            isNoise[cell] = isNoise[cell] && static_cast<double>(background[cell]) > floor + roundingMargin;
+            background[cell] = std::max(background[cell], static_cast<float>(floor));
+        }
+        return {std::move(background), std::move(isNoise)};
     }
 
-    /// Averages each block with its neighbours in time as far as the level stays put: stationary noise is known better than one
-    /// block tells, a change of level ends the average. Steady is what differs by less than four standard errors of a block, which
-    /// are a median's of `framesUsed` × window cells, and of fewer cells toward the band's edges, where the window is continued
-    /// from a few of them.
+    /// How much higher a whole row of ln powers lies than another: the median difference, of 500 cells if there are more; 0 where it
+    /// may be chance.
+    float levelBetween(const float *upper, const float *lower, Index cells, double framesUsed)
+    {
+        std::vector<float> differences;
+        const Index stride = (cells + 499) / 500;
+        for (Index cell = 0; cell < cells; cell += stride)
+            differences.push_back(upper[cell] - lower[cell]);
+        const float level = medianOf(differences);
+        const double chance = 3.0 * 1.44 * std::sqrt(2.0 * 2.0 / (framesUsed * static_cast<double>(cells)));
+        return static_cast<double>(std::abs(level)) < chance ? 0.0f : level;
+    }
+
+    /// Averages each block with its neighbours in time as far as the noise keeps its colour: stationary noise is known better than one
+    /// block tells. What the whole band's level does meanwhile is taken out; a step of more than a factor of e ends the average, and so
+    /// does, for each cell, a difference of more than four standard errors of a block, which are a median's of `framesUsed` × window
+    /// cells, and of fewer toward the band's edges, where the window is continued from a few of them.
     std::vector<float> averageWhileSteady(const std::vector<float> &ln, Index blocks, Index cells, Index half, double framesUsed)
     {
         constexpr Index reach = 6;
-        const auto toleranceAt = [&](Index cell) {
+        std::vector<float> tolerance(static_cast<std::size_t>(cells));
+        for (Index cell = 0; cell < cells; ++cell) {
             const double inward = static_cast<double>(std::min({cell, cells - 1 - cell, half})) / static_cast<double>(half);
             const double effective = pivotCells + (2.0 * static_cast<double>(half) + 1.0 - pivotCells) * inward;
-            return static_cast<float>(4.0 * 1.44 / std::sqrt(framesUsed * effective / 2.0)); // neighbouring cells share a half of what they tell
-        };
-        std::vector<float> result(ln.size());
-        for (Index cell = 0; cell < cells; ++cell) {
-            const float tolerance = toleranceAt(cell);
-            for (Index block = 0; block < blocks; ++block) {
-                const float own = ln[static_cast<std::size_t>(block * cells + cell)];
-                float sum = own;
-                float count = 1.0f;
-                for (Index direction : {-1, 1}) {
-                    for (Index i = 1; i <= reach; ++i) {
-                        const Index other = block + direction * i;
-                        if (other < 0 || other >= blocks)
-                            break;
-                        const float value = ln[static_cast<std::size_t>(other * cells + cell)];
-                        if (std::abs(value - own) > tolerance)
-                            break;
-                        sum += value;
-                        count += 1.0f;
+            tolerance[static_cast<std::size_t>(cell)] = static_cast<float>(4.0 * 1.44 / std::sqrt(framesUsed * effective / 2.0));
+        }
+        std::vector<float> result = ln;
+        std::vector<float> count(tolerance.size());
+        std::vector<char> goesOn(tolerance.size());
+        for (Index block = 0; block < blocks; ++block) {
+            const float *own = ln.data() + block * cells;
+            float *sum = result.data() + block * cells;
+            std::fill(count.begin(), count.end(), 1.0f);
+            for (Index direction : {-1, 1}) {
+                std::fill(goesOn.begin(), goesOn.end(), 1);
+                for (Index i = 1; i <= reach; ++i) {
+                    const Index other = block + direction * i;
+                    if (other < 0 || other >= blocks)
+                        break;
+                    const float *values = ln.data() + other * cells;
+                    const float level = levelBetween(values, own, cells, framesUsed);
+                    if (std::abs(level) > 1.0f)
+                        break;
+                    for (std::size_t cell = 0; cell < tolerance.size(); ++cell) {
+                        const float difference = values[cell] - level - own[cell];
+                        if (!goesOn[cell] || std::abs(difference) > tolerance[cell]) {
+                            goesOn[cell] = 0;
+                            continue;
+                        }
+                        sum[cell] += own[cell] + difference;
+                        count[cell] += 1.0f;
                     }
                 }
-                result[static_cast<std::size_t>(block * cells + cell)] = sum / count;
             }
+            for (std::size_t cell = 0; cell < tolerance.size(); ++cell)
+                sum[cell] /= count[cell];
         }
         return result;
     }
@@ -166,21 +210,115 @@ namespace {
         return cells < 48.0 ? 0 : static_cast<Index>(std::clamp(cells / 96.0, 1.0, 64.0));
     }
 
-    /// ln of each frame's level over its block's background, per sub-band: the median cell. 0 in digital silence.
-    void appendLevels(const std::vector<float> &frames, const std::vector<float> &row, Index bands, std::vector<float> &levels)
+    /// First cell of a sub-band; column `bands` is the whole band.
+    Index firstCell(Index column, Index bands, Index cells)
     {
-        const Index cells = std::ssize(row);
+        return column == bands ? 0 : column * cells / bands;
+    }
+
+    Index endCell(Index column, Index bands, Index cells)
+    {
+        return column == bands ? cells : (column + 1) * cells / bands;
+    }
+
+    /// Standard error of the logarithm of a median of cells, neighbouring ones being alike.
+    double medianScatter(double cells)
+    {
+        return 1.44 * std::sqrt(likeness / cells);
+    }
+
+    /// The level of a whole frame, of mean y in the cells below five times the level itself, from a first guess. As exact as can be, and no
+    /// line counts for more than five cells of noise.
+    float truncatedMean(std::span<const float> values, float guess)
+    {
+        constexpr float cut = 5.0f;
+        const float kept = (1.0f - (1.0f + cut) * std::exp(-cut)) / (1.0f - std::exp(-cut)); // E[y | y < cut]
+        for (int pass = 0; pass < 2; ++pass) {
+            double sum = 0.0;
+            double count = 0.0;
+            for (float value : values)
+                if (value < cut * guess) {
+                    sum += static_cast<double>(value);
+                    count += 1.0;
+                }
+            if (sum > 0.0)
+                guess = static_cast<float>(sum / count) / kept;
+        }
+        return guess;
+    }
+
+    /// ln of each frame's level over its block's background: per sub-band the median cell of noise, then the whole band's common one, from
+    /// the sub-bands that agree with the median sub-band. 0 in digital silence. Sub-bands that are mostly lines or empty have no say in
+    /// what is common, and go with it where nothing of them is noise.
+    void appendLevels(const std::vector<float> &frames, const BlockBackground &block, Index bands, std::vector<float> &levels)
+    {
+        if (bands == 0)
+            return;
+        constexpr std::ptrdiff_t fewestCells = 24;
+        constexpr float notKnown = std::numeric_limits<float>::max();
+        const Index cells = std::ssize(block.lnPower);
+        std::vector<float> inverse(static_cast<std::size_t>(cells));
+        for (std::size_t cell = 0; cell < inverse.size(); ++cell)
+            inverse[cell] = block.lnPower[cell] > silence ? std::exp(-block.lnPower[cell]) : 0.0f;
+        const auto agreeing = static_cast<float>(4.0 * medianScatter(static_cast<double>(cells) / static_cast<double>(bands)));
         std::vector<float> sample;
+        std::vector<float> few;
+        std::vector<Index> telling;
         for (Index frame = 0; frame < std::ssize(frames) / cells; ++frame) {
+            const auto collect = [&](Index band) {
+                for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
+                    if (const auto c = static_cast<std::size_t>(cell); block.isNoise[c])
+                        sample.push_back(frames[static_cast<std::size_t>(frame * cells + cell)] * inverse[c]);
+            };
+            levels.resize(levels.size() + static_cast<std::size_t>(bands + 1), notKnown);
+            float *own = &levels[levels.size() - static_cast<std::size_t>(bands + 1)];
+            few.clear();
+            telling.clear();
             for (Index band = 0; band < bands; ++band) {
                 sample.clear();
-                for (Index cell = band * cells / bands; cell < (band + 1) * cells / bands; ++cell) {
-                    const auto c = static_cast<std::size_t>(cell);
-                    sample.push_back(row[c] > silence ? frames[static_cast<std::size_t>(frame * cells + cell)] * std::exp(-row[c]) : 0.0f);
-                }
+                collect(band);
+                const std::ptrdiff_t count = std::ssize(sample);
+                if (count < fewestCells)
+                    continue;
                 const float median = medianOf(sample);
-                levels.push_back(median > 0.0f ? std::log(median / std::numbers::ln2_v<float>) : 0.0f);
+                own[band] = median > 0.0f ? std::log(median) - static_cast<float>(lnMedianMean(count)) : 0.0f;
+                if (2 * count >= endCell(band, bands, cells) - firstCell(band, bands, cells)) {
+                    few.push_back(own[band]);
+                    telling.push_back(band);
+                }
             }
+            float middle = 0.0f;
+            if (few.size() > 2) // two cannot outvote one another: then all count
+                middle = medianOf(few);
+            else if (!few.empty())
+                middle = std::accumulate(few.begin(), few.end(), 0.0f) / static_cast<float>(few.size());
+            sample.clear();
+            for (Index band : telling)
+                if (telling.size() < 3 || std::abs(own[band] - middle) < agreeing)
+                    collect(band);
+            const float mean = truncatedMean(sample, std::exp(middle));
+            own[bands] = mean > 0.0f && !sample.empty() ? std::log(mean) : 0.0f;
+            std::replace(own, own + bands, notKnown, own[bands]);
+        }
+    }
+
+    /// Levels tell what changes within a block. Where their median over it is far from 0, measured by their own deviation, the cells
+    /// are not exponential (crowded with lines) and the row, from medians over the same frames, stands for another mean: it is taken off.
+    void removeOffsets(std::vector<float> &levels, std::size_t first, Index bandCount)
+    {
+        const auto columns = static_cast<std::size_t>(bandCount + 1);
+        const std::size_t frames = (levels.size() - first) / columns;
+        std::vector<float> series(frames);
+        for (std::size_t column = 0; frames > 7 && column < columns; ++column) {
+            for (std::size_t frame = 0; frame < frames; ++frame)
+                series[frame] = levels[first + frame * columns + column];
+            const float offset = medianOf(series);
+            for (float &value : series)
+                value = std::abs(value - offset);
+            if (std::abs(offset) < 1.4826f * medianOf(series))
+                continue;
+            for (std::size_t frame = 0; frame < frames; ++frame)
+                levels[first + frame * columns + column] -= offset;
         }
     }
 
@@ -205,49 +343,119 @@ namespace {
         return static_cast<float>((1.0 - fraction) * static_cast<double>(early) + fraction * static_cast<double>(late));
     }
 
-    /// Levels over the final background: smoothed by a running median over seven windows, faded in beyond their scatter.
-    std::vector<float> finishLevels(const std::vector<float> &raw, const std::vector<float> &rows, const NoiseBackground &background,
-                                    double windowsPerBlock)
+    /// Levels over each window's own block → levels over the averaged and interpolated background.
+    void moveToBackground(std::vector<float> &levels, const std::vector<float> &rows, const NoiseBackground &background,
+                          double windowsPerBlock)
     {
         const Index bands = background.bandCount;
         const Index cells = background.frequency.count;
-        const Index windows = background.levelTime.count;
-        std::vector<float> result(raw.size());
+        std::vector<double> difference(static_cast<std::size_t>(cells) + 1, 0.0); // sums up to each cell
+        std::vector<double> counted(difference.size(), 0.0);
+        for (Index window = 0; bands > 0 && window < background.levelTime.count; ++window) {
+            const auto block = std::min(static_cast<Index>(static_cast<double>(window) / windowsPerBlock), background.time.count - 1);
+            const Between t = between(background.time, background.levelTime.value(static_cast<double>(window)));
+            for (Index cell = 0; cell < cells; ++cell) {
+                const auto at = [&](const std::vector<float> &values, Index b) {
+                    return values[static_cast<std::size_t>(std::min(b, background.time.count - 1) * cells + cell)];
+                };
+                const float own = at(rows, block);
+                const float power = betweenBlocks(at(background.lnPower, t.lower), at(background.lnPower, t.lower + 1), t.fraction);
+                const bool counts = own > silence && power > silence;
+                const auto c = static_cast<std::size_t>(cell);
+                difference[c + 1] = difference[c] + (counts ? static_cast<double>(own - power) : 0.0);
+                counted[c + 1] = counted[c] + (counts ? 1.0 : 0.0);
+            }
+            for (Index column = 0; column <= bands; ++column) {
+                const auto from = static_cast<std::size_t>(firstCell(column, bands, cells));
+                const auto to = static_cast<std::size_t>(endCell(column, bands, cells));
+                if (counted[to] > counted[from])
+                    levels[static_cast<std::size_t>(window * (bands + 1) + column)] +=
+                        static_cast<float>((difference[to] - difference[from]) / (counted[to] - counted[from]));
+            }
+        }
+    }
+
+    /// Variance of the differences x(i + lag) - x(i), from their median magnitude: steps and clicks do not count.
+    double differenceVariance(const std::vector<float> &x, std::size_t lag)
+    {
+        std::vector<float> magnitudes;
+        for (std::size_t i = lag; i < x.size(); ++i)
+            magnitudes.push_back(std::abs(x[i] - x[i - lag]));
+        const double deviation = 1.4826 * static_cast<double>(medianOf(magnitudes));
+        return deviation * deviation;
+    }
+
+    /// The random walk in a series, x(i) = walk + noise, as a Kalman smoother finds it; 0 everywhere if there is no telling it from none.
+    ///
+    /// Differences at a lag of k have variance 2r + kq, which gives noise r and walk q; the smoother's steady state is an
+    /// exponential average forward (gain α, α²/(1-α) = q/r), then backward. What lies beyond three deviations moves it no further.
+    std::vector<float> slowPart(const std::vector<float> &x)
+    {
+        constexpr std::size_t lag = 16;
+        std::vector<float> smooth(x.size(), 0.0f);
+        if (x.size() < 4 * lag)
+            return smooth;
+        const double near = differenceVariance(x, 1);
+        const double far = differenceVariance(x, lag);
+        const double scatter = 4.0 / std::sqrt(static_cast<double>(x.size())); // of far/near in white noise
+        if (far <= near * (1.0 + 2.0 * scatter))
+            return smooth;
+        const double walk = (far - near) / (lag - 1.0);
+        const double noise = std::max(0.5 * (near - walk), 1e-3 * walk);
+        const double ratio = walk / noise;
+        const double gain = 0.5 * (std::sqrt(ratio * ratio + 4.0 * ratio) - ratio);
+        const double largest = 3.0 * std::sqrt(noise / (1.0 - gain));
+        std::vector<float> beginning(x.begin(), x.begin() + lag / 2);
+        double level = static_cast<double>(medianOf(beginning));
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            level += gain * std::clamp(static_cast<double>(x[i]) - level, -largest, largest);
+            smooth[i] = static_cast<float>(level);
+        }
+        for (std::size_t i = x.size() - 1; i-- > 0;)
+            smooth[i] += static_cast<float>(1.0 - gain) * (smooth[i + 1] - smooth[i]);
+        return smooth;
+    }
+
+    /// Takes from a series its running median over seven windows, faded in beyond its scatter (`scatter`: of one window).
+    std::vector<float> suddenPart(const std::vector<float> &series, double scatter)
+    {
+        constexpr Index half = 3;
+        const double medianOfSeven = scatter * 1.25 / std::sqrt(2.0 * half + 1.0);
+        const Index n = std::ssize(series);
+        std::vector<float> result(series.size());
+        std::vector<float> few;
+        for (Index i = 0; i < n; ++i) {
+            few.assign(series.begin() + std::max<Index>(0, i - half), series.begin() + std::min(n, i + half + 1));
+            const auto level = static_cast<double>(medianOf(few));
+            result[static_cast<std::size_t>(i)] = static_cast<float>(level * std::clamp(std::abs(level) / medianOfSeven - 2.0, 0.0, 1.0));
+        }
+        return result;
+    }
+
+    /// From each window's levels to those that count, per sub-band: the common level's slow and sudden parts, then what a sub-band has
+    /// suddenly besides.
+    std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background)
+    {
+        const auto bands = static_cast<std::size_t>(background.bandCount);
+        const auto windows = static_cast<std::size_t>(background.levelTime.count);
+        std::vector<float> result(windows * bands);
         if (bands == 0)
             return result;
-        constexpr Index half = 3;
-        const double cellsPerBand = static_cast<double>(cells) / static_cast<double>(bands);
-        const double scatter = 1.44 / std::sqrt(cellsPerBand / 1.5) * 1.25 / std::sqrt(2.0 * half + 1.0);
-        std::vector<float> series(static_cast<std::size_t>(windows));
-        std::vector<float> few;
-        for (Index band = 0; band < bands; ++band) {
-            for (Index window = 0; window < windows; ++window) {
-                // From "over its own block's row" to "over the averaged and interpolated background".
-                const auto block = std::min(static_cast<Index>(static_cast<double>(window) / windowsPerBlock), background.time.count - 1);
-                const Between t = between(background.time, background.levelTime.value(static_cast<double>(window)));
-                double difference = 0.0;
-                double counted = 0.0;
-                for (Index cell = band * cells / bands; cell < (band + 1) * cells / bands; ++cell) {
-                    const auto at = [&](const std::vector<float> &values, Index b) {
-                        return values[static_cast<std::size_t>(std::min(b, background.time.count - 1) * cells + cell)];
-                    };
-                    const float power = betweenBlocks(at(background.lnPower, t.lower), at(background.lnPower, t.lower + 1), t.fraction);
-                    if (at(rows, block) > silence && power > silence) {
-                        difference += static_cast<double>(at(rows, block) - power);
-                        counted += 1.0;
-                    }
-                }
-                const float own = raw[static_cast<std::size_t>(window * bands + band)];
-                series[static_cast<std::size_t>(window)] = own + static_cast<float>(counted > 0.0 ? difference / counted : 0.0);
-            }
-            for (Index window = 0; window < windows; ++window) {
-                few.clear();
-                for (Index i = std::max<Index>(0, window - half); i <= std::min(windows - 1, window + half); ++i)
-                    few.push_back(series[static_cast<std::size_t>(i)]);
-                const auto level = static_cast<double>(medianOf(few));
-                const double faded = level * std::clamp(std::abs(level) / scatter - 2.0, 0.0, 1.0);
-                result[static_cast<std::size_t>(window * bands + band)] = static_cast<float>(faded);
-            }
+        const auto cells = static_cast<double>(background.frequency.count);
+        std::vector<float> common(windows);
+        for (std::size_t window = 0; window < windows; ++window)
+            common[window] = levels[window * (bands + 1) + bands];
+        const std::vector<float> slow = slowPart(common);
+        for (std::size_t window = 0; window < windows; ++window)
+            common[window] -= slow[window];
+        common = suddenPart(common, medianScatter(cells));
+        std::vector<float> own(windows);
+        for (std::size_t band = 0; band < bands; ++band) {
+            for (std::size_t window = 0; window < windows; ++window)
+                own[window] = levels[window * (bands + 1) + band] - slow[window] - common[window];
+            own = suddenPart(own, medianScatter(cells / static_cast<double>(bands)));
+            for (std::size_t window = 0; window < windows; ++window)
+                result[window * bands + band] = slow[window] + common[window] + own[window];
         }
         return result;
     }
@@ -329,12 +537,15 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         for (Index i = 0; i < (stride > 1 ? used : 1); ++i)
             frames.read(firstUsed + i * stride, stride > 1 ? 1 : used,
                         std::span(block).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>((stride > 1 ? 1 : used) * cells)));
-        const std::vector<float> row = blockBackground(block, cells, settings.halfWidthCells);
-        rows.insert(rows.end(), row.begin(), row.end());
-        appendLevels(block, row, background->bandCount, levels);
+        const BlockBackground own = blockBackground(block, cells, settings.halfWidthCells);
+        rows.insert(rows.end(), own.lnPower.begin(), own.lnPower.end());
+        const std::size_t firstLevel = levels.size();
+        appendLevels(block, own, background->bandCount, levels);
+        removeOffsets(levels, firstLevel, background->bandCount);
     }
     background->lnPower = averageWhileSteady(rows, blockCount, cells, settings.halfWidthCells, std::min<double>(framesPerBlock, blockFrames));
-    background->lnLevel = finishLevels(levels, rows, *background, blockFrames / static_cast<double>(stride));
+    moveToBackground(levels, rows, *background, blockFrames / static_cast<double>(stride));
+    background->lnLevel = finishLevels(levels, *background);
     return background;
 }
 
@@ -374,7 +585,8 @@ void NormalisedSpectrogram::normalise(Index frame, std::span<float> values) cons
         const auto lower = std::min(static_cast<std::size_t>(position), inverse.size() - 1);
         const auto upper = std::min(lower + 1, inverse.size() - 1);
         const auto fraction = static_cast<float>(position - static_cast<double>(lower));
-        values[bin] *= inverse[lower] + fraction * (inverse[upper] - inverse[lower]);
+        const float y = values[bin] * (inverse[lower] + fraction * (inverse[upper] - inverse[lower]));
+        values[bin] = y <= largestRatio ? y : (y > largestRatio ? largestRatio : 0.0f); // samples too loud for a float: ∞, or ∞ · 0
     }
     if (m_settings.followLevel)
         guardAgainstClicks(values);

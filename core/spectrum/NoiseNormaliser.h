@@ -26,11 +26,12 @@ struct NormaliserSettings {
 /// its bias for exponential data; per block: a running median over ±halfWidth cells, continued beyond the band edges
 /// by point reflection of the logarithm, which follows any slope; then the mean ratio of the unsuspicious
 /// cells to that median within the same window, which removes the median's bias and variance.
-/// Blocks are averaged with their neighbours in time as far as the level stays put.
+/// Blocks are averaged with their neighbours in time as far as the noise keeps its colour, whatever its level does.
 /// A line, however long, is narrower than the window, so it never becomes its own background; a burst, however broad,
 /// is shorter than half a block. Between block centres and between cells the logarithm is interpolated. What changes
-/// faster than a block does so for a whole band at once: its level over the background, per window and sub-band of about 96
-/// cells, is a median over the sub-band, then over seven windows, and counts where it is beyond its own scatter.
+/// faster than a block is a level over the background, per window: the whole band's, a mean over its cells of noise cut off at
+/// five times itself, by a Kalman smoother if it walks, and beyond that, for the band and for each sub-band of about 96 cells, a
+/// running median over seven windows as far as it is beyond its own scatter.
 struct NoiseBackground {
     Axis time;      ///< block centres, s
     Axis frequency; ///< cells, Hz

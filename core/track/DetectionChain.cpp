@@ -1,5 +1,7 @@
 #include "track/DetectionChain.h"
 
+#include "track/joinTracks.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -181,7 +183,7 @@ std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const std::vecto
 
 void DetectionChain::endDuplicates()
 {
-    // Two trackers on one signal: the younger one ends.
+    // Two trackers on one signal: the younger one ends. It was a second report of the same, unless it had a longer life of its own.
     for (std::size_t younger = m_trackers.size(); younger-- > 1;) {
         for (std::size_t older = 0; older < younger; ++older) {
             HmmTracker &young = m_trackers[younger];
@@ -189,9 +191,11 @@ void DetectionChain::endDuplicates()
                 young.separatedFrom(m_trackers[older].track().id);
                 continue;
             }
-            if (young.besides(m_trackers[older].track().id) < framesUntilDuplicate)
+            const int beside = young.besides(m_trackers[older].track().id);
+            if (beside < framesUntilDuplicate)
                 continue;
-            m_ended.push_back(young.finish(false));
+            if (2 * beside < young.age())
+                m_ended.push_back(young.finish(false));
             m_trackers.erase(m_trackers.begin() + static_cast<std::ptrdiff_t>(younger));
             break;
         }
@@ -342,6 +346,13 @@ void DetectionChain::finish()
         m_ended.push_back(tracker.finish(true));
     m_trackers.clear();
     std::sort(m_ended.begin(), m_ended.end(), [](const Track &a, const Track &b) { return a.id < b.id; });
+}
+
+std::vector<Track> DetectionChain::joinedTracks() const
+{
+    return joinTracks(m_ended, m_grid,
+                      {m_settings.threshold, m_settings.track.smoothingFrames, m_settings.linkCells, m_trackerModel->reach,
+                       m_trackerModel->halfWidth});
 }
 
 } // namespace faintline

@@ -58,6 +58,8 @@ public:
     void finish();
 
     const std::vector<Track> &tracks() const { return m_ended; }
+    /// The same after the end, those that are pieces of one signal joined.
+    std::vector<Track> joinedTracks() const;
     const std::vector<HmmTracker> &trackers() const { return m_trackers; }
     const Detector &detector() const { return *m_detector; }
 

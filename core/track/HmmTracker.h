@@ -84,6 +84,7 @@ public:
     double statistic() const { return m_statistic; }
     double level() const { return m_level; }
     const Track &track() const { return m_track; }
+    Index age() const { return std::ssize(m_levels); } ///< frames since detection, that one included
 
     /// Counts the consecutive frames spent beside another track; answers how many it has been.
     int besides(int otherId) { return ++m_beside[otherId]; }

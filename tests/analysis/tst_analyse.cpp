@@ -2,6 +2,7 @@
 #include "analysis/explain.h"
 #include "base/Random.h"
 #include "recording/SimulatedRecording.h"
+#include "support/recordings.h"
 
 #include <QtTest>
 
@@ -77,6 +78,9 @@ private slots:
     void explanationAddsUp();
     void calibratedKHalvesNoise();
     void falseAlarmsAsOrdered();
+    void noLinesInNoiseOfAnyKind_data();
+    void noLinesInNoiseOfAnyKind();
+    void aConstantIsNoLine();
     void thresholdsAgree();
     void cancels();
     void readyMadeFrames();
@@ -192,6 +196,60 @@ void tst_analyse::falseAlarmsAsOrdered()
     const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), s);
     const auto count = static_cast<int>(analysis->tracks.size());
     QVERIFY2(count >= 33 && count <= 93, qPrintable(QString::number(count)));
+}
+
+void tst_analyse::noLinesInNoiseOfAnyKind_data()
+{
+    QTest::addColumn<double>("slopeDb");
+    QTest::addColumn<double>("driftDb");
+    QTest::newRow("falling") << -3.0 << 0.0;
+    QTest::newRow("falling fast") << -6.0 << 0.0;
+    QTest::newRow("rising fast") << 6.0 << 0.0;
+    QTest::newRow("drifting level") << 0.0 << 1.5;
+}
+
+void tst_analyse::noLinesInNoiseOfAnyKind()
+{
+    // Ten minutes at 60 false alarms an hour, so 10 are ordered; more than 25 come once in 30000 times. Below 20 Hz belongs a tenth of
+    // one; more than two come once in 6000 times.
+    QFETCH(double, slopeDb);
+    QFETCH(double, driftDb);
+    LineScene scene;
+    scene.sampleRateHz = 4000.0;
+    scene.durationSeconds = 600.0;
+    scene.seed = 43;
+    scene.noise.slopeDbPerOctave = slopeDb;
+    scene.noise.levelDriftDb = driftDb;
+    scene.noise.levelDriftSeconds = 60.0;
+    AnalysisSettings s = settings();
+    s.spectrogram.window = WindowShape::Hann;
+    s.spectrogram.binsPerCell = 2;
+    s.decide.falseAlarmsPerHour = 60.0;
+    const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), s);
+    QVERIFY2(analysis->tracks.size() <= 25, qPrintable(QString::number(analysis->tracks.size())));
+    const std::vector<Event> found = events(*analysis);
+    QVERIFY(std::count_if(found.begin(), found.end(), [](const Event &event) { return event.position[0] < 20.0; }) <= 2);
+}
+
+void tst_analyse::aConstantIsNoLine()
+{
+    // 30 deviations of constant beside the noise: nothing at 0 Hz nor beside it, unless that band was asked for.
+    const auto noise = std::make_shared<SimulatedRecording>([] {
+        LineScene scene;
+        scene.sampleRateHz = 400.0;
+        scene.durationSeconds = 60.0;
+        scene.noise.deviation = 0.01;
+        return scene;
+    }());
+    std::vector<float> samples(static_cast<std::size_t>(noise->info().sampleCount));
+    noise->read(0, 0, noise->info().sampleCount, samples);
+    for (float &sample : samples)
+        sample += 0.3f;
+    const auto recording = std::make_shared<test::MemoryRecording>(samples, 400.0);
+    AnalysisSettings s = settings();
+    QCOMPARE(analyse(recording, s)->tracks.size(), std::size_t(0));
+    s.selection.highHz = 100.0;
+    QVERIFY(!analyse(recording, s)->tracks.empty());
 }
 
 void tst_analyse::thresholdsAgree()

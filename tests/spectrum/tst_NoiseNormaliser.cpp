@@ -25,9 +25,12 @@ private slots:
     void strongLineLeavesItsNeighboursAlone();
     void twoLinesSideBySide();
     void levelStep();
+    void driftingLevel();
+    void sameAtTheEdges();
     void nothingAboveABandEdge();
     void digitalSilence();
     void silenceAllOver();
+    void tooLoudForAFloat();
     void clicks();
     void shortBurstIsKept();
     void narrowBand_data();
@@ -254,6 +257,42 @@ void tst_NoiseNormaliser::levelStep()
     }
 }
 
+void tst_NoiseNormaliser::driftingLevel()
+{
+    // 1.5 dB up and down in 30 s, a little more than a block: within ±41 %, followed until the noise's own scatter is left.
+    std::vector<float> samples = gaussian(400000, 21);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] *= static_cast<float>(std::pow(10.0, 0.075 * std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / (30.0 * rate))));
+    const Normalised n = normalised(samples);
+    double sum = 0.0;
+    double counted = 0.0;
+    constexpr Index stretch = 8; // frames: four windows of 251 cells
+    for (Index frame = 0; frame + stretch <= n.frameCount; frame += stretch) {
+        sum += std::pow(std::log(n.mean(frame, frame + stretch, 4, n.bins - 4)), 2.0);
+        counted += 1.0;
+    }
+    const double deviation = std::sqrt(sum / counted);
+    QVERIFY2(deviation < 0.05, said("deviation", deviation));
+}
+
+void tst_NoiseNormaliser::sameAtTheEdges()
+{
+    // The background of steady white noise is averaged over blocks at the band's ends as within it.
+    const Normalised n = normalised(gaussian(600000, 22), {0.1, 2, 2}, true);
+    const NoiseBackground &background = n.frames->background();
+    const Index cells = background.frequency.count;
+    const auto deviation = [&](Index from, Index to) { // from the variance of a complex sample, 2
+        double sum = 0.0;
+        for (Index block = 0; block < background.time.count; ++block)
+            for (Index cell = from; cell < to; ++cell)
+                sum += std::pow(static_cast<double>(background.lnPower[static_cast<std::size_t>(block * cells + cell)]) - std::numbers::ln2, 2.0);
+        return std::sqrt(sum / static_cast<double>(background.time.count * (to - from)));
+    };
+    const double atEdges = std::max(deviation(0, 5), deviation(cells - 5, cells));
+    QVERIFY2(atEdges < 0.06, said("at the edges", atEdges));
+    QVERIFY2(deviation(20, cells - 20) < 0.03, said("within", deviation(20, cells - 20)));
+}
+
 void tst_NoiseNormaliser::nothingAboveABandEdge()
 {
     // A low-pass of 511 taps: noise up to 250 Hz, a fall of 100 dB within 11 Hz, then nothing to speak of.
@@ -303,6 +342,17 @@ void tst_NoiseNormaliser::silenceAllOver()
     oneSample[7777] = 1.0f;
     QVERIFY(normalised(oneSample).isSound());
     QVERIFY(normalised(std::vector<float>(20000, 0.5f)).isSound()); // nothing but a constant
+}
+
+void tst_NoiseNormaliser::tooLoudForAFloat()
+{
+    // The power of 10³⁷ is beyond a float: no NaN comes of it, all over or for a while.
+    for (const std::size_t from : {std::size_t(0), std::size_t(30000)}) {
+        std::vector<float> samples = gaussian(60000, 23);
+        for (std::size_t i = from; i < samples.size(); ++i)
+            samples[i] *= 1e37f;
+        QVERIFY(normalised(samples).isSound());
+    }
 }
 
 void tst_NoiseNormaliser::clicks()

@@ -79,6 +79,7 @@ private slots:
     void oneTrackForOneStrongLine();
     void twoLinesTwoTracks();
     void aStrongNeighbourIsNotStolen();
+    void nothingIsSeenAtBlindPlaces();
     void noTrackWithoutFeedback();
     void statisticIsAboveThresholdWhileTracked();
     void lineOffTheGridEnds();
@@ -165,6 +166,19 @@ void tst_DetectionChain::aStrongNeighbourIsNotStolen()
     std::vector<Index> last{tracks[0].points.back().cell, tracks[1].points.back().cell};
     std::sort(last.begin(), last.end());
     QVERIFY(std::abs(last[0] - 30) <= 1 && std::abs(last[1] - 37) <= 1);
+}
+
+void tst_DetectionChain::nothingIsSeenAtBlindPlaces()
+{
+    // A line at a blind cell and one seven cells away, which its tracker keeps to.
+    const Scene scene{64, 300, {[](Index) { return Index(0); }, [](Index) { return Index(7); }}};
+    ChainSettings chain = settings(line64, 15.0);
+    QCOMPARE(run(scene, chain, line64).size(), std::size_t(2));
+    chain.blind = {{0}};
+    const auto tracks = run(scene, chain, line64);
+    QCOMPARE(tracks.size(), std::size_t(1));
+    for (const TrackPoint &point : tracks[0].points)
+        QVERIFY(std::abs(point.cell - 7) <= 2);
 }
 
 void tst_DetectionChain::noTrackWithoutFeedback()

@@ -1,0 +1,116 @@
+#include "track/joinTracks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace faintline {
+
+namespace {
+
+    /// Steps from one coordinate to another, the short way round on a cyclic axis.
+    Index stepsTo(const Axis &axis, Index from, Index to)
+    {
+        Index steps = to - from;
+        if (axis.cyclic && 2 * steps > axis.count)
+            steps -= axis.count;
+        if (axis.cyclic && 2 * steps < -axis.count)
+            steps += axis.count;
+        return steps;
+    }
+
+    /// Nats a frame that a track gathered.
+    double growth(const Track &track)
+    {
+        return track.peakStatistic / static_cast<double>(track.points.size());
+    }
+
+    /// Where a later track takes up an earlier one.
+    struct Joint {
+        std::size_t point = 0; ///< of the later track
+        Index gapFrames = 0;
+        Index distance = 0;    ///< largest over the axes, cells
+        bool isFound = false;
+    };
+
+    Joint jointOf(const Track &earlier, const Track &later, const Grid &grid, const JoinRule &rule)
+    {
+        const TrackPoint &end = earlier.points.back();
+        const std::vector<Index> from = grid.coordinates(end.cell);
+        const double weaker = std::min(growth(earlier), growth(later));
+        Joint joint;
+        for (std::size_t i = 0; i < later.points.size() && later.points[i].frame <= later.detectFrame; ++i) {
+            joint.gapFrames = later.points[i].frame - end.frame;
+            if (joint.gapFrames < 1)
+                continue;
+            if (joint.gapFrames > rule.largestGapFrames || static_cast<double>(joint.gapFrames - 1) * weaker > rule.threshold)
+                return {};
+            const std::vector<Index> to = grid.coordinates(later.points[i].cell);
+            joint.distance = 0;
+            joint.isFound = true;
+            for (std::size_t axis = 0; axis < to.size(); ++axis) {
+                const Index steps = std::abs(stepsTo(grid.axes[axis], from[axis], to[axis]));
+                joint.isFound = joint.isFound
+                    && steps <= std::min(rule.linkCells[axis] + joint.gapFrames * rule.reachCells[axis], rule.windowCells[axis]);
+                joint.distance = std::max(joint.distance, steps);
+            }
+            joint.point = i;
+            if (joint.isFound)
+                return joint;
+        }
+        return {};
+    }
+
+    /// Puts the later track's points from the joint on behind the earlier one's, with a straight line between.
+    void append(Track &earlier, const Track &later, const Joint &joint, const Grid &grid)
+    {
+        const TrackPoint end = earlier.points.back();
+        const TrackPoint &next = later.points[joint.point];
+        const std::vector<Index> from = grid.coordinates(end.cell);
+        const std::vector<Index> to = grid.coordinates(next.cell);
+        for (Index i = 1; i < joint.gapFrames; ++i) {
+            std::vector<Index> c = from;
+            for (std::size_t axis = 0; axis < c.size(); ++axis) {
+                const double share = static_cast<double>(i) / static_cast<double>(joint.gapFrames);
+                const auto steps = std::llround(share * static_cast<double>(stepsTo(grid.axes[axis], from[axis], to[axis])));
+                c[axis] = grid.axes[axis].wrapped(from[axis] + static_cast<Index>(steps));
+            }
+            earlier.points.push_back({end.frame + i, grid.cell(c), next.plane, end.statistic});
+        }
+        earlier.points.insert(earlier.points.end(), later.points.begin() + static_cast<std::ptrdiff_t>(joint.point), later.points.end());
+        earlier.endFrame = later.endFrame;
+        earlier.peakStatistic = std::max(earlier.peakStatistic, later.peakStatistic);
+        earlier.isConfirmed = earlier.isConfirmed || later.isConfirmed;
+        earlier.isOpen = later.isOpen;
+    }
+
+} // namespace
+
+std::vector<Track> joinTracks(std::vector<Track> tracks, const Grid &grid, const JoinRule &rule)
+{
+    std::vector<Track> joined;
+    for (Track &track : tracks) {
+        Track *best = nullptr;
+        Joint joint;
+        for (Track &earlier : joined) {
+            if (earlier.endFrame >= track.detectFrame || earlier.endFrame + rule.largestGapFrames < track.onsetFrame)
+                continue;
+            const Joint candidate = jointOf(earlier, track, grid, rule);
+            const bool isBetter = !best || candidate.gapFrames < joint.gapFrames
+                || (candidate.gapFrames == joint.gapFrames && candidate.distance < joint.distance);
+            if (candidate.isFound && isBetter) {
+                best = &earlier;
+                joint = candidate;
+            }
+        }
+        if (best)
+            append(*best, track, joint, grid);
+        else
+            joined.push_back(std::move(track));
+    }
+    for (std::size_t i = 0; i < joined.size(); ++i)
+        joined[i].id = static_cast<int>(i) + 1;
+    return joined;
+}
+
+} // namespace faintline

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "track/Track.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// When two tracks are pieces of one signal.
+struct JoinRule {
+    double threshold = 0.0;            ///< nat, the detector's
+    Index largestGapFrames = 48;
+    std::vector<Index> linkCells;      ///< nearness that needs no explanation, per axis
+    std::vector<Index> reachCells;     ///< farthest move in one frame, per axis
+    std::vector<Index> windowCells;    ///< farthest a tracker looks, per axis
+};
+
+/// Joins each track to the one it goes on from: a signal that a tracker lost for a while and the detector found again.
+///
+/// A track that was detected after another one's evidence had ended, n frames later, goes on from it if
+///
+///   |Δcell| ≤ min(linkCells + n·reachCells, windowCells)   on every axis: it could have come from there,
+///   (n - 1)·g ≤ threshold                                  g: nats a frame the weaker of the two gathered
+///
+/// for the first frame of its path for which both hold. The second says that the signal's absence in between is no more
+/// significant than a detection has to be: faint lines are joined over long gaps, a strong one that was switched off is
+/// not. The later path's run-up before that frame goes; the gap is filled by a straight line. Of several earlier
+/// tracks the one with the shortest gap counts, then the nearest, then the first.
+/// `tracks`: ordered by detection; so is the answer, numbered anew. Cost: number of tracks squared, at most.
+std::vector<Track> joinTracks(std::vector<Track> tracks, const Grid &grid, const JoinRule &rule);
+
+} // namespace faintline
