@@ -350,9 +350,12 @@ void DetectionChain::finish()
 
 std::vector<Track> DetectionChain::joinedTracks() const
 {
+    std::vector<Index> reach = m_trackerModels.front()->reach;
+    for (const auto &model : m_trackerModels)
+        for (std::size_t axis = 0; axis < reach.size(); ++axis)
+            reach[axis] = std::max(reach[axis], model->reach[axis]);
     return joinTracks(m_ended, m_grid,
-                      {m_settings.threshold, m_settings.track.smoothingFrames, m_settings.linkCells, m_trackerModel->reach,
-                       m_trackerModel->halfWidth});
+                      {m_settings.threshold, m_settings.track.smoothingFrames, m_settings.linkCells, reach, m_trackerModels.front()->halfWidth});
 }
 
 } // namespace faintline
