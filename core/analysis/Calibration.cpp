@@ -309,7 +309,7 @@ namespace {
                 std::vector<std::unique_ptr<DetectionChain>> chains;
                 for (const double threshold : thresholds) {
                     own.threshold = threshold;
-                    chains.push_back(makeChain(own));
+                    chains.push_back(makeChain(own, makeDetector(own), false));
                 }
                 return measureTail(*own.frames, *makeDetector(own), levels, chains);
             },
@@ -327,6 +327,26 @@ namespace {
         settings.track = {};
         settings.spectrogram.windowSeconds = windowSamples;
         return settings;
+    }
+
+    /// All that a model's answer to noise depends on, as text.
+    std::string nameOf(const MarkovModel &model)
+    {
+        std::string name = "cells ";
+        const auto add = [&](const std::vector<double> &values) {
+            for (const double value : values)
+                name += formatNumber(value) + ",";
+            name += ";";
+        };
+        for (const KinematicAxis &axis : model.space.axes()) {
+            add({static_cast<double>(axis.cells), axis.cyclic ? 1.0 : 0.0, static_cast<double>(axis.firstRate), static_cast<double>(axis.rateCount),
+                 static_cast<double>(axis.rounding), axis.renormalised ? 1.0 : 0.0});
+            add(axis.rateChange);
+            add(axis.step);
+            add(axis.transition);
+        }
+        add({static_cast<double>(model.likelihood.kind()), model.likelihood.snr(), model.transitionScale});
+        return name;
     }
 
     NormalisedFramesPointer noiseSegment(const AnalysisSettings &bare, int number)
@@ -455,9 +475,14 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
             value = static_cast<float>(random.exponential());
         return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
     };
-    const double wanted = std::min(cellFrames, 4.0 * mostStates / static_cast<double>(model.space.planeCount()));
+    const double wanted = std::min(cellFrames, 2.0 * mostStates / static_cast<double>(model.space.planeCount()));
     const int segments = std::max(4, static_cast<int>(std::ceil(wanted / static_cast<double>(frames * grid.size()))));
-    return calibrateOn(segment, segments, model, settings, context);
+    AnalysisSettings bare = settings;
+    bare.selection = {};
+    bare.spectrogram = {};
+    bare.noise = {};
+    return kept(nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
+                [&] { return calibrateOn(segment, segments, model, settings, context); });
 }
 
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)

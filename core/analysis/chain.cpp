@@ -99,7 +99,7 @@ std::unique_ptr<Detector> makeDetector(const Analysis &analysis)
                         smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
 }
 
-std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector)
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector, bool looksBack)
 {
     if (!detector->hasPaths())
         detector = std::make_unique<GuidedDetector>(std::move(detector), analysis.model, ResetRule{ResetLaw::Fixed, analysis.calibration->lnK});
@@ -108,7 +108,10 @@ std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_
         models.push_back(member.model);
     if (models.empty())
         models.push_back(analysis.model);
-    return std::make_unique<DetectionChain>(std::move(models), analysis.grid(), std::move(detector), chainSettings(analysis));
+    ChainSettings settings = chainSettings(analysis);
+    if (!looksBack)
+        settings.onsetFrames = 1;
+    return std::make_unique<DetectionChain>(std::move(models), analysis.grid(), std::move(detector), std::move(settings));
 }
 
 std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)

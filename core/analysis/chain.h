@@ -12,6 +12,7 @@ std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis);
 
 /// The detector, or bank of detectors, of such a chain at its first frame, and the chain round a detector that may have settled on noise.
 std::unique_ptr<Detector> makeDetector(const Analysis &analysis);
-std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector);
+/// `looksBack`: whether tracks are traced back to their onset, which who only counts them does not need.
+std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector, bool looksBack = true);
 
 } // namespace faintline
