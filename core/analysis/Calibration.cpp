@@ -31,9 +31,10 @@ namespace {
     constexpr Index framesAtOnce = 64;
     constexpr Index blockFrames = 128;
     constexpr Index blockCells = 64;
-    constexpr std::size_t leastMaxima = 100;
+    constexpr std::size_t leastMaxima = 40;
     /// Events per cell and frame at the thresholds where they are counted: 800, 200 and 50 in the usual 4·10⁷ cells × frames.
     constexpr std::array<double, 3> eventRates{2e-5, 5e-6, 1.25e-6};
+    constexpr double leastExpected = 100.0; ///< events at the first of them; in small volumes the rates are higher
     constexpr double leastEvents = 20.0;
 
     /// Noise to calibrate on, in segments that can be made independently of each other.
@@ -206,7 +207,7 @@ namespace {
     }
 
     /// Thresholds at which chains may be expected to find events at about the wanted rates, by a rough look at the maxima of space-time blocks: with P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), Λ and θ from two quantiles.
-    std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock)
+    std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames)
     {
         // A detector that decides in blocks of its own has blocks of ours without a decision.
         const auto blocks = static_cast<double>(maxima.size());
@@ -220,8 +221,9 @@ namespace {
         const auto quantile = [&](double p) { return static_cast<double>(maxima[static_cast<std::size_t>(p * static_cast<double>(maxima.size()))]); };
         const double theta = std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
         std::vector<double> thresholds;
+        const double scale = std::max(1.0, leastExpected / (eventRates.front() * cellFrames));
         for (const double rate : eventRates)
-            thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum / rate) / theta);
+            thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum / (rate * scale)) / theta);
         return thresholds;
     }
 
@@ -290,7 +292,7 @@ namespace {
         trial.frames = firstSegment;
         const Levels levels = levelsOf(*first, *makeDetector(trial));
 
-        const int roughCount = (segmentCount + 3) / 4;
+        const int roughCount = std::max(2, (segmentCount + 3) / 4);
         Tail rough;
         inRounds(
             roughCount, context.part(0.2, 0.3), [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
@@ -298,7 +300,8 @@ namespace {
         const double cells = static_cast<double>(first->grid().size());
         const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
         const std::vector<double> thresholds =
-            thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns);
+            thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns,
+                                rough.cellFrames / roughCount * segmentCount);
 
         Tail tail;
         inRounds(

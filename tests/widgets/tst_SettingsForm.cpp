@@ -169,8 +169,8 @@ void tst_SettingsForm::labelsAreWords()
 {
     QCOMPARE(SettingsForm::label("spectrogram.windowSeconds"), QString("Window length"));
     QCOMPARE(SettingsForm::label("some.newThingHere"), QString("New thing here"));
-    QCOMPARE(SettingsForm::sectionLabel("smd"), QString("Detector"));
-    QCOMPARE(SettingsForm::sectionLabel("pOfN"), QString("P of n"));
+    QCOMPARE(SettingsForm::sectionLabel("smd"), QString("Sequential Markov"));
+    QCOMPARE(SettingsForm::sectionLabel("someStage"), QString("Some stage"));
 }
 
 void tst_SettingsForm::flagsAreCheckBoxes()
