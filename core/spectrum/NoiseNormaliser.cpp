@@ -1,5 +1,7 @@
 #include "spectrum/NoiseNormaliser.h"
 
+#include "spectrum/levels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,35 +14,12 @@ namespace {
 
     constexpr int framesPerBlock = 64;   // more add nothing to the estimate's accuracy
     constexpr Index largestBlockCount = 1024;
-    constexpr double likeness = 1.5;     // so many neighbouring cells tell as much as one, by the window's main lobe
     constexpr float largestRatio = 1e30f;
     constexpr Index pivotCells = 5;      // at the band's edges, about which the sequence is continued
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
     constexpr double roundingFloor = 1e-13;
     constexpr double roundingMargin = 4.0; // of ln power: what lies no higher above the floor does not tell the noise's level
-
-    /// The lower median of n exponentials of mean 1 has mean Σ_{i=0}^{k-1} 1/(n-i), k its rank.
-    double medianMean(int n)
-    {
-        double mean = 0.0;
-        for (int i = 0; i < (n + 1) / 2; ++i)
-            mean += 1.0 / (n - i);
-        return mean;
-    }
-
-    /// Mean of the logarithm of n cells' median, neighbouring ones being alike (a window's main lobe).
-    double lnMedianMean(Index n)
-    {
-        return std::log(medianMean(static_cast<int>(n))) - 0.5 * 1.44 * 1.44 * likeness / static_cast<double>(n);
-    }
-
-    float medianOf(std::vector<float> &values)
-    {
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        return *middle;
-    }
 
     /// Running median of a sequence over ±half, continued by point reflection about its robust ends.
     std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
@@ -221,32 +200,6 @@ namespace {
         return column == bands ? cells : (column + 1) * cells / bands;
     }
 
-    /// Standard error of the logarithm of a median of cells, neighbouring ones being alike.
-    double medianScatter(double cells)
-    {
-        return 1.44 * std::sqrt(likeness / cells);
-    }
-
-    /// The level of a whole frame, of mean y in the cells below five times the level itself, from a first guess. As exact as can be, and no
-    /// line counts for more than five cells of noise.
-    float truncatedMean(std::span<const float> values, float guess)
-    {
-        constexpr float cut = 5.0f;
-        const float kept = (1.0f - (1.0f + cut) * std::exp(-cut)) / (1.0f - std::exp(-cut)); // E[y | y < cut]
-        for (int pass = 0; pass < 2; ++pass) {
-            double sum = 0.0;
-            double count = 0.0;
-            for (float value : values)
-                if (value < cut * guess) {
-                    sum += static_cast<double>(value);
-                    count += 1.0;
-                }
-            if (sum > 0.0)
-                guess = static_cast<float>(sum / count) / kept;
-        }
-        return guess;
-    }
-
     /// ln of each frame's level over its block's background: per sub-band the median cell of noise, then the whole band's common one, from
     /// the sub-bands that agree with the median sub-band. 0 in digital silence. Sub-bands that are mostly lines or empty have no say in
     /// what is common, and go with it where nothing of them is noise.
@@ -375,63 +328,6 @@ namespace {
         }
     }
 
-    /// Variance of the differences x(i + lag) - x(i), from their median magnitude: steps and clicks do not count.
-    double differenceVariance(const std::vector<float> &x, std::size_t lag)
-    {
-        std::vector<float> magnitudes;
-        for (std::size_t i = lag; i < x.size(); ++i)
-            magnitudes.push_back(std::abs(x[i] - x[i - lag]));
-        const double deviation = 1.4826 * static_cast<double>(medianOf(magnitudes));
-        return deviation * deviation;
-    }
-
-    /// The random walk in a series, x(i) = walk + noise, as a Kalman smoother finds it; 0 everywhere if there is no telling it from none.
-    ///
-    /// Differences at a lag of k have variance 2r + kq, which gives noise r and walk q; the smoother's steady state is an
-    /// exponential average forward (gain α, α²/(1-α) = q/r), then backward. What lies beyond three deviations moves it no further.
-    std::vector<float> slowPart(const std::vector<float> &x)
-    {
-        constexpr std::size_t lag = 16;
-        std::vector<float> smooth(x.size(), 0.0f);
-        if (x.size() < 4 * lag)
-            return smooth;
-        const double near = differenceVariance(x, 1);
-        const double far = differenceVariance(x, lag);
-        const double scatter = 4.0 / std::sqrt(static_cast<double>(x.size())); // of far/near in white noise
-        if (far <= near * (1.0 + 2.0 * scatter))
-            return smooth;
-        const double walk = (far - near) / (lag - 1.0);
-        const double noise = std::max(0.5 * (near - walk), 1e-3 * walk);
-        const double ratio = walk / noise;
-        const double gain = 0.5 * (std::sqrt(ratio * ratio + 4.0 * ratio) - ratio);
-        const double largest = 3.0 * std::sqrt(noise / (1.0 - gain));
-        std::vector<float> beginning(x.begin(), x.begin() + lag / 2);
-        double level = static_cast<double>(medianOf(beginning));
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            level += gain * std::clamp(static_cast<double>(x[i]) - level, -largest, largest);
-            smooth[i] = static_cast<float>(level);
-        }
-        for (std::size_t i = x.size() - 1; i-- > 0;)
-            smooth[i] += static_cast<float>(1.0 - gain) * (smooth[i + 1] - smooth[i]);
-        return smooth;
-    }
-
-    /// Takes from a series its running median over seven windows, faded in beyond its scatter (`scatter`: of one window).
-    std::vector<float> suddenPart(const std::vector<float> &series, double scatter)
-    {
-        constexpr Index half = 3;
-        const double medianOfSeven = scatter * 1.25 / std::sqrt(2.0 * half + 1.0);
-        const Index n = std::ssize(series);
-        std::vector<float> result(series.size());
-        std::vector<float> few;
-        for (Index i = 0; i < n; ++i) {
-            few.assign(series.begin() + std::max<Index>(0, i - half), series.begin() + std::min(n, i + half + 1));
-            const auto level = static_cast<double>(medianOf(few));
-            result[static_cast<std::size_t>(i)] = static_cast<float>(level * std::clamp(std::abs(level) / medianOfSeven - 2.0, 0.0, 1.0));
-        }
-        return result;
-    }
-
     /// From each window's levels to those that count, per sub-band: the common level's slow and sudden parts, then what a sub-band has
     /// suddenly besides.
     std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background)
@@ -543,7 +439,8 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         appendLevels(block, own, background->bandCount, levels);
         removeOffsets(levels, firstLevel, background->bandCount);
     }
-    background->lnPower = averageWhileSteady(rows, blockCount, cells, settings.halfWidthCells, std::min<double>(framesPerBlock, blockFrames));
+    background->lnPower =
+        averageWhileSteady(rows, blockCount, cells, settings.halfWidthCells, std::min<double>(framesPerBlock, blockFrames));
     moveToBackground(levels, rows, *background, blockFrames / static_cast<double>(stride));
     background->lnLevel = finishLevels(levels, *background);
     return background;
@@ -585,8 +482,7 @@ void NormalisedSpectrogram::normalise(Index frame, std::span<float> values) cons
         const auto lower = std::min(static_cast<std::size_t>(position), inverse.size() - 1);
         const auto upper = std::min(lower + 1, inverse.size() - 1);
         const auto fraction = static_cast<float>(position - static_cast<double>(lower));
-        const float y = values[bin] * (inverse[lower] + fraction * (inverse[upper] - inverse[lower]));
-        values[bin] = y <= largestRatio ? y : (y > largestRatio ? largestRatio : 0.0f); // samples too loud for a float: ∞, or ∞ · 0
+        values[bin] = std::min(values[bin] * (inverse[lower] + fraction * (inverse[upper] - inverse[lower])), largestRatio);
     }
     if (m_settings.followLevel)
         guardAgainstClicks(values);

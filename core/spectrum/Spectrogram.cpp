@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace faintline {
 
@@ -29,8 +30,12 @@ namespace {
     FAINTLINE_MULTIVERSION
     void squaredMagnitude(const float *bins, std::size_t n, float *out)
     {
-        for (std::size_t i = 0; i < n; ++i)
-            out[i] = bins[2 * i] * bins[2 * i] + bins[2 * i + 1] * bins[2 * i + 1];
+        // Samples too loud for a float's square give ∞ or no number at all: the largest float stands for both.
+        constexpr float largest = std::numeric_limits<float>::max();
+        for (std::size_t i = 0; i < n; ++i) {
+            const float power = bins[2 * i] * bins[2 * i] + bins[2 * i + 1] * bins[2 * i + 1];
+            out[i] = power <= largest ? power : largest;
+        }
     }
 
     std::string seconds(double value)

@@ -161,7 +161,8 @@ bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
     for (Index cell = 0; cell < windowCells; ++cell) {
         const Index target = model.inPadded(cell, unmoved);
         for (Index plane = 0; plane < model.window.planeCount(); ++plane)
-            model.scores[static_cast<std::size_t>(plane * cells + target)] = last.scores[static_cast<std::size_t>(plane * windowCells + cell)];
+            model.scores[static_cast<std::size_t>(plane * cells + target)] =
+                last.scores[static_cast<std::size_t>(plane * windowCells + cell)];
     }
     const std::span<float> predicted = model.recursion.predict(model.scores);
     for (Index cell = 0; cell < cells; ++cell) {
