@@ -326,15 +326,15 @@ bool ExceedancePlot::eventFilter(QObject *watched, QEvent *event)
     if (watched == canvas() && event->type() == QEvent::Resize)
         layAxes(); // ticks and colours depend on the canvas as laid out, not on the window
     if (watched == canvas() && m_calibration) {
-        auto *mouse = static_cast<QMouseEvent *>(event);
-        if (event->type() == QEvent::MouseButtonPress && mouse->button() == Qt::LeftButton) {
+        const auto mouse = [event] { return static_cast<QMouseEvent *>(event); };
+        if (event->type() == QEvent::MouseButtonPress && mouse()->button() == Qt::LeftButton) {
             setFocus(Qt::MouseFocusReason);
             m_isDragging = true;
-            dragTo(mouse->position().x());
+            dragTo(mouse()->position().x());
             return true;
         }
         if (event->type() == QEvent::MouseMove && m_isDragging) {
-            dragTo(mouse->position().x());
+            dragTo(mouse()->position().x());
             return true;
         }
         if (event->type() == QEvent::MouseButtonRelease && m_isDragging) {
