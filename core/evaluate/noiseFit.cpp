@@ -188,12 +188,21 @@ namespace {
 
 } // namespace
 
-MisfitPfa misfitPfa(const NoiseLaw &law, const AnalysisSettings &settings, double lnK, double threshold, const RunContext &context)
+std::vector<MisfitPfa> misfitPfa(std::span<const NoiseBand> bands, const AnalysisSettings &settings, double lnK, double threshold,
+                                 const RunContext &context)
 {
-    const Quantiles quantiles(law);
-    std::vector<float> nominal = statisticOn(settings, lnK, context.part(0.0, 0.5), nullptr);
-    std::vector<float> actual = statisticOn(settings, lnK, context.part(0.5, 1.0), &quantiles);
-    return {exceedanceOf(nominal, threshold), exceedanceOf(actual, threshold)};
+    const double passes = static_cast<double>(bands.size()) + 1.0;
+    const auto exceedance = [&](double pass, const Quantiles *law) {
+        std::vector<float> statistic = statisticOn(settings, lnK, context.part(pass / passes, (pass + 1.0) / passes), law);
+        return exceedanceOf(statistic, threshold);
+    };
+    const double nominal = exceedance(0.0, nullptr);
+    std::vector<MisfitPfa> result;
+    for (const NoiseBand &band : bands) {
+        const Quantiles law(band.law);
+        result.push_back({nominal, exceedance(static_cast<double>(result.size()) + 1.0, &law)});
+    }
+    return result;
 }
 
 } // namespace faintline

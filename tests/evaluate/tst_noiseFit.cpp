@@ -38,6 +38,13 @@ private:
         return y;
     }
 
+    static NoiseBand band(const NoiseLaw &law)
+    {
+        NoiseBand result;
+        result.law = law;
+        return result;
+    }
+
     static FrameArray frames(Index count, Index bins, std::vector<float> y)
     {
         return {Axis{"time", "s", 0.0, 1.0, count, false}, Grid{{Axis{"frequency", "Hz", 100.0, 2.0, bins, false}}}, std::move(y)};
@@ -117,7 +124,7 @@ void tst_noiseFit::energyDetectorSeesTheLawItself()
     AnalysisSettings settings;
     settings.detector = EnergySettings();
     const double threshold = 3.0;
-    const MisfitPfa pfa = misfitPfa(law, settings, 0.0, threshold);
+    const MisfitPfa pfa = misfitPfa(std::vector{band(law)}, settings, 0.0, threshold).front();
     const double nominal = std::exp(-threshold);
     const double actual = std::exp(-2.0 * threshold) * (1.0 + 2.0 * threshold);
     const double n = 256.0 * 6000.0;
@@ -133,7 +140,7 @@ void tst_noiseFit::theLawHasNoMisfit()
     settings.model.lowestSlope = settings.model.highestSlope = 0;
     settings.model.slopeChange = {1.0};
     // The same random numbers through both laws: what is left is the law's own sampling error.
-    const MisfitPfa pfa = misfitPfa(law, settings, 0.3, 10.0);
+    const MisfitPfa pfa = misfitPfa(std::vector{band(law)}, settings, 0.3, 10.0).front();
     QVERIFY(pfa.nominal > 0.0);
     QVERIFY2(std::abs(std::log(pfa.ratio())) < 0.1, qPrintable(QString::number(pfa.ratio())));
 }
@@ -145,7 +152,7 @@ void tst_noiseFit::cancels()
     RunContext context;
     context.stop = source.get_token();
     QVERIFY_EXCEPTION_THROWN(fitNoise(frames(10, 2, cells(20, 1, 0)), 1, {}, context), Cancelled);
-    QVERIFY_EXCEPTION_THROWN(misfitPfa(NoiseLaw(), AnalysisSettings(), 0.0, 1.0, context), Cancelled);
+    QVERIFY_EXCEPTION_THROWN(misfitPfa(std::vector{NoiseBand()}, AnalysisSettings(), 0.0, 1.0, context), Cancelled);
 }
 
 QTEST_GUILESS_MAIN(tst_noiseFit)
