@@ -151,6 +151,11 @@ bool ExperimentForm::isInRecording() const
     return m_noise->currentIndex() == 1;
 }
 
+void ExperimentForm::setInRecording(bool isInRecording)
+{
+    m_noise->setCurrentIndex(isInRecording ? 1 : 0);
+}
+
 std::vector<Contestant> ExperimentForm::chosen() const
 {
     std::vector<Contestant> result;

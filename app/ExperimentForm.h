@@ -32,6 +32,7 @@ public:
     void setCurrent(const AnalysisSettings &settings, double windowSeconds);
 
     bool isInRecording() const;
+    void setInRecording(bool isInRecording);
     LineExperiment lines() const;
     InjectionExperiment injection(const QString &recording) const;
     /// "SMD 5 slopes, 3 of 4 · −5 … 3 dB · 100 T_FT".

@@ -20,6 +20,7 @@
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
 #include "app/hint.h"
+#include "app/statisticUnit.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/EventTable.h"
@@ -344,7 +345,7 @@ void MainWindow::buildEvaluateMenu()
     QMenu *menu = menuBar()->addMenu(tr("E&valuate"));
     addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { showDock(m_evaluate); });
     addViewAction(*menu, tr("&Experiments"), {}, [this] { showDock(m_experimentList); });
-    addViewAction(*menu, tr("&Noise fit"), {}, [this] { showDock(m_noiseFit); });
+    addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
 }
@@ -608,6 +609,10 @@ void MainWindow::showAnalysis()
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.back();
     m_readOut->setResolution(analysis.time().step, frequency.step);
+    const QString unit = statisticUnit(analysis.settings);
+    m_threshold->setStatisticUnit(unit);
+    m_readOut->setStatisticUnit(unit);
+    m_events->setStatisticUnit(unit);
     m_threshold->setCalibration(analysis.calibration, analysis.cellFramesPerHour);
     m_threshold->setHistogram(analysis.statisticCounts);
     m_threshold->setUnit(unitOf(analysis.settings.decide.by));
@@ -704,14 +709,14 @@ const QStringList &MainWindow::viewNames()
 {
     static const QStringList names{QStringLiteral("window"),    QStringLiteral("input"),  QStringLiteral("output"),
                                    QStringLiteral("threshold"), QStringLiteral("events"), QStringLiteral("noise"),
-                                   QStringLiteral("noisefit"),  QStringLiteral("pd"),     QStringLiteral("roc")};
+                                   QStringLiteral("noisefit"),  QStringLiteral("pd")};
     return names;
 }
 
 QWidget *MainWindow::view(const QString &name)
 {
-    const std::array<QWidget *, 9> views{this,     m_workbench->inputPane(), m_workbench->outputPane(), m_threshold,       m_events,
-                                         m_info,   m_noiseFit,               &m_evaluate->pd(),         &m_evaluate->roc()};
+    const std::array<QWidget *, 8> views{this,     m_workbench->inputPane(), m_workbench->outputPane(), m_threshold,       m_events,
+                                         m_info,   m_noiseFit,               m_evaluate};
     const auto index = viewNames().indexOf(name);
     return index < 0 ? nullptr : views[static_cast<std::size_t>(index)];
 }
@@ -753,6 +758,11 @@ void MainWindow::showExperiment(int id)
         return;
     m_evaluate->show(id);
     showDock(m_evaluate);
+}
+
+void MainWindow::showNoiseFit()
+{
+    showDock(m_noiseFit);
 }
 
 void MainWindow::showDock(QWidget *panel)

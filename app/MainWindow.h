@@ -65,9 +65,11 @@ public:
     TrialViewer &trials() { return *m_trials; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd", "roc".
+    /// "noisefit", "pd".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
+
+    void showNoiseFit();
 
     /// Off: nobody is there to answer a dialog.
     void setAsking(bool isAsking);

@@ -21,20 +21,20 @@ namespace {
     constexpr int bandCount = 6;
     constexpr double fewest = 10.0; ///< values beyond a quantile that is drawn
 
-    QString bandText(const NoiseBand &band)
+    QString bandText(const FittedBand &band)
     {
         const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
         const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
         return QObject::tr("%1 … %2 %3").arg(numberText(band.low / unit.hz, decimals), numberText(band.high / unit.hz, decimals), unit.name);
     }
 
-    Chart chartOf(const std::vector<NoiseBand> &bands)
+    Chart chartOf(const std::vector<FittedBand> &bands)
     {
         Chart chart{"Normalised noise against its law", "quantile of the law e^(-y)", "measured y", false, false, {}};
         double longest = 1.0;
-        for (const NoiseBand &band : bands) {
+        for (const FittedBand &band : bands) {
             Curve curve{bandText(band).toStdString(), Curve::Kind::Measured, {}};
-            for (double x = 0.25; band.law.count() * std::exp(-x) >= fewest; x += 0.25) {
+            for (double x = 0.25; static_cast<double>(band.law.count()) * std::exp(-x) >= fewest; x += 0.25) {
                 curve.points.push_back({x, band.law.quantile(std::exp(-x)), {}});
                 longest = std::max(longest, x);
             }
@@ -108,7 +108,7 @@ void NoiseFitPanel::measure()
     m_measured = analysis;
     m_runner.start([this, analysis](const RunContext &context) -> JobRunner::Delivery {
         Fit fit{analysis, {}, {}};
-        const FrameGeometry geometry = analysis->recording ? frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
+        const FrameGeometry geometry = analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
         fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4));
         fit.pfa = misfitPfa(fit.bands, analysis->settings, analysis->calibration->lnK, analysis->threshold, context.part(0.4, 1.0));
         return [this, fit = std::move(fit)] { show(fit); };
@@ -120,7 +120,7 @@ void NoiseFitPanel::show(const Fit &fit)
     m_plot->setChart(chartOf(fit.bands));
     m_table->setRowCount(static_cast<int>(fit.bands.size()));
     for (int row = 0; row < m_table->rowCount(); ++row) {
-        const NoiseBand &band = fit.bands[static_cast<std::size_t>(row)];
+        const FittedBand &band = fit.bands[static_cast<std::size_t>(row)];
         const QString texts[] = {bandText(band), numberText(band.law.mean(), 3),
                                  tr("%1 %2 %3").arg(numberText(band.law.distance(), 4), band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
                                                     numberText(NoiseLaw::distanceLimit(band.independent), 4)),
@@ -136,7 +136,7 @@ void NoiseFitPanel::show(const Fit &fit)
 
 void NoiseFitPanel::say(const Fit &fit)
 {
-    const auto misfits = std::count_if(fit.bands.begin(), fit.bands.end(), [](const NoiseBand &band) { return !band.fits(); });
+    const auto misfits = std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(), [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
     const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())]);
     const QString ratio = powerText(worst->ratio(), 2);

@@ -43,7 +43,7 @@ protected:
 private:
     struct Fit {
         std::shared_ptr<const Analysis> analysis;
-        std::vector<NoiseBand> bands;
+        std::vector<FittedBand> bands;
         std::vector<MisfitPfa> pfa;
     };
 

@@ -47,7 +47,7 @@ QString Source::name() const
 
 Source sourceOf(const QString &path, const OpenOptions &options)
 {
-    Source source{path, options, {}};
+    Source source{path, options, {}, {}};
     if (path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive))
         source.scene = readScene(path);
     return source;

@@ -1,6 +1,7 @@
 #include "app/TrialViewer.h"
 
 #include "app/TrialWindow.h"
+#include "app/statisticUnit.h"
 #include "evaluate/campaignCharts.h"
 #include "widgets/quantities.h"
 
@@ -95,12 +96,11 @@ void TrialViewer::show(const ShownTrial &trial)
     const Contestant &detector = detectorsOf(campaign)[m_detector];
     const QString name = QString::fromStdString(detector.name);
     const QString db = numberText(snrOf(campaign, m_snr), 1);
-    const auto unit = detectorUnits[detector.settings.detector.index()];
-    const QString units = QString::fromUtf8(unit.data(), static_cast<qsizetype>(unit.size()));
+    const QString unit = statisticUnit(detector.settings);
     const bool isLine = std::holds_alternative<LineExperiment>(campaign.experiment);
     QString sentence = outcome.isDetected ? tr("%1 at %2 dB: detected. On the line D reaches %3 %5, the threshold is %4 %5.")
                                           : tr("%1 at %2 dB: missed. On the line D reaches only %3 %5, the threshold is %4 %5.");
-    sentence = sentence.arg(name, db, numberText(outcome.statistic, 2), numberText(shownThreshold(campaign, m_detector), 2), units);
+    sentence = sentence.arg(name, db, numberText(outcome.statistic, 2), numberText(shownThreshold(campaign, m_detector), 2), unit);
     sentence += isLine ? tr(" Run %1, line %2; a window T_FT is drawn as one second, a resolution cell as one hertz.")
                              .arg(outcome.place.run)
                              .arg(outcome.place.signal)

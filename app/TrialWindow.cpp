@@ -1,6 +1,7 @@
 #include "app/TrialWindow.h"
 
 #include "app/Workbench.h"
+#include "app/statisticUnit.h"
 #include "widgets/ReadOut.h"
 
 #include <QHBoxLayout>
@@ -51,6 +52,7 @@ void TrialWindow::show(const ShownTrial &trial, const QString &title, const QStr
     setWindowTitle(title);
     m_sentence->setText(sentence);
     m_document.setOpened({{}, analysis.recording, trial.truth}, analysis.settings);
+    m_readOut->setStatisticUnit(statisticUnit(analysis.settings));
     m_readOut->setResolution(analysis.time().step, analysis.grid().axes.back().step);
     m_document.setAnalysis(trial.analysis, events(analysis));
     if (analysis.recording) { // the line's surroundings, of a whole recording

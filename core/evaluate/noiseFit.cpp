@@ -78,14 +78,14 @@ double NoiseLaw::distanceLimit(double independent)
 
 // ---- of frames ------------------------------------------------------------------------------------------------------
 
-std::vector<NoiseBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry, const RunContext &context,
+std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry, const RunContext &context,
                                 std::int64_t cells)
 {
     const Axis &axis = frames.grid().axes.back();
     const Index size = frames.grid().size();
     const Index frameCount = frames.time().count;
     const Index wanted = std::clamp<Index>(bands, 1, axis.count);
-    std::vector<NoiseBand> result(static_cast<std::size_t>(wanted));
+    std::vector<FittedBand> result(static_cast<std::size_t>(wanted));
     const auto edge = [&](Index band) { return band * axis.count / wanted; };
     for (Index band = 0; band < wanted; ++band) {
         result[static_cast<std::size_t>(band)].low = axis.value(static_cast<double>(edge(band)));
@@ -102,7 +102,7 @@ std::vector<NoiseBand> fitNoise(const NormalisedFrames &frames, int bands, const
                     std::span<const float>(y).subspan(static_cast<std::size_t>(row + edge(band)), static_cast<std::size_t>(edge(band + 1) - edge(band))));
     }
     const double overlap = std::max(1.0, geometry.framesPerWindow / static_cast<double>(stride)) * std::max(1.0, geometry.binsPerCell);
-    for (NoiseBand &band : result)
+    for (FittedBand &band : result)
         band.independent = static_cast<double>(band.law.count()) / overlap;
     return result;
 }
@@ -188,7 +188,7 @@ namespace {
 
 } // namespace
 
-std::vector<MisfitPfa> misfitPfa(std::span<const NoiseBand> bands, const AnalysisSettings &settings, double lnK, double threshold,
+std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double lnK, double threshold,
                                  const RunContext &context)
 {
     const double passes = static_cast<double>(bands.size()) + 1.0;
@@ -198,7 +198,7 @@ std::vector<MisfitPfa> misfitPfa(std::span<const NoiseBand> bands, const Analysi
     };
     const double nominal = exceedance(0.0, nullptr);
     std::vector<MisfitPfa> result;
-    for (const NoiseBand &band : bands) {
+    for (const FittedBand &band : bands) {
         const Quantiles law(band.law);
         result.push_back({nominal, exceedance(static_cast<double>(result.size()) + 1.0, &law)});
     }

@@ -48,7 +48,7 @@ private:
 };
 
 /// One band's law, and what it does to false alarms.
-struct NoiseBand {
+struct FittedBand {
     double low = 0.0;  ///< position on the frames' last axis, Hz
     double high = 0.0;
     NoiseLaw law;
@@ -59,7 +59,7 @@ struct NoiseBand {
 
 /// Counts frames' values in `bands` bands of equal width. Looks at no more than about `cells` values, in frames spread evenly.
 /// `geometry`: how far overlap makes neighbours dependent. Throws Cancelled.
-std::vector<NoiseBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {}, const RunContext &context = {},
+std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {}, const RunContext &context = {},
                                 std::int64_t cells = 20'000'000);
 
 /// Of one detector's statistic at a threshold, per cell: as the exponential law has it, and as a band's own law has it.
@@ -74,7 +74,7 @@ struct MisfitPfa {
 /// band's law, and on cells of the exponential law made of the same random numbers. Beyond 3·10⁻⁵ the exceedance goes on with the
 /// slope of its last decade and a half, as the statistic's exponential tail does. Only ratios mean something: overlap's correlation is
 /// left out of both. Oracle: the energy detector, whose exceedance is the law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
-std::vector<MisfitPfa> misfitPfa(std::span<const NoiseBand> bands, const AnalysisSettings &settings, double lnK, double threshold,
+std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double lnK, double threshold,
                                  const RunContext &context = {});
 
 } // namespace faintline

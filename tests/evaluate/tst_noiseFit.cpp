@@ -38,9 +38,9 @@ private:
         return y;
     }
 
-    static NoiseBand band(const NoiseLaw &law)
+    static FittedBand band(const NoiseLaw &law)
     {
-        NoiseBand result;
+        FittedBand result;
         result.law = law;
         return result;
     }
@@ -152,7 +152,7 @@ void tst_noiseFit::cancels()
     RunContext context;
     context.stop = source.get_token();
     QVERIFY_EXCEPTION_THROWN(fitNoise(frames(10, 2, cells(20, 1, 0)), 1, {}, context), Cancelled);
-    QVERIFY_EXCEPTION_THROWN(misfitPfa(std::vector{NoiseBand()}, AnalysisSettings(), 0.0, 1.0, context), Cancelled);
+    QVERIFY_EXCEPTION_THROWN(misfitPfa(std::vector{FittedBand()}, AnalysisSettings(), 0.0, 1.0, context), Cancelled);
 }
 
 QTEST_GUILESS_MAIN(tst_noiseFit)
