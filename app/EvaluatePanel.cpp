@@ -62,6 +62,7 @@ EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments,
 
     auto *buttons = new QHBoxLayout;
     buttons->setContentsMargins(8, 2, 8, 0);
+    buttons->setSpacing(6);
     buttons->addWidget(m_start, 1);
     buttons->addWidget(m_cancel, 1);
     auto *status = new QVBoxLayout;

@@ -34,7 +34,7 @@ namespace {
         double longest = 1.0;
         for (const FittedBand &band : bands) {
             Curve curve{bandText(band).toStdString(), Curve::Kind::Measured, {}};
-            for (double x = 0.25; static_cast<double>(band.law.count()) * std::exp(-x) >= fewest; x += 0.25) {
+            for (double x = 0.5; static_cast<double>(band.law.count()) * std::exp(-x) >= fewest; x += 0.5) {
                 curve.points.push_back({x, band.law.quantile(std::exp(-x)), {}});
                 longest = std::max(longest, x);
             }
@@ -124,7 +124,7 @@ void NoiseFitPanel::show(const Fit &fit)
         const QString texts[] = {bandText(band), numberText(band.law.mean(), 3),
                                  tr("%1 %2 %3").arg(numberText(band.law.distance(), 4), band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
                                                     numberText(NoiseLaw::distanceLimit(band.independent), 4)),
-                                 QStringLiteral("× ") + powerText(fit.pfa[static_cast<std::size_t>(row)].ratio(), 2)};
+                                 QStringLiteral("× ") + powerText(fit.pfa[static_cast<std::size_t>(row)].ratio(), 3)};
         for (int column = 0; column < 4; ++column) {
             auto *item = new QTableWidgetItem(texts[column]);
             item->setTextAlignment((column == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
@@ -139,7 +139,7 @@ void NoiseFitPanel::say(const Fit &fit)
     const auto misfits = std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(), [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
     const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())]);
-    const QString ratio = powerText(worst->ratio(), 2);
+    const QString ratio = powerText(worst->ratio(), 3);
     m_sentence->setText(misfits == 0
                             ? tr("All bands follow the law. At the threshold, false alarms are at most %1 times as likely as calibrated (%2).").arg(ratio, band)
                             : tr("%1 of %2 bands depart from the law; lines in them do so too. Taken as noise, %3 would give %4 times the calibrated "

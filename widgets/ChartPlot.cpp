@@ -17,14 +17,13 @@
 #include <qwt_symbol.h>
 #include <qwt_text.h>
 
+#include <QBoxLayout>
 #include <QCheckBox>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QScrollArea>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <array>
@@ -98,7 +97,7 @@ namespace {
 
 ChartPlot::ChartPlot(QWidget *parent)
     : QWidget(parent), m_plot(new QwtPlot), m_grid(new QwtPlotGrid), m_ring(new QwtPlotMarker), m_sentence(new CanvasSentence),
-      m_key(new QWidget), m_keyLayout(new QVBoxLayout(m_key)), m_readOut(new QLabel)
+      m_row(new QBoxLayout(QBoxLayout::LeftToRight)), m_keyArea(new QScrollArea), m_key(new QWidget), m_keyLayout(new QVBoxLayout(m_key)), m_readOut(new QLabel)
 {
     m_grid->attach(m_plot);
     m_ring->setZ(60.0);
@@ -114,25 +113,22 @@ ChartPlot::ChartPlot(QWidget *parent)
 
     m_keyLayout->setContentsMargins(4, 6, 8, 6);
     m_keyLayout->setSpacing(3);
-    auto *keyArea = new QScrollArea;
-    keyArea->setWidget(m_key);
-    keyArea->setWidgetResizable(true);
-    keyArea->setFrameShape(QFrame::NoFrame);
-    keyArea->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    keyArea->setFixedWidth(0);
-    keyArea->setFocusPolicy(Qt::NoFocus);
+    m_keyArea->setWidget(m_key);
+    m_keyArea->setWidgetResizable(true);
+    m_keyArea->setFrameShape(QFrame::NoFrame);
+    m_keyArea->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_keyArea->setFocusPolicy(Qt::NoFocus);
     m_readOut->setTextFormat(Qt::PlainText);
     m_readOut->setContentsMargins(8, 0, 8, 3);
     m_readOut->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
 
-    auto *row = new QHBoxLayout;
-    row->setSpacing(0);
-    row->addWidget(m_plot, 1);
-    row->addWidget(keyArea);
+    m_row->setSpacing(0);
+    m_row->addWidget(m_plot, 1);
+    m_row->addWidget(m_keyArea);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addLayout(row, 1);
+    layout->addLayout(m_row, 1);
     layout->addWidget(m_readOut);
     restyle();
 }
@@ -205,8 +201,8 @@ double ChartPlot::ordinate(double y) const
     return m_chart.isLogarithmicY ? std::log10(std::max(y, std::numeric_limits<double>::min())) : y;
 }
 
-/// Colour and symbol: measured curves are counted, what belongs to one follows it.
-std::size_t ChartPlot::styleOf(std::size_t curve) const
+/// Colour and symbol: measured curves are counted, what belongs to one follows it; nothing for what belongs to none.
+std::optional<std::size_t> ChartPlot::styleOf(std::size_t curve) const
 {
     const auto countBefore = [this](std::size_t end) {
         return static_cast<std::size_t>(std::count_if(m_chart.curves.begin(), m_chart.curves.begin() + static_cast<std::ptrdiff_t>(end),
@@ -223,7 +219,14 @@ std::size_t ChartPlot::styleOf(std::size_t curve) const
             owner = i;
         }
     }
-    return owner ? countBefore(*owner) : countBefore(m_chart.curves.size()) + curve;
+    return owner ? std::optional(countBefore(*owner)) : std::nullopt;
+}
+
+QColor ChartPlot::colourOf(std::size_t curve) const
+{
+    const Theme::Colours &colours = Theme::colours(*this);
+    const auto style = styleOf(curve);
+    return style ? colours.curves[*style % std::size(colours.curves)] : colours.text;
 }
 
 void ChartPlot::restyle()
@@ -268,8 +271,8 @@ void ChartPlot::addCurve(std::size_t index)
 {
     const Curve &curve = m_chart.curves[index];
     const Theme::Colours &colours = Theme::colours(*this);
-    const std::size_t style = styleOf(index);
-    const QColor colour = colours.curves[style % std::size(colours.curves)];
+    const std::size_t style = styleOf(index).value_or(0);
+    const QColor colour = colourOf(index);
     addIntervals(index, colour);
 
     auto *item = new QwtPlotCurve(words(curve.name));
@@ -324,8 +327,8 @@ QPixmap ChartPlot::sample(std::size_t index) const
 {
     const Curve &curve = m_chart.curves[index];
     const Theme::Colours &colours = Theme::colours(*this);
-    const std::size_t style = styleOf(index);
-    const QColor colour = colours.curves[style % std::size(colours.curves)];
+    const std::size_t style = styleOf(index).value_or(0);
+    const QColor colour = colourOf(index);
     QPixmap pixmap(QSize(26, 12) * devicePixelRatioF());
     pixmap.setDevicePixelRatio(devicePixelRatioF());
     pixmap.fill(Qt::transparent);
@@ -363,13 +366,29 @@ void ChartPlot::rebuildKey()
         }
         m_keyLayout->addStretch(1);
     }
-    int widest = 0;
-    for (std::size_t i = 0; i < m_boxes.size(); ++i) {
+    for (std::size_t i = 0; i < m_boxes.size(); ++i)
         m_boxes[i]->setIcon(QIcon(sample(i)));
-        widest = std::max(widest, m_boxes[i]->sizeHint().width());
-    }
-    auto *area = static_cast<QScrollArea *>(m_key->parentWidget()->parentWidget());
-    area->setFixedWidth(m_boxes.empty() ? 0 : widest + 26);
+    placeKey();
+}
+
+/// Beside the plot, or below it where that would take too much of its width.
+void ChartPlot::placeKey()
+{
+    int widest = 0;
+    for (const QCheckBox *box : m_boxes)
+        widest = std::max(widest, box->sizeHint().width() + 26);
+    constexpr int heightBelow = 76;
+    const bool isBelow = 3 * widest > width();
+    m_row->setDirection(isBelow ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
+    m_keyArea->setMinimumSize(isBelow ? 0 : widest, isBelow ? heightBelow : 0);
+    m_keyArea->setMaximumSize(isBelow ? QWIDGETSIZE_MAX : widest, isBelow ? heightBelow : QWIDGETSIZE_MAX);
+    m_keyArea->setVisible(!m_boxes.empty());
+}
+
+void ChartPlot::resizeEvent(QResizeEvent *event)
+{
+    QWidget::resizeEvent(event);
+    placeKey();
 }
 
 void ChartPlot::layAxes()

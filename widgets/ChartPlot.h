@@ -8,8 +8,10 @@
 #include <optional>
 #include <vector>
 
+class QBoxLayout;
 class QCheckBox;
 class QLabel;
+class QScrollArea;
 class QVBoxLayout;
 class QwtPlot;
 class QwtPlotCurve;
@@ -60,6 +62,7 @@ signals:
 protected:
     void keyPressEvent(QKeyEvent *event) override;
     void changeEvent(QEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
     void focusInEvent(QFocusEvent *event) override;
     void focusOutEvent(QFocusEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
@@ -81,7 +84,9 @@ private:
     void move(int points, int curves);
     std::optional<Place> nearest(const QPointF &canvas) const;
     bool isMeasured(std::size_t curve) const;
-    std::size_t styleOf(std::size_t curve) const;
+    std::optional<std::size_t> styleOf(std::size_t curve) const;
+    QColor colourOf(std::size_t curve) const;
+    void placeKey();
     QPixmap sample(std::size_t curve) const;
     double abscissa(double x) const;
     double ordinate(double y) const;
@@ -95,6 +100,8 @@ private:
     QwtPlotGrid *m_grid;
     QwtPlotMarker *m_ring; ///< round the point read out
     CanvasSentence *m_sentence;
+    QBoxLayout *m_row; ///< plot and key
+    QScrollArea *m_keyArea;
     QWidget *m_key;
     QVBoxLayout *m_keyLayout;
     QLabel *m_readOut;

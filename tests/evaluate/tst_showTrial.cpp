@@ -1,5 +1,6 @@
 #include "evaluate/showTrial.h"
 
+#include "analysis/chain.h"
 #include "evaluate/campaignCharts.h"
 #include "evaluate/peers.h"
 
@@ -53,16 +54,15 @@ void tst_showTrial::everySignalIsATrial()
 
 void tst_showTrial::theTrialAnswersAsInTheCampaign_data()
 {
-    QTest::addColumn<int>("detector");
+    QTest::addColumn<int>("index");
     QTest::newRow("SMD stable") << 0;
-    QTest::newRow("integrator") << 1;
     QTest::newRow("3 of 4") << 2;
 }
 
 void tst_showTrial::theTrialAnswersAsInTheCampaign()
 {
-    QFETCH(int, detector);
-    const auto d = static_cast<std::size_t>(detector);
+    QFETCH(int, index);
+    const auto d = static_cast<std::size_t>(index);
     const TrialOutcome outcome = trialsOf(m_campaign, d, 0)[2];
     const ShownTrial shown = showTrial(m_campaign, nullptr, d, 0, outcome.place);
     const Analysis &analysis = *shown.analysis;
@@ -75,15 +75,17 @@ void tst_showTrial::theTrialAnswersAsInTheCampaign()
     const Axis &time = analysis.time();
     const Axis &frequency = analysis.grid().axes.front();
     double largest = -1e9;
-    analyse(analysis.frames, analysis.model, analysis.settings, {}, [&](Index first, std::span<const float> statistic) {
-        for (Index i = 0; i < std::ssize(statistic) / frequency.count; ++i) {
-            const double seconds = time.value(static_cast<double>(first + i));
-            if (seconds < truth.startSeconds - 1e-9 || seconds > truth.endSeconds + 1e-9)
-                continue;
-            const Index bin = frequency.nearest(truth.frequencyAt(seconds));
-            largest = std::max(largest, static_cast<double>(statistic[static_cast<std::size_t>(i * frequency.count + bin)]));
-        }
-    });
+    const auto detector = makeDetector(analysis); // without the tracks' own scores that a chain paints over it
+    std::vector<float> y(static_cast<std::size_t>(frequency.count));
+    std::vector<float> statistic(y.size());
+    for (Index frame = 0; frame < time.count; ++frame) {
+        analysis.frames->read(frame, 1, y);
+        detector->update(y, statistic);
+        const double seconds = time.value(static_cast<double>(frame));
+        if (seconds < truth.startSeconds - 1e-9 || seconds > truth.endSeconds + 1e-9)
+            continue;
+        largest = std::max(largest, static_cast<double>(statistic[static_cast<std::size_t>(frequency.nearest(truth.frequencyAt(seconds)))]));
+    }
     QVERIFY2(std::abs(largest - outcome.statistic) < 1e-3 * (1.0 + std::abs(outcome.statistic)),
              qPrintable(QString("%1 in the trial, %2 in the campaign").arg(largest).arg(outcome.statistic)));
 }
