@@ -110,7 +110,8 @@ void NoiseFitPanel::measure()
         Fit fit{analysis, {}, {}};
         const FrameGeometry geometry = analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
         fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4));
-        fit.pfa = misfitPfa(fit.bands, analysis->settings, analysis->calibration->lnK, analysis->threshold, context.part(0.4, 1.0));
+        fit.pfa = misfitPfa(fit.bands, analysis->settings, analysis->calibration->exceedanceAt(analysis->threshold),
+                            context.part(0.4, 1.0));
         return [this, fit = std::move(fit)] { show(fit); };
     });
 }

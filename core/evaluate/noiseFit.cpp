@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace faintline {
 
@@ -162,12 +163,45 @@ namespace {
         return wellCounted * std::exp(-slope * (threshold - level(wellCounted)));
     }
 
-    std::vector<float> statisticOn(const AnalysisSettings &settings, double lnK, const RunContext &context, const Quantiles *law)
+    /// The threshold that P(D > T) = pfa asks for, the tail continued in the same way.
+    double thresholdOf(std::vector<float> &statistic, double pfa)
     {
-        const Grid grid{{Axis{"frequency", "Hz", 0.0, 1.0, bins, false}}};
+        std::sort(statistic.begin(), statistic.end(), std::greater<>());
+        const auto level = [&](double p) {
+            const auto index = static_cast<std::size_t>(p * static_cast<double>(statistic.size()));
+            return static_cast<double>(statistic[std::min(index, statistic.size() - 1)]);
+        };
+        if (pfa >= wellCounted)
+            return level(pfa);
+        const double slope = std::log(tailBegin / wellCounted) / std::max(level(wellCounted) - level(tailBegin), 1e-6);
+        return level(wellCounted) + std::log(wellCounted / pfa) / slope;
+    }
+
+    Grid gridOfBins()
+    {
+        return {{Axis{"frequency", "Hz", 0.0, 1.0, bins, false}}};
+    }
+
+    /// K for cells without correlation: that of the recording's overlapping frames would let the statistic grow without end.
+    ResetRule ruleOf(const AnalysisSettings &settings)
+    {
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);
-        const auto detector = makeDetector(settings.detector, makeModel(settings.model, grid), grid, frameGeometry(settings.spectrogram),
-                                           smd ? resetRule(*smd, lnK) : ResetRule{});
+        if (!smd)
+            return {};
+        constexpr Index fitFrames = 1500;
+        Random random(1, 1);
+        std::vector<float> y(static_cast<std::size_t>(bins * fitFrames));
+        for (float &value : y)
+            value = static_cast<float>(random.exponential());
+        const auto field = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, fitFrames, false}, gridOfBins(), std::move(y));
+        return resetRule(*smd, fitReset({field}, makeModel(settings.model, gridOfBins()), *smd).lnK);
+    }
+
+    std::vector<float> statisticOn(const AnalysisSettings &settings, const ResetRule &rule, const RunContext &context, const Quantiles *law)
+    {
+        const Grid grid = gridOfBins();
+        const auto detector =
+            makeDetector(settings.detector, makeModel(settings.model, grid), grid, frameGeometry(settings.spectrogram), rule);
         Random random(1, 0);
         std::vector<float> y(static_cast<std::size_t>(bins));
         std::vector<float> row(y.size());
@@ -188,19 +222,19 @@ namespace {
 
 } // namespace
 
-std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double lnK, double threshold,
-                                 const RunContext &context)
+std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa, const RunContext &context)
 {
     const double passes = static_cast<double>(bands.size()) + 1.0;
-    const auto exceedance = [&](double pass, const Quantiles *law) {
-        std::vector<float> statistic = statisticOn(settings, lnK, context.part(pass / passes, (pass + 1.0) / passes), law);
-        return exceedanceOf(statistic, threshold);
+    const auto statistic = [&, rule = ruleOf(settings)](double pass, const Quantiles *law) {
+        return statisticOn(settings, rule, context.part(pass / passes, (pass + 1.0) / passes), law);
     };
-    const double nominal = exceedance(0.0, nullptr);
+    std::vector<float> nominal = statistic(0.0, nullptr);
+    const double threshold = thresholdOf(nominal, pfa);
     std::vector<MisfitPfa> result;
     for (const FittedBand &band : bands) {
         const Quantiles law(band.law);
-        result.push_back({nominal, exceedance(static_cast<double>(result.size()) + 1.0, &law)});
+        std::vector<float> actual = statistic(static_cast<double>(result.size()) + 1.0, &law);
+        result.push_back({pfa, exceedanceOf(actual, threshold)});
     }
     return result;
 }

@@ -70,11 +70,11 @@ struct MisfitPfa {
     double ratio() const { return nominal > 0.0 ? actual / nominal : 1.0; }
 };
 
-/// What the bands' misfits do to the false-alarm probability, band by band: the detector runs on independent cells drawn from the
-/// band's law, and on cells of the exponential law made of the same random numbers. Beyond 3·10⁻⁵ the exceedance goes on with the
-/// slope of its last decade and a half, as the statistic's exponential tail does. Only ratios mean something: overlap's correlation is
-/// left out of both. Oracle: the energy detector, whose exceedance is the law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
-std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double lnK, double threshold,
-                                 const RunContext &context = {});
+/// What the bands' misfits do to a false-alarm probability per cell, band by band: the detector runs on independent cells drawn from
+/// the band's law, and on cells of the exponential law made of the same random numbers; the threshold is the one that gives `pfa` on
+/// the latter, with K found there. Beyond 3·10⁻⁵ the exceedance goes on with the slope of its last decade and a half, as the
+/// statistic's exponential tail does. Overlap's correlation is left out of both. Oracle: the energy detector, whose exceedance is the
+/// law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
+std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa, const RunContext &context = {});
 
 } // namespace faintline
