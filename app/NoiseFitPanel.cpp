@@ -19,6 +19,7 @@ namespace faintline {
 namespace {
 
     constexpr int bandCount = 6;
+    constexpr double rarest = 1e-4; ///< beyond it a ratio would rest on a handful of cells
     constexpr double fewest = 10.0; ///< values beyond a quantile that is drawn
 
     QString bandText(const FittedBand &band)
@@ -54,9 +55,10 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
-    m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa at T")});
+    m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
     m_table->horizontalHeaderItem(2)->setToolTip(tr("Kolmogorov and Smirnov's distance to e^(-y), and its 95 % limit for as many independent values"));
-    m_table->horizontalHeaderItem(3)->setToolTip(tr("How much likelier this band's noise exceeds the threshold in a cell than noise of the law itself"));
+    m_table->horizontalHeaderItem(3)->setToolTip(tr("How much likelier this band's noise exceeds a threshold in a cell than noise of the law itself: at the threshold's own false-alarm "
+                                               "probability, or at 10⁻⁴ where that is smaller than can be vouched for"));
     m_table->verticalHeader()->hide();
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->horizontalHeader()->setHighlightSections(false);
@@ -110,7 +112,7 @@ void NoiseFitPanel::measure()
         Fit fit{analysis, {}, {}};
         const FrameGeometry geometry = analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
         fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4));
-        fit.pfa = misfitPfa(fit.bands, analysis->settings, analysis->calibration->exceedanceAt(analysis->threshold),
+        fit.pfa = misfitPfa(fit.bands, analysis->settings, std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
                             context.part(0.4, 1.0));
         return [this, fit = std::move(fit)] { show(fit); };
     });
@@ -141,13 +143,14 @@ void NoiseFitPanel::say(const Fit &fit)
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(), [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
     const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())]);
     const QString ratio = powerText(worst->ratio(), 3);
+    const QString nominal = powerText(worst->nominal);
     m_sentence->setText(misfits == 0
-                            ? tr("All bands follow the law. At the threshold, false alarms are at most %1 times as likely as calibrated (%2).").arg(ratio, band)
-                            : tr("%1 of %2 bands depart from the law; lines in them do so too. Taken as noise, %3 would give %4 times the calibrated "
-                                 "false-alarm probability at the threshold.")
+                            ? tr("All bands follow the law. Where it gives a Pfa of %3 per cell, these give at most %1 times that (%2).").arg(ratio, band, nominal)
+                            : tr("%1 of %2 bands depart from the law; lines in them do so too. Taken as noise, %3 would give %4 times a Pfa of "
+                                 "%5 per cell.")
                                   .arg(misfits)
                                   .arg(fit.bands.size())
-                                  .arg(band, ratio));
+                                  .arg(band, ratio, nominal));
 }
 
 } // namespace faintline
