@@ -35,15 +35,16 @@ namespace {
 
     const std::vector<double> &snrsOf(const Campaign &campaign)
     {
-        return std::visit([](const auto &one) -> const std::vector<double> & { return one.snrDb; }, campaign.experiment);
+        return std::visit([](const auto &one) -> const std::vector<double> & { return one.snrDb; },
+                          campaign.experiment);
     }
 
 } // namespace
 
 EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments, QWidget *parent)
-    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new ExperimentForm), m_start(new QPushButton(tr("Start"))),
-      m_cancel(new QPushButton(tr("Cancel"))), m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget), m_pd(new ChartPlot),
-      m_roc(new ChartPlot), m_snr(new QComboBox)
+    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new ExperimentForm),
+      m_start(new QPushButton(tr("Start"))), m_cancel(new QPushButton(tr("Cancel"))), m_progress(new QProgressBar),
+      m_state(new QLabel), m_tabs(new QTabWidget), m_pd(new ChartPlot), m_roc(new ChartPlot), m_snr(new QComboBox)
 {
     auto *area = new QScrollArea;
     area->setWidget(m_form);
@@ -136,7 +137,8 @@ void EvaluatePanel::followDocument()
     double windowSeconds = 0.0;
     if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
         if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()))
-            windowSeconds = static_cast<double>(frames->spectrogram().windowSamples()) / analysis->recording->info().sampleRateHz;
+            windowSeconds =
+                static_cast<double>(frames->spectrogram().windowSamples()) / analysis->recording->info().sampleRateHz;
     m_form->setCurrent(m_document.settings(), windowSeconds);
 }
 
@@ -151,7 +153,8 @@ void EvaluatePanel::start()
         return emit failed(Error("experiment", why.toStdString()));
     const bool isInRecording = m_form->isInRecording();
     const QString source = m_document.source().name();
-    show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()), m_form->injection(m_document.source().path), m_document.recording())
+    show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()),
+                                             m_form->injection(m_document.source().path), m_document.recording())
                        : m_experiments.start(m_form->name(), m_form->lines()));
 }
 
@@ -205,8 +208,9 @@ void EvaluatePanel::showPd(const Experiments::Entry &entry)
 void EvaluatePanel::showRoc(const Experiments::Entry &entry)
 {
     if (m_tabs->currentIndex() == 1)
-        m_roc->setChart(entry.campaign && m_snr->currentIndex() >= 0 ? rocChart(*entry.campaign, static_cast<std::size_t>(m_snr->currentIndex()))
-                                                                     : Chart());
+        m_roc->setChart(entry.campaign && m_snr->currentIndex() >= 0
+                            ? rocChart(*entry.campaign, static_cast<std::size_t>(m_snr->currentIndex()))
+                            : Chart());
 }
 
 void EvaluatePanel::showState(const Experiments::Entry &entry)
@@ -221,7 +225,8 @@ void EvaluatePanel::showState(const Experiments::Entry &entry)
     case Experiments::State::Running:
         return m_state->setText(entry.doing.isEmpty() ? done : done + QStringLiteral(" · ") + entry.doing);
     case Experiments::State::Done:
-        return m_state->setText(entry.imported ? tr("imported: no trials behind its points") : tr("done, %1").arg(done));
+        return m_state->setText(entry.imported ? tr("imported: no trials behind its points")
+                                               : tr("done, %1").arg(done));
     case Experiments::State::Cancelled:
         return m_state->setText(tr("cancelled after %1").arg(done));
     case Experiments::State::Failed:

@@ -23,7 +23,8 @@ namespace {
 
     constexpr double mostSnrs = 60.0;
 
-    QDoubleSpinBox *number(double value, double low, double high, double step, int decimals, const QString &suffix, const QString &toolTip)
+    QDoubleSpinBox *number(double value, double low, double high, double step, int decimals, const QString &suffix,
+                           const QString &toolTip)
     {
         auto *box = new QDoubleSpinBox;
         box->setRange(low, high);
@@ -61,7 +62,8 @@ namespace {
 
 ExperimentForm::ExperimentForm(QWidget *parent)
     : QWidget(parent), m_noise(new QComboBox), m_lowestDb(number(-5, -40, 40, 1, 1, tr(" dB"), tr("Lowest SNR"))),
-      m_highestDb(number(3, -40, 40, 1, 1, tr(" dB"), tr("Highest SNR"))), m_stepDb(number(1, 0.1, 20, 0.5, 1, tr(" dB"), tr("Step between SNRs"))),
+      m_highestDb(number(3, -40, 40, 1, 1, tr(" dB"), tr("Highest SNR"))),
+      m_stepDb(number(1, 0.1, 20, 0.5, 1, tr(" dB"), tr("Step between SNRs"))),
       m_duration(number(100, 1, 5000, 10, 0, tr(" T_FT"), tr("How long a line lasts, in windows"))),
       m_drift(number(0, -5, 5, 0.05, 3, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
       m_wander(number(0, 0, 20, 0.5, 2, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
@@ -73,7 +75,8 @@ ExperimentForm::ExperimentForm(QWidget *parent)
     m_noise->addItem(tr("in simulated noise"));
     m_noise->addItem(tr("in this recording"));
     m_noise->setAccessibleName(tr("Noise that the lines are in"));
-    m_noise->setToolTip(tr("White noise as in Billon 2005, or the noise of what is open: then one line at a time is added to it"));
+    m_noise->setToolTip(
+        tr("White noise as in Billon 2005, or the noise of what is open: then one line at a time is added to it"));
 
     auto *detectors = new QGridLayout;
     detectors->setVerticalSpacing(2);
@@ -128,7 +131,8 @@ ExperimentForm::ExperimentForm(QWidget *parent)
     m_meaning->setFont(Theme::font(12));
 
     connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::changed);
-    for (QDoubleSpinBox *box : {m_lowestDb, m_highestDb, m_stepDb, m_duration, m_drift, m_wander, m_wanderTime, m_falseAlarms})
+    for (QDoubleSpinBox *box :
+         {m_lowestDb, m_highestDb, m_stepDb, m_duration, m_drift, m_wander, m_wanderTime, m_falseAlarms})
         connect(box, &QDoubleSpinBox::valueChanged, this, &ExperimentForm::changed);
     for (QSpinBox *box : {m_runs, m_seed})
         connect(box, &QSpinBox::valueChanged, this, &ExperimentForm::changed);
@@ -223,7 +227,8 @@ QString ExperimentForm::name() const
         detectors << QString::fromStdString(one.name);
     const auto db = [](double value) { return numberText(value, value == std::floor(value) ? 0 : 1); };
     return tr("%1 · %2 … %3 dB · %4 T_FT%5")
-        .arg(detectors.join(QStringLiteral(", ")), db(m_lowestDb->value()), db(m_highestDb->value()), numberText(m_duration->value(), 0),
+        .arg(detectors.join(QStringLiteral(", ")), db(m_lowestDb->value()), db(m_highestDb->value()),
+             numberText(m_duration->value(), 0),
              m_wander->value() > 0.0 ? tr(" · wander %1").arg(numberText(m_wander->value(), 1)) : QString());
 }
 
@@ -252,7 +257,8 @@ void ExperimentForm::showMeaning()
                    .arg(m_windowSeconds, 0, 'g', 3)
                    .arg(secondsText(m_duration->value() * m_windowSeconds, 0.1), powerText(m_falseAlarms->value(), 3));
     else
-        text = tr("%1 lines per SNR; one false alarm per block of noise.").arg(m_runs->value() * lines().signalsPerRun());
+        text =
+            tr("%1 lines per SNR; one false alarm per block of noise.").arg(m_runs->value() * lines().signalsPerRun());
     const QString why = obstacle();
     m_meaning->setText(why.isEmpty() ? text : why);
 }

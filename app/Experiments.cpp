@@ -38,7 +38,8 @@ Experiments::Experiments(QObject *parent) : QObject(parent)
     });
     connect(&m_runner, &JobRunner::finished, this, [this] { end(State::Done); });
     connect(&m_runner, &JobRunner::cancelled, this, [this] { end(State::Cancelled); });
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) { end(State::Failed, QString::fromUtf8(error.what())); });
+    connect(&m_runner, &JobRunner::failed, this,
+            [this](const Error &error) { end(State::Failed, QString::fromUtf8(error.what())); });
 }
 
 int Experiments::start(const QString &name, const Experiment &experiment, RecordingPointer recording)
@@ -94,7 +95,8 @@ int Experiments::append(Entry entry)
 
 const Experiments::Entry *Experiments::entry(int id) const
 {
-    const auto found = std::find_if(m_entries.begin(), m_entries.end(), [id](const Entry &entry) { return entry.id == id; });
+    const auto found =
+        std::find_if(m_entries.begin(), m_entries.end(), [id](const Entry &entry) { return entry.id == id; });
     return found == m_entries.end() ? nullptr : &*found;
 }
 
@@ -125,7 +127,8 @@ void Experiments::startNext()
 {
     if (m_running != 0)
         return;
-    const auto next = std::find_if(m_entries.begin(), m_entries.end(), [](const Entry &entry) { return entry.state == State::Waiting; });
+    const auto next = std::find_if(m_entries.begin(), m_entries.end(),
+                                   [](const Entry &entry) { return entry.state == State::Waiting; });
     if (next == m_entries.end())
         return;
     next->state = State::Running;
@@ -137,9 +140,11 @@ void Experiments::startNext()
 
 void Experiments::startCampaign(const Entry &entry)
 {
-    m_runner.start([this, id = entry.id, campaign = *entry.campaign, recording = entry.recording](const RunContext &context) -> JobRunner::Delivery {
+    m_runner.start([this, id = entry.id, campaign = *entry.campaign,
+                    recording = entry.recording](const RunContext &context) -> JobRunner::Delivery {
         const RunSink sink = [this, id](const RunOutcome &outcome) {
-            QMetaObject::invokeMethod(this, [this, id, outcome] { addOutcome(id, outcome); }, Qt::QueuedConnection);
+            QMetaObject::invokeMethod(
+                this, [this, id, outcome] { addOutcome(id, outcome); }, Qt::QueuedConnection);
         };
         if (const auto *injection = std::get_if<InjectionExperiment>(&campaign.experiment)) {
             const auto trials = std::make_shared<const InjectionTrials>(*injection, recording, context.part(0.0, 0.3));
@@ -164,7 +169,8 @@ void Experiments::startCampaign(const Entry &entry)
 void Experiments::startReproduction(const Entry &entry)
 {
     const ReproduceOptions options = m_options[static_cast<std::size_t>(entry.id - 1)];
-    m_runner.start([this, id = entry.id, reproducible = *entry.reproducible, options](const RunContext &context) -> JobRunner::Delivery {
+    m_runner.start([this, id = entry.id, reproducible = *entry.reproducible,
+                    options](const RunContext &context) -> JobRunner::Delivery {
         const auto made = std::make_shared<const Reproduction>(reproducible.run(options, context));
         return [this, id, made] { find(id)->reproduction = made; };
     });
@@ -177,7 +183,8 @@ void Experiments::addOutcome(int id, RunOutcome outcome)
     if (!entry || entry->state != State::Running)
         return;
     std::vector<RunOutcome> &outcomes = entry->campaign->outcomes;
-    const auto place = std::upper_bound(outcomes.begin(), outcomes.end(), outcome, [](const RunOutcome &a, const RunOutcome &b) { return a.run < b.run; });
+    const auto place = std::upper_bound(outcomes.begin(), outcomes.end(), outcome,
+                                        [](const RunOutcome &a, const RunOutcome &b) { return a.run < b.run; });
     outcomes.insert(place, std::move(outcome));
     if (!m_announcer.isActive())
         m_announcer.start();

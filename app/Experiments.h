@@ -33,11 +33,11 @@ public:
         QString doing;   ///< while it runs
         QString failure; ///< why it failed
         std::optional<Campaign> campaign;
-        RecordingPointer recording;                           ///< that lines are injected into
-        std::shared_ptr<const InjectionTrials> trials;        ///< of an injection, once prepared
+        RecordingPointer recording;                    ///< that lines are injected into
+        std::shared_ptr<const InjectionTrials> trials; ///< of an injection, once prepared
         std::optional<Reproducible> reproducible;
-        std::shared_ptr<const Reproduction> reproduction;     ///< once done
-        std::optional<std::vector<CurvePoint>> imported;      ///< a curve file's points: there are no trials behind them
+        std::shared_ptr<const Reproduction> reproduction; ///< once done
+        std::optional<std::vector<CurvePoint>> imported;  ///< a curve file's points: there are no trials behind them
         int runsDone() const { return campaign ? static_cast<int>(campaign->outcomes.size()) : 0; }
         bool isOpen() const { return state == State::Waiting || state == State::Running; }
     };
@@ -60,7 +60,7 @@ public:
 
 signals:
     void added(int id);
-    void changed(int id);    ///< its runs, state or progress
+    void changed(int id); ///< its runs, state or progress
     void removed(int id);
     void busyChanged(bool isBusy);
 

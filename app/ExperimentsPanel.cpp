@@ -26,8 +26,9 @@ namespace {
         case Experiments::State::Running:
             return QObject::tr("running");
         case Experiments::State::Done:
-            return entry.reproduction ? (entry.reproduction->isInside() ? QObject::tr("done, inside") : QObject::tr("done, outside"))
-                                      : QObject::tr("done");
+            return entry.reproduction
+                       ? (entry.reproduction->isInside() ? QObject::tr("done, inside") : QObject::tr("done, outside"))
+                       : QObject::tr("done");
         case Experiments::State::Cancelled:
             return QObject::tr("cancelled");
         case Experiments::State::Failed:
@@ -39,8 +40,9 @@ namespace {
 } // namespace
 
 ExperimentsPanel::ExperimentsPanel(Experiments &experiments, QWidget *parent)
-    : QWidget(parent), m_experiments(experiments), m_table(new QTableWidget(0, ColumnCount)), m_show(new QPushButton(tr("Show"))),
-      m_cancel(new QPushButton(tr("Cancel"))), m_remove(new QPushButton(tr("Remove"))), m_export(new QPushButton(tr("Export…")))
+    : QWidget(parent), m_experiments(experiments), m_table(new QTableWidget(0, ColumnCount)),
+      m_show(new QPushButton(tr("Show"))), m_cancel(new QPushButton(tr("Cancel"))),
+      m_remove(new QPushButton(tr("Remove"))), m_export(new QPushButton(tr("Export…")))
 {
     auto *import = new QPushButton(tr("Import…"));
     import->setToolTip(tr("A campaign's runs, also a shard's, or a curve in CSV"));
@@ -118,7 +120,8 @@ void ExperimentsPanel::follow(int id)
     for (int row = 0; entry && row < m_table->rowCount(); ++row) {
         if (m_table->item(row, Name)->data(Qt::UserRole).toInt() != id)
             continue;
-        static_cast<QProgressBar *>(m_table->cellWidget(row, Progress))->setValue(static_cast<int>(100.0 * entry->progress));
+        static_cast<QProgressBar *>(m_table->cellWidget(row, Progress))
+            ->setValue(static_cast<int>(100.0 * entry->progress));
         m_table->item(row, State)->setText(stateText(*entry));
         m_table->item(row, State)->setToolTip(entry->failure);
     }
@@ -138,7 +141,8 @@ int ExperimentsPanel::importFile(const QString &path)
 {
     const std::string file = path.toStdString();
     const QString name = QFileInfo(path).fileName();
-    return isCampaignFile(file) ? m_experiments.add(name, readCampaign(file)) : m_experiments.add(name, readCurve(file));
+    return isCampaignFile(file) ? m_experiments.add(name, readCampaign(file))
+                                : m_experiments.add(name, readCurve(file));
 }
 
 void ExperimentsPanel::exportTo(int id, const QString &path) const
@@ -170,8 +174,9 @@ void ExperimentsPanel::chooseExport()
 {
     const Experiments::Entry *entry = m_experiments.entry(selected());
     const QString path = entry->reproduction
-        ? QFileDialog::getExistingDirectory(this, tr("Folder for tables and pictures"))
-        : QFileDialog::getSaveFileName(this, tr("Export"), QStringLiteral("curve.csv"), tr("Curve (*.csv);;Runs of the campaign (*.jsonl)"));
+                             ? QFileDialog::getExistingDirectory(this, tr("Folder for tables and pictures"))
+                             : QFileDialog::getSaveFileName(this, tr("Export"), QStringLiteral("curve.csv"),
+                                                            tr("Curve (*.csv);;Runs of the campaign (*.jsonl)"));
     if (path.isEmpty())
         return;
     try {

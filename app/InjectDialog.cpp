@@ -30,7 +30,8 @@ namespace {
 
 } // namespace
 
-InjectDialog::InjectDialog(const RecordingInfo &recording, double startSeconds, double frequencyHz, double windowSeconds, QWidget *parent)
+InjectDialog::InjectDialog(const RecordingInfo &recording, double startSeconds, double frequencyHz,
+                           double windowSeconds, QWidget *parent)
     : QDialog(parent), m_recording(recording), m_windowSeconds(windowSeconds), m_why(new QLabel),
       m_buttons(new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel))
 {

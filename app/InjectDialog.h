@@ -17,7 +17,8 @@ class InjectDialog : public QDialog
     Q_OBJECT
 
 public:
-    InjectDialog(const RecordingInfo &recording, double startSeconds, double frequencyHz, double windowSeconds, QWidget *parent = nullptr);
+    InjectDialog(const RecordingInfo &recording, double startSeconds, double frequencyHz, double windowSeconds,
+                 QWidget *parent = nullptr);
 
     LineSettings line() const;
 

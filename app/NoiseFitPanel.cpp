@@ -26,7 +26,8 @@ namespace {
     {
         const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
         const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
-        return QObject::tr("%1 … %2 %3").arg(numberText(band.low / unit.hz, decimals), numberText(band.high / unit.hz, decimals), unit.name);
+        return QObject::tr("%1 … %2 %3")
+            .arg(numberText(band.low / unit.hz, decimals), numberText(band.high / unit.hz, decimals), unit.name);
     }
 
     Chart chartOf(const std::vector<FittedBand> &bands)
@@ -48,17 +49,20 @@ namespace {
 } // namespace
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_sentence(new QLabel(tr("Open a recording to measure its noise."))), m_plot(new ChartPlot),
-      m_table(new QTableWidget(0, 4))
+    : QWidget(parent), m_document(document), m_sentence(new QLabel(tr("Open a recording to measure its noise."))),
+      m_plot(new ChartPlot), m_table(new QTableWidget(0, 4))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
     m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
-    m_table->horizontalHeaderItem(2)->setToolTip(tr("Kolmogorov and Smirnov's distance to e^(-y), and its 95 % limit for as many independent values"));
-    m_table->horizontalHeaderItem(3)->setToolTip(tr("How much likelier this band's noise exceeds a threshold in a cell than noise of the law itself: at the threshold's own false-alarm "
-                                               "probability, or at 10⁻⁴ where that is smaller than can be vouched for"));
+    m_table->horizontalHeaderItem(2)->setToolTip(
+        tr("Kolmogorov and Smirnov's distance to e^(-y), and its 95 % limit for as many independent values"));
+    m_table->horizontalHeaderItem(3)->setToolTip(
+        tr("How much likelier this band's noise exceeds a threshold in a cell than noise of the law itself: at the "
+           "threshold's own false-alarm "
+           "probability, or at 10⁻⁴ where that is smaller than can be vouched for"));
     m_table->verticalHeader()->hide();
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->horizontalHeader()->setHighlightSections(false);
@@ -110,9 +114,11 @@ void NoiseFitPanel::measure()
     m_measured = analysis;
     m_runner.start([this, analysis](const RunContext &context) -> JobRunner::Delivery {
         Fit fit{analysis, {}, {}};
-        const FrameGeometry geometry = analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
+        const FrameGeometry geometry =
+            analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
         fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4));
-        fit.pfa = misfitPfa(fit.bands, analysis->settings, std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
+        fit.pfa = misfitPfa(fit.bands, analysis->settings,
+                            std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
                             context.part(0.4, 1.0));
         return [this, fit = std::move(fit)] { show(fit); };
     });
@@ -125,8 +131,10 @@ void NoiseFitPanel::show(const Fit &fit)
     for (int row = 0; row < m_table->rowCount(); ++row) {
         const FittedBand &band = fit.bands[static_cast<std::size_t>(row)];
         const QString texts[] = {bandText(band), numberText(band.law.mean(), 3),
-                                 tr("%1 %2 %3").arg(numberText(band.law.distance(), 4), band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
-                                                    numberText(NoiseLaw::distanceLimit(band.independent), 4)),
+                                 tr("%1 %2 %3")
+                                     .arg(numberText(band.law.distance(), 4),
+                                          band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
+                                          numberText(NoiseLaw::distanceLimit(band.independent), 4)),
                                  QStringLiteral("× ") + powerText(fit.pfa[static_cast<std::size_t>(row)].ratio(), 3)};
         for (int column = 0; column < 4; ++column) {
             auto *item = new QTableWidgetItem(texts[column]);
@@ -139,18 +147,22 @@ void NoiseFitPanel::show(const Fit &fit)
 
 void NoiseFitPanel::say(const Fit &fit)
 {
-    const auto misfits = std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
-    const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(), [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
+    const auto misfits =
+        std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
+    const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
+                                        [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
     const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())]);
     const QString ratio = powerText(worst->ratio(), 3);
     const QString nominal = powerText(worst->nominal);
-    m_sentence->setText(misfits == 0
-                            ? tr("All bands follow the law. Where it gives a Pfa of %3 per cell, these give at most %1 times that (%2).").arg(ratio, band, nominal)
-                            : tr("%1 of %2 bands depart from the law; lines in them do so too. Taken as noise, %3 would give %4 times a Pfa of "
-                                 "%5 per cell.")
-                                  .arg(misfits)
-                                  .arg(fit.bands.size())
-                                  .arg(band, ratio, nominal));
+    m_sentence->setText(misfits == 0 ? tr("All bands follow the law. Where it gives a Pfa of %3 per cell, these give "
+                                          "at most %1 times that (%2).")
+                                           .arg(ratio, band, nominal)
+                                     : tr("%1 of %2 bands depart from the law; lines in them do so too. Taken as "
+                                          "noise, %3 would give %4 times a Pfa of "
+                                          "%5 per cell.")
+                                           .arg(misfits)
+                                           .arg(fit.bands.size())
+                                           .arg(band, ratio, nominal));
 }
 
 } // namespace faintline

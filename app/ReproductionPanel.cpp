@@ -35,16 +35,16 @@ namespace {
 } // namespace
 
 ReproductionPanel::ReproductionPanel(QWidget *parent)
-    : QWidget(parent), m_title(new QLabel(tr("Choose a table or figure from the menu Reproduce."))), m_notes(new QLabel),
-      m_table(new QTableWidget(0, 8)), m_which(new QComboBox), m_plot(new ChartPlot)
+    : QWidget(parent), m_title(new QLabel(tr("Choose a table or figure from the menu Reproduce."))),
+      m_notes(new QLabel), m_table(new QTableWidget(0, 8)), m_which(new QComboBox), m_plot(new ChartPlot)
 {
     m_title->setFont(Theme::boldFont(13));
     m_title->setWordWrap(true);
     m_title->setContentsMargins(8, 5, 8, 3);
     m_notes->setWordWrap(true);
     m_notes->setContentsMargins(8, 3, 8, 5);
-    m_table->setHorizontalHeaderLabels(
-        {tr("Detector"), tr("At"), tr("Paper"), tr("Reference"), tr("Ours"), tr("95 % interval"), tr("Gap to paper"), tr("Tolerance")});
+    m_table->setHorizontalHeaderLabels({tr("Detector"), tr("At"), tr("Paper"), tr("Reference"), tr("Ours"),
+                                        tr("95 % interval"), tr("Gap to paper"), tr("Tolerance")});
     m_table->verticalHeader()->hide();
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->horizontalHeader()->setHighlightSections(false);
@@ -79,16 +79,22 @@ ReproductionPanel::ReproductionPanel(QWidget *parent)
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(splitter);
-    connect(m_which, &QComboBox::activated, this, [this](int index) { m_plot->setChart(m_reproduction->charts[static_cast<std::size_t>(index)]); });
+    connect(m_which, &QComboBox::activated, this,
+            [this](int index) { m_plot->setChart(m_reproduction->charts[static_cast<std::size_t>(index)]); });
 }
 
 void ReproductionPanel::show(std::shared_ptr<const Reproduction> reproduction)
 {
     m_reproduction = std::move(reproduction);
     const auto &cells = m_reproduction->cells;
-    const auto judged = std::count_if(cells.begin(), cells.end(), [](const ReproducedCell &cell) { return cell.isJudged(); });
-    const auto inside = std::count_if(cells.begin(), cells.end(), [](const ReproducedCell &cell) { return cell.isJudged() && cell.isInside(); });
-    m_title->setText(judged > 0 ? tr("%1: %2 of %3 figures inside their tolerance").arg(QString::fromStdString(m_reproduction->title)).arg(inside).arg(judged)
+    const auto judged =
+        std::count_if(cells.begin(), cells.end(), [](const ReproducedCell &cell) { return cell.isJudged(); });
+    const auto inside = std::count_if(cells.begin(), cells.end(),
+                                      [](const ReproducedCell &cell) { return cell.isJudged() && cell.isInside(); });
+    m_title->setText(judged > 0 ? tr("%1: %2 of %3 figures inside their tolerance")
+                                      .arg(QString::fromStdString(m_reproduction->title))
+                                      .arg(inside)
+                                      .arg(judged)
                                 : QString::fromStdString(m_reproduction->title));
     QStringList notes{QString::fromStdString(m_reproduction->quantity)};
     for (const std::string &note : m_reproduction->notes)
@@ -113,15 +119,17 @@ void ReproductionPanel::fillTable()
         const bool hasInterval = cell.interval.low < cell.interval.high;
         const auto z = cell.z();
         const QString gap = !cell.paper ? QString()
-                                        : numberText(cell.ours - *cell.paper, 3) + (z ? tr(" (%1 σ)").arg(numberText(*z, 1)) : QString());
-        const QString texts[] = {QString::fromStdString(cell.row),
-                                 QString::fromStdString(cell.column),
-                                 cell.paper ? figure(*cell.paper) : QStringLiteral("–"),
-                                 cell.reference ? figure(*cell.reference) : QStringLiteral("–"),
-                                 figure(cell.ours),
-                                 hasInterval ? figure(cell.interval.low) + QStringLiteral(" … ") + figure(cell.interval.high) : QString(),
-                                 gap,
-                                 verdict(cell)};
+                                        : numberText(cell.ours - *cell.paper, 3)
+                                              + (z ? tr(" (%1 σ)").arg(numberText(*z, 1)) : QString());
+        const QString texts[] = {
+            QString::fromStdString(cell.row),
+            QString::fromStdString(cell.column),
+            cell.paper ? figure(*cell.paper) : QStringLiteral("–"),
+            cell.reference ? figure(*cell.reference) : QStringLiteral("–"),
+            figure(cell.ours),
+            hasInterval ? figure(cell.interval.low) + QStringLiteral(" … ") + figure(cell.interval.high) : QString(),
+            gap,
+            verdict(cell)};
         for (int column = 0; column < 8; ++column) {
             auto *item = new QTableWidgetItem(texts[column]);
             if (column >= 2 && column <= 6)

@@ -11,7 +11,8 @@ namespace {
 
     const std::vector<Contestant> &detectorsOf(const Campaign &campaign)
     {
-        return std::visit([](const auto &one) -> const std::vector<Contestant> & { return one.detectors; }, campaign.experiment);
+        return std::visit([](const auto &one) -> const std::vector<Contestant> & { return one.detectors; },
+                          campaign.experiment);
     }
 
     double snrOf(const Campaign &campaign, std::size_t snr)
@@ -98,9 +99,11 @@ void TrialViewer::show(const ShownTrial &trial)
     const QString db = numberText(snrOf(campaign, m_snr), 1);
     const QString unit = statisticUnit(detector.settings);
     const bool isLine = std::holds_alternative<LineExperiment>(campaign.experiment);
-    QString sentence = outcome.isDetected ? tr("%1 at %2 dB: detected. On the line D reaches %3 %5, the threshold is %4 %5.")
-                                          : tr("%1 at %2 dB: missed. On the line D reaches only %3 %5, the threshold is %4 %5.");
-    sentence = sentence.arg(name, db, numberText(outcome.statistic, 2), numberText(shownThreshold(campaign, m_detector), 2), unit);
+    QString sentence = outcome.isDetected
+                           ? tr("%1 at %2 dB: detected. On the line D reaches %3 %5, the threshold is %4 %5.")
+                           : tr("%1 at %2 dB: missed. On the line D reaches only %3 %5, the threshold is %4 %5.");
+    sentence = sentence.arg(name, db, numberText(outcome.statistic, 2),
+                            numberText(shownThreshold(campaign, m_detector), 2), unit);
     sentence += isLine ? tr(" Run %1, line %2; a window T_FT is drawn as one second, a resolution cell as one hertz.")
                              .arg(outcome.place.run)
                              .arg(outcome.place.signal)

@@ -15,9 +15,9 @@
 namespace faintline {
 
 TrialWindow::TrialWindow(QWidget *parent)
-    : QWidget(parent, Qt::Window), m_workbench(new Workbench(m_document)), m_readOut(new ReadOut), m_sentence(new QLabel),
-      m_previous(new QPushButton(tr("Previous trial"))), m_next(new QPushButton(tr("Next trial"))),
-      m_nextMissed(new QPushButton(tr("Next miss")))
+    : QWidget(parent, Qt::Window), m_workbench(new Workbench(m_document)), m_readOut(new ReadOut),
+      m_sentence(new QLabel), m_previous(new QPushButton(tr("Previous trial"))),
+      m_next(new QPushButton(tr("Next trial"))), m_nextMissed(new QPushButton(tr("Next miss")))
 {
     setObjectName(QStringLiteral("trialWindow"));
     m_sentence->setWordWrap(true);

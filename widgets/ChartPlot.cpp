@@ -89,15 +89,17 @@ namespace {
 
     QString valueText(double value)
     {
-        return std::abs(value) >= 1e-3 && std::abs(value) < 1e4 ? QString::number(value, 'g', 3).replace(QLatin1Char('-'), QChar(0x2212))
-                                                               : powerText(value, 2);
+        return std::abs(value) >= 1e-3 && std::abs(value) < 1e4
+                   ? QString::number(value, 'g', 3).replace(QLatin1Char('-'), QChar(0x2212))
+                   : powerText(value, 2);
     }
 
 } // namespace
 
 ChartPlot::ChartPlot(QWidget *parent)
-    : QWidget(parent), m_plot(new QwtPlot), m_grid(new QwtPlotGrid), m_ring(new QwtPlotMarker), m_sentence(new CanvasSentence),
-      m_row(new QBoxLayout(QBoxLayout::LeftToRight)), m_keyArea(new QScrollArea), m_key(new QWidget), m_keyLayout(new QVBoxLayout(m_key)), m_readOut(new QLabel)
+    : QWidget(parent), m_plot(new QwtPlot), m_grid(new QwtPlotGrid), m_ring(new QwtPlotMarker),
+      m_sentence(new CanvasSentence), m_row(new QBoxLayout(QBoxLayout::LeftToRight)), m_keyArea(new QScrollArea),
+      m_key(new QWidget), m_keyLayout(new QVBoxLayout(m_key)), m_readOut(new QLabel)
 {
     m_grid->attach(m_plot);
     m_ring->setZ(60.0);
@@ -141,7 +143,8 @@ ChartPlot::~ChartPlot()
 void ChartPlot::setChart(const Chart &chart)
 {
     m_chart = chart;
-    if (m_place && (m_place->curve >= chart.curves.size() || m_place->point >= chart.curves[m_place->curve].points.size()))
+    if (m_place
+        && (m_place->curve >= chart.curves.size() || m_place->point >= chart.curves[m_place->curve].points.size()))
         m_place.reset();
     restyle();
 }
@@ -205,7 +208,8 @@ double ChartPlot::ordinate(double y) const
 std::optional<std::size_t> ChartPlot::styleOf(std::size_t curve) const
 {
     const auto countBefore = [this](std::size_t end) {
-        return static_cast<std::size_t>(std::count_if(m_chart.curves.begin(), m_chart.curves.begin() + static_cast<std::ptrdiff_t>(end),
+        return static_cast<std::size_t>(std::count_if(m_chart.curves.begin(),
+                                                      m_chart.curves.begin() + static_cast<std::ptrdiff_t>(end),
                                                       [](const Curve &c) { return c.kind == Curve::Kind::Measured; }));
     };
     if (isMeasured(curve))
@@ -232,8 +236,10 @@ QColor ChartPlot::colourOf(std::size_t curve) const
 void ChartPlot::restyle()
 {
     const Theme::Colours &colours = Theme::colours(*this);
-    m_plot->setAxisScaleDraw(QwtAxis::XBottom, m_chart.isLogarithmicX ? static_cast<QwtScaleDraw *>(new PowerScaleDraw) : new NumberScaleDraw);
-    m_plot->setAxisScaleDraw(QwtAxis::YLeft, m_chart.isLogarithmicY ? static_cast<QwtScaleDraw *>(new PowerScaleDraw) : new NumberScaleDraw);
+    m_plot->setAxisScaleDraw(QwtAxis::XBottom, m_chart.isLogarithmicX ? static_cast<QwtScaleDraw *>(new PowerScaleDraw)
+                                                                      : new NumberScaleDraw);
+    m_plot->setAxisScaleDraw(QwtAxis::YLeft, m_chart.isLogarithmicY ? static_cast<QwtScaleDraw *>(new PowerScaleDraw)
+                                                                    : new NumberScaleDraw);
     m_plot->setAxisTitle(QwtAxis::XBottom, words(m_chart.xLabel));
     m_plot->setAxisTitle(QwtAxis::YLeft, words(m_chart.yLabel));
     Theme::style(*m_plot);
@@ -298,7 +304,8 @@ void ChartPlot::addIntervals(std::size_t index, const QColor &colour)
     QVector<QwtIntervalSample> samples;
     for (const Curve::Point &point : curve.points)
         if (point.interval.low < point.interval.high)
-            samples << QwtIntervalSample(abscissa(point.x), ordinate(point.interval.low), ordinate(point.interval.high));
+            samples << QwtIntervalSample(abscissa(point.x), ordinate(point.interval.low),
+                                         ordinate(point.interval.high));
     if (samples.isEmpty())
         return;
     auto *item = new QwtPlotIntervalCurve;
@@ -345,7 +352,8 @@ QPixmap ChartPlot::sample(std::size_t index) const
 void ChartPlot::rebuildKey()
 {
     // While a curve grows, its box stays the same: whoever is about to press it must not lose it.
-    const bool isSame = m_boxes.size() == m_chart.curves.size()
+    const bool isSame =
+        m_boxes.size() == m_chart.curves.size()
         && std::equal(m_boxes.begin(), m_boxes.end(), m_chart.curves.begin(),
                       [](const QCheckBox *box, const Curve &curve) { return box->text() == words(curve.name); });
     if (!isSame) {
@@ -412,8 +420,11 @@ void ChartPlot::layAxes()
     const QSize size = m_plot->canvas()->contentsRect().size();
     const Span x = aired(spanOf(xs), 0.03);
     const Span y = areShares && !m_chart.isLogarithmicY ? Span{-0.02, 1.02} : aired(spanOf(ys), 0.05);
-    m_plot->setAxisScaleDiv(QwtAxis::XBottom, m_chart.isLogarithmicX ? decades(x) : linearScaleDiv(x, std::clamp(size.width() / 60, 2, 12)));
-    m_plot->setAxisScaleDiv(QwtAxis::YLeft, m_chart.isLogarithmicY ? decades(y) : linearScaleDiv(y, std::clamp(size.height() / 30, 2, 10)));
+    m_plot->setAxisScaleDiv(QwtAxis::XBottom, m_chart.isLogarithmicX
+                                                  ? decades(x)
+                                                  : linearScaleDiv(x, std::clamp(size.width() / 60, 2, 12)));
+    m_plot->setAxisScaleDiv(
+        QwtAxis::YLeft, m_chart.isLogarithmicY ? decades(y) : linearScaleDiv(y, std::clamp(size.height() / 30, 2, 10)));
     m_plot->replot();
 }
 
@@ -441,14 +452,16 @@ void ChartPlot::showPlace(const std::optional<Place> &place)
     m_place = place;
     m_ring->setVisible(place.has_value());
     if (!place) {
-        m_readOut->setText(m_invitation.isEmpty() ? tr("Point at a mark to read it.") : tr("Point at a mark to read it, %1.").arg(m_invitation));
+        m_readOut->setText(m_invitation.isEmpty() ? tr("Point at a mark to read it.")
+                                                  : tr("Point at a mark to read it, %1.").arg(m_invitation));
         m_plot->replot();
         return;
     }
     const Curve &curve = m_chart.curves[place->curve];
     const Curve::Point &point = curve.points[place->point];
     m_ring->setValue(abscissa(point.x), ordinate(point.y));
-    QString text = tr("%1:  %2 = %3  →  %4").arg(words(curve.name), words(m_chart.xLabel), valueText(point.x), valueText(point.y));
+    QString text =
+        tr("%1:  %2 = %3  →  %4").arg(words(curve.name), words(m_chart.xLabel), valueText(point.x), valueText(point.y));
     if (point.interval.low < point.interval.high)
         text += tr("  (95 %: %1 … %2)").arg(valueText(point.interval.low), valueText(point.interval.high));
     if (!m_invitation.isEmpty() && isMeasured(place->curve))
@@ -472,7 +485,8 @@ void ChartPlot::move(int points, int curves)
     const auto next = std::clamp<std::ptrdiff_t>(at + curves, 0, std::ssize(shown) - 1);
     Place place{shown[static_cast<std::size_t>(next)], m_place->point};
     const auto last = std::ssize(m_chart.curves[place.curve].points) - 1;
-    place.point = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(place.point) + points, 0, last));
+    place.point = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(place.point) + points, 0, last));
     showPlace(place);
 }
 

@@ -100,7 +100,9 @@ void ReadOut::setReading(const Reading &reading)
          [this](double v) { return utcText(m_startUnixSeconds.value_or(0.0) + v, decimalsFor(m_frameSeconds)); });
     show(m_frequency, reading.hz, [this](double v) { return hertzText(v, m_binHz); });
     show(m_level, reading.levelDb, [](double v) { return numberText(v, 1) + tr(" dB"); });
-    show(m_statistic, reading.statisticNats, [this](double v) { return numberText(v, m_statisticUnit == QLatin1String("nat") ? 1 : 2) + QLatin1Char(' ') + m_statisticUnit; });
+    const int decimals = m_statisticUnit == QLatin1String("nat") ? 1 : 2;
+    show(m_statistic, reading.statisticNats,
+         [&](double v) { return numberText(v, decimals) + QLatin1Char(' ') + m_statisticUnit; });
     show(m_slope, reading.slopeHzPerSecond, [](double v) { return powerText(v, 3) + tr(" Hz/s"); });
     setAccessibleDescription(text());
 }

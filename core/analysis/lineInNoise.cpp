@@ -7,7 +7,8 @@
 
 namespace faintline {
 
-InjectedLine lineInNoise(LineSettings line, const RecordingPointer &recording, const AnalysisSettings &settings, const RunContext &context)
+InjectedLine lineInNoise(LineSettings line, const RecordingPointer &recording, const AnalysisSettings &settings,
+                         const RunContext &context)
 {
     const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
     const RecordingInfo &info = recording->info();

@@ -17,16 +17,18 @@ namespace {
     bool hasTheory(const LineExperiment &lines, const Contestant &contestant)
     {
         const auto *integrator = std::get_if<IntegratorSettings>(&contestant.settings.detector);
-        return integrator && integrator->shape == IntegratorSettings::Shape::Boxcar && integrator->durationWindows == lines.durationWindows
-            && lines.durationWindows >= 1.0 && lines.wanderCells == 0.0 && lines.driftCellsPerWindow == 0.0 && lines.fading == Fading::None
-            && lines.window == WindowShape::Rectangular;
+        return integrator && integrator->shape == IntegratorSettings::Shape::Boxcar
+               && integrator->durationWindows == lines.durationWindows && lines.durationWindows >= 1.0
+               && lines.wanderCells == 0.0 && lines.driftCellsPerWindow == 0.0 && lines.fading == Fading::None
+               && lines.window == WindowShape::Rectangular;
     }
 
     /// Pd of the integrator for a mean number of false alarms per block.
     double integratorPd(const LineExperiment &lines, double falseAlarms, double snrDb)
     {
         const int looks = static_cast<int>(std::lround(lines.durationWindows));
-        const double cells = static_cast<double>(lines.blockFrames) / lines.stepsPerWindow * lines.blockBins / lines.binsPerCell;
+        const double cells =
+            static_cast<double>(lines.blockFrames) / lines.stepsPerWindow * lines.blockBins / lines.binsPerCell;
         const double pfa = std::min(1.0, falseAlarms * lines.durationWindows / cells);
         return pfa >= 1.0 ? 1.0 : pdOfMeanPower(thresholdOfMeanPower(pfa, looks), looks, ratioFromDb(snrDb));
     }
@@ -40,7 +42,8 @@ namespace {
         return curve;
     }
 
-    Curve theoryAgainstFalseAlarms(const LineExperiment &lines, const std::string &name, double snrDb, double low, double high)
+    Curve theoryAgainstFalseAlarms(const LineExperiment &lines, const std::string &name, double snrDb, double low,
+                                   double high)
     {
         constexpr int points = 60;
         Curve curve{name + ", Marcum Q", Curve::Kind::Theory, {}};
@@ -94,7 +97,8 @@ namespace {
                     continue;
                 const auto detections = above(signal, *threshold);
                 curve.points.push_back({static_cast<double>(falseAlarms) / static_cast<double>(trials),
-                                        static_cast<double>(detections) / static_cast<double>(trials), wilsonInterval(detections, trials)});
+                                        static_cast<double>(detections) / static_cast<double>(trials),
+                                        wilsonInterval(detections, trials)});
             }
             chart.curves.push_back(std::move(curve));
         }
@@ -105,7 +109,12 @@ namespace {
 Chart pdChart(const Campaign &campaign)
 {
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
-    Chart chart{"Detection probability", "SNR (dB)", lines ? "Pd at 1 false alarm per block" : "Pd at the thresholds", false, false, {}};
+    Chart chart{"Detection probability",
+                "SNR (dB)",
+                lines ? "Pd at 1 false alarm per block" : "Pd at the thresholds",
+                false,
+                false,
+                {}};
     if (const auto *injection = std::get_if<InjectionExperiment>(&campaign.experiment)) {
         chart.title = "Detection probability in this recording";
         chart.yLabel = "Pd at " + formatNumber(injection->falseAlarmsPerHour) + " false alarms/h";
@@ -125,7 +134,12 @@ Chart pdChart(const Campaign &campaign)
 Chart rocChart(const Campaign &campaign, std::size_t snr)
 {
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
-    Chart chart{"Receiver operating characteristic", lines ? "False alarms per block" : "P(path without the line exceeds)", "Pd", true, false, {}};
+    Chart chart{"Receiver operating characteristic",
+                lines ? "False alarms per block" : "P(path without the line exceeds)",
+                "Pd",
+                true,
+                false,
+                {}};
     if (campaign.outcomes.empty())
         return chart;
     if (lines)
@@ -138,7 +152,8 @@ Chart rocChart(const Campaign &campaign, std::size_t snr)
 double shownThreshold(const Campaign &campaign, std::size_t detector)
 {
     const double share = 1.0 - std::exp(-1.0);
-    return campaign.thresholds.empty() ? blockThreshold(campaign.outcomes, detector, share) : campaign.thresholds[detector];
+    return campaign.thresholds.empty() ? blockThreshold(campaign.outcomes, detector, share)
+                                       : campaign.thresholds[detector];
 }
 
 } // namespace faintline

@@ -79,8 +79,8 @@ double NoiseLaw::distanceLimit(double independent)
 
 // ---- of frames ------------------------------------------------------------------------------------------------------
 
-std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry, const RunContext &context,
-                                std::int64_t cells)
+std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry,
+                                 const RunContext &context, std::int64_t cells)
 {
     const Axis &axis = frames.grid().axes.back();
     const Index size = frames.grid().size();
@@ -99,10 +99,11 @@ std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, cons
         frames.read(frame, 1, y);
         for (Index row = 0; row < size; row += axis.count)
             for (Index band = 0; band < wanted; ++band)
-                result[static_cast<std::size_t>(band)].law.add(
-                    std::span<const float>(y).subspan(static_cast<std::size_t>(row + edge(band)), static_cast<std::size_t>(edge(band + 1) - edge(band))));
+                result[static_cast<std::size_t>(band)].law.add(std::span<const float>(y).subspan(
+                    static_cast<std::size_t>(row + edge(band)), static_cast<std::size_t>(edge(band + 1) - edge(band))));
     }
-    const double overlap = std::max(1.0, geometry.framesPerWindow / static_cast<double>(stride)) * std::max(1.0, geometry.binsPerCell);
+    const double overlap =
+        std::max(1.0, geometry.framesPerWindow / static_cast<double>(stride)) * std::max(1.0, geometry.binsPerCell);
     for (FittedBand &band : result)
         band.independent = static_cast<double>(band.law.count()) / overlap;
     return result;
@@ -127,7 +128,8 @@ namespace {
         {
             // Equal steps of -ln P, which is where an exponential law is straight.
             const double vouched = std::log(std::max<double>(static_cast<double>(law.count()), 100.0) / 30.0);
-            const double slope = (law.quantile(std::exp(-vouched)) - law.quantile(std::exp(-0.5 * vouched))) / (0.5 * vouched);
+            const double slope =
+                (law.quantile(std::exp(-vouched)) - law.quantile(std::exp(-0.5 * vouched))) / (0.5 * vouched);
             for (int i = 0; i <= static_cast<int>(longest * stepsPerNat); ++i) {
                 const double x = static_cast<double>(i) / stepsPerNat;
                 m_values.push_back(law.quantile(std::exp(-std::min(x, vouched))) + slope * std::max(0.0, x - vouched));
@@ -136,7 +138,8 @@ namespace {
 
         float at(double minusLnProbability) const
         {
-            const double position = std::min(minusLnProbability * stepsPerNat, static_cast<double>(m_values.size() - 1) - 1e-9);
+            const double position =
+                std::min(minusLnProbability * stepsPerNat, static_cast<double>(m_values.size() - 1) - 1e-9);
             const auto i = static_cast<std::size_t>(position);
             const double share = position - static_cast<double>(i);
             return static_cast<float>(m_values[i] + share * (m_values[i + 1] - m_values[i]));
@@ -153,9 +156,10 @@ namespace {
     {
         std::sort(statistic.begin(), statistic.end(), std::greater<>());
         const auto n = static_cast<double>(statistic.size());
-        const auto above = static_cast<double>(
-            std::lower_bound(statistic.begin(), statistic.end(), threshold, [](float value, double t) { return static_cast<double>(value) > t; })
-            - statistic.begin());
+        const auto above =
+            static_cast<double>(std::lower_bound(statistic.begin(), statistic.end(), threshold,
+                                                 [](float value, double t) { return static_cast<double>(value) > t; })
+                                - statistic.begin());
         if (above >= wellCounted * n)
             return above / n;
         const auto level = [&](double p) { return static_cast<double>(statistic[static_cast<std::size_t>(p * n)]); };
@@ -193,22 +197,25 @@ namespace {
         std::vector<float> y(static_cast<std::size_t>(bins * fitFrames));
         for (float &value : y)
             value = static_cast<float>(random.exponential());
-        const auto field = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, fitFrames, false}, gridOfBins(), std::move(y));
+        const auto field =
+            std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, fitFrames, false}, gridOfBins(), std::move(y));
         return resetRule(*smd, fitReset({field}, makeModel(settings.model, gridOfBins()), *smd).lnK);
     }
 
-    std::vector<float> statisticOn(const AnalysisSettings &settings, const ResetRule &rule, const RunContext &context, const Quantiles *law)
+    std::vector<float> statisticOn(const AnalysisSettings &settings, const ResetRule &rule, const RunContext &context,
+                                   const Quantiles *law)
     {
         const Grid grid = gridOfBins();
-        const auto detector =
-            makeDetector(settings.detector, makeModel(settings.model, grid), grid, frameGeometry(settings.spectrogram), rule);
+        const auto detector = makeDetector(settings.detector, makeModel(settings.model, grid), grid,
+                                           frameGeometry(settings.spectrogram), rule);
         Random random(1, 0);
         std::vector<float> y(static_cast<std::size_t>(bins));
         std::vector<float> row(y.size());
         std::vector<float> all;
         all.reserve(static_cast<std::size_t>(bins * frames));
         for (Index frame = 0; frame < frames + settling; ++frame) {
-            context.checkpoint(static_cast<double>(frame) / static_cast<double>(frames + settling), "false alarms of this noise");
+            context.checkpoint(static_cast<double>(frame) / static_cast<double>(frames + settling),
+                               "false alarms of this noise");
             for (float &value : y) {
                 const double drawn = random.exponential();
                 value = law ? law->at(drawn) : static_cast<float>(drawn);
@@ -222,7 +229,8 @@ namespace {
 
 } // namespace
 
-std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa, const RunContext &context)
+std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa,
+                                 const RunContext &context)
 {
     const double passes = static_cast<double>(bands.size()) + 1.0;
     const auto statistic = [&, rule = ruleOf(settings)](double pass, const Quantiles *law) {

@@ -49,7 +49,7 @@ private:
 
 /// One band's law, and what it does to false alarms.
 struct FittedBand {
-    double low = 0.0;  ///< position on the frames' last axis, Hz
+    double low = 0.0; ///< position on the frames' last axis, Hz
     double high = 0.0;
     NoiseLaw law;
     double independent = 0.0; ///< values that overlap leaves independent: cells over k_t·k_f
@@ -59,8 +59,8 @@ struct FittedBand {
 
 /// Counts frames' values in `bands` bands of equal width. Looks at no more than about `cells` values, in frames spread evenly.
 /// `geometry`: how far overlap makes neighbours dependent. Throws Cancelled.
-std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {}, const RunContext &context = {},
-                                std::int64_t cells = 20'000'000);
+std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {},
+                                 const RunContext &context = {}, std::int64_t cells = 20'000'000);
 
 /// Of one detector's statistic at a threshold, per cell: as the exponential law has it, and as a band's own law has it.
 struct MisfitPfa {
@@ -75,6 +75,7 @@ struct MisfitPfa {
 /// the latter, with K found there. Beyond 3·10⁻⁵ the exceedance goes on with the slope of its last decade and a half, as the
 /// statistic's exponential tail does. Overlap's correlation is left out of both. Oracle: the energy detector, whose exceedance is the
 /// law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
-std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa, const RunContext &context = {});
+std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa,
+                                 const RunContext &context = {});
 
 } // namespace faintline

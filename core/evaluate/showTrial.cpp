@@ -27,13 +27,14 @@ namespace {
         settings.decide.thresholdNats = std::clamp(threshold, range.minimum, range.maximum);
     }
 
-    ShownTrial showLine(const Campaign &campaign, const LineExperiment &lines, std::size_t detector, std::size_t snr, const TrialPlace &place,
-                        const RunContext &context)
+    ShownTrial showLine(const Campaign &campaign, const LineExperiment &lines, std::size_t detector, std::size_t snr,
+                        const TrialPlace &place, const RunContext &context)
     {
         LineExperiment alone = lines;
         alone.detectors = {lines.detectors[detector]};
         AnalysisSettings settings = alone.detectors.front().settings;
-        if (auto *smd = std::get_if<SmdSettings>(&settings.detector); smd && smd->reset == SmdSettings::Reset::Calibrated)
+        if (auto *smd = std::get_if<SmdSettings>(&settings.detector);
+            smd && smd->reset == SmdSettings::Reset::Calibrated)
             *smd = {SmdSettings::Reset::Fixed, calibratedResets(alone, context.part(0.0, 0.3)).front().lnK};
         settings.detector = inFrames(settings.detector, lines);
         setThreshold(settings, shownThreshold(campaign, detector));
@@ -50,11 +51,14 @@ namespace {
         truth.stepSeconds = time.step;
         for (const Index bin : trial.path)
             truth.frequencyHz.push_back(frequency.value(static_cast<double>(bin)));
-        return {analyse(trial.frames, makeModel(settings.model, trial.frames->grid()), settings, context.part(0.4, 1.0)), {{truth}}};
+        return {
+            analyse(trial.frames, makeModel(settings.model, trial.frames->grid()), settings, context.part(0.4, 1.0)),
+            {{truth}}};
     }
 
-    ShownTrial showInjected(const Campaign &campaign, const InjectionExperiment &injection, const InjectionTrials &trials, std::size_t detector,
-                            std::size_t snr, const TrialPlace &place, const RunContext &context)
+    ShownTrial showInjected(const Campaign &campaign, const InjectionExperiment &injection,
+                            const InjectionTrials &trials, std::size_t detector, std::size_t snr,
+                            const TrialPlace &place, const RunContext &context)
     {
         AnalysisSettings settings = injection.settings;
         settings.model = injection.detectors[detector].settings.model;
@@ -82,14 +86,15 @@ std::vector<TrialOutcome> trialsOf(const Campaign &campaign, std::size_t detecto
     return result;
 }
 
-ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, std::size_t detector, std::size_t snr, const TrialPlace &place,
-                     const RunContext &context)
+ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, std::size_t detector, std::size_t snr,
+                     const TrialPlace &place, const RunContext &context)
 {
     if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment))
         return showLine(campaign, *lines, detector, snr, place, context);
     if (!trials)
         throw Error("trial", "of an injection that was done elsewhere: run it here to look at its trials");
-    return showInjected(campaign, std::get<InjectionExperiment>(campaign.experiment), *trials, detector, snr, place, context);
+    return showInjected(campaign, std::get<InjectionExperiment>(campaign.experiment), *trials, detector, snr, place,
+                        context);
 }
 
 } // namespace faintline

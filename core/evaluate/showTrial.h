@@ -35,7 +35,7 @@ struct ShownTrial {
 /// Makes the very trial behind a point again, with the detector's settings, the campaign's own ln K and the threshold of
 /// `shownThreshold`. A simulated line comes with its block alone, one window T_FT a second long, one resolution cell a hertz wide; an
 /// injected one in the whole selection. `trials`: of an injection, as prepared; null otherwise. Throws Error, Cancelled.
-ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, std::size_t detector, std::size_t snr, const TrialPlace &place,
-                     const RunContext &context = {});
+ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, std::size_t detector, std::size_t snr,
+                     const TrialPlace &place, const RunContext &context = {});
 
 } // namespace faintline

@@ -215,7 +215,9 @@ void tst_Evaluation::aLineIsInjectedAndUndone()
     line.frequencyHz = 330.0;
     QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
     m_window->controller().inject(line);
-    QVERIFY(QTest::qWaitFor([&] { return !m_window->controller().isBusy() && document.isCurrent() && document.recording() != before; }, patience));
+    QVERIFY(QTest::qWaitFor(
+        [&] { return !m_window->controller().isBusy() && document.isCurrent() && document.recording() != before; },
+        patience));
     QCOMPARE(document.truth().lines.size(), std::size_t(2));
     QCOMPARE(document.source().injections.size(), std::size_t(1));
     QVERIFY(document.shownEvents().size() > eventsBefore);
@@ -243,7 +245,8 @@ void tst_Evaluation::aReproductionShowsItsTable()
 {
     const int id = m_window->experiments().start(reproducible("billon:figure1"), {true, 1});
     QVERIFY(idle());
-    QVERIFY2(m_window->experiments().entry(id)->reproduction != nullptr, qPrintable(m_window->experiments().entry(id)->failure));
+    QVERIFY2(m_window->experiments().entry(id)->reproduction != nullptr,
+             qPrintable(m_window->experiments().entry(id)->failure));
     QCOMPARE(m_window->reproduction().table()->rowCount(), 2);
     QVERIFY(m_window->reproduction().isVisible());
     QCOMPARE(m_window->reproduction().plot().chart().curves.size(), std::size_t(2));

@@ -47,7 +47,8 @@ private:
 
     static FrameArray frames(Index count, Index bins, std::vector<float> y)
     {
-        return {Axis{"time", "s", 0.0, 1.0, count, false}, Grid{{Axis{"frequency", "Hz", 100.0, 2.0, bins, false}}}, std::move(y)};
+        return {Axis{"time", "s", 0.0, 1.0, count, false}, Grid{{Axis{"frequency", "Hz", 100.0, 2.0, bins, false}}},
+                std::move(y)};
     }
 };
 
@@ -130,7 +131,8 @@ void tst_noiseFit::energyDetectorSeesTheLawItself()
     // The threshold is found on as many cells: its error, 1/√(n·nominal) of e^{-T}, moves the other law along its slope.
     const double slope = 4.0 * threshold * std::exp(-2.0 * threshold);
     const double thresholdError = 1.0 / std::sqrt(n * std::exp(-threshold));
-    QVERIFY(std::abs(pfa.actual - actual) < 4.5 * std::sqrt(actual / 400000.0 + actual / n + slope * slope * thresholdError * thresholdError));
+    QVERIFY(std::abs(pfa.actual - actual)
+            < 4.5 * std::sqrt(actual / 400000.0 + actual / n + slope * slope * thresholdError * thresholdError));
 }
 
 void tst_noiseFit::theLawHasNoMisfit()

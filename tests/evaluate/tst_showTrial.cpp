@@ -84,7 +84,9 @@ void tst_showTrial::theTrialAnswersAsInTheCampaign()
         const double seconds = time.value(static_cast<double>(frame));
         if (seconds < truth.startSeconds - 1e-9 || seconds > truth.endSeconds + 1e-9)
             continue;
-        largest = std::max(largest, static_cast<double>(statistic[static_cast<std::size_t>(frequency.nearest(truth.frequencyAt(seconds)))]));
+        largest = std::max(
+            largest,
+            static_cast<double>(statistic[static_cast<std::size_t>(frequency.nearest(truth.frequencyAt(seconds)))]));
     }
     QVERIFY2(std::abs(largest - outcome.statistic) < 1e-3 * (1.0 + std::abs(outcome.statistic)),
              qPrintable(QString("%1 in the trial, %2 in the campaign").arg(largest).arg(outcome.statistic)));

@@ -36,7 +36,8 @@ private slots:
 private:
     static Chart chart(bool isLogarithmicX = false)
     {
-        const Curve measured{"integrator", Curve::Kind::Measured, {{1, 0.2, {0.1, 0.3}}, {10, 0.6, {0.5, 0.7}}, {100, 0.9, {0.8, 1.0}}}};
+        const Curve measured{
+            "integrator", Curve::Kind::Measured, {{1, 0.2, {0.1, 0.3}}, {10, 0.6, {0.5, 0.7}}, {100, 0.9, {0.8, 1.0}}}};
         const Curve other{"3 of 4", Curve::Kind::Measured, {{1, 0.1, {}}, {10, 0.3, {}}, {100, 0.5, {}}}};
         const Curve theory{"integrator, Marcum Q", Curve::Kind::Theory, {{1, 0.25, {}}, {100, 0.95, {}}}};
         const Curve paper{"3 of 4, paper", Curve::Kind::Paper, {{10, 0.35, {}}}};
@@ -141,7 +142,8 @@ void tst_ChartPlot::keysWalkFromPointToPoint()
 void tst_ChartPlot::logarithmicAxesPlaceDecadesEvenly()
 {
     m_view->setChart(chart(true));
-    const double first = m_view->canvasPosition(0, 0).x(), second = m_view->canvasPosition(0, 1).x(), third = m_view->canvasPosition(0, 2).x();
+    const double first = m_view->canvasPosition(0, 0).x(), second = m_view->canvasPosition(0, 1).x(),
+                 third = m_view->canvasPosition(0, 2).x();
     QVERIFY(second > first + 20.0);
     QVERIFY(std::abs((third - second) - (second - first)) < 1.5);
 }
