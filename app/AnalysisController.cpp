@@ -1,5 +1,7 @@
 #include "app/AnalysisController.h"
 
+#include "analysis/lineInNoise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -87,6 +89,19 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
 void AnalysisController::setSettings(const AnalysisSettings &settings, const QString &text)
 {
     m_document.edit(settings, text);
+}
+
+void AnalysisController::inject(const LineSettings &line)
+{
+    if (m_document.isEmpty() || m_isOpening)
+        return;
+    const OpenedSource opened = m_document.openedSource();
+    m_runner.start([this, opened, line, settings = m_document.settings()](const RunContext &context) -> JobRunner::Delivery {
+        const Source::Injection injection{lineInNoise(line, opened.recording, settings, context), settings.selection.channel,
+                                          opened.source.injections.size() + 1};
+        OpenedSource injected = withInjection(opened, injection);
+        return [this, injected = std::move(injected)] { m_document.replaceOpened(injected, tr("Inject a line")); };
+    });
 }
 
 void AnalysisController::setThresholdUnit(DecideSettings::By by)

@@ -37,6 +37,8 @@ public:
     /// Changes one setting as one undoable step.
     void edit(const QString &field, const FieldValue &value, const QString &text);
     void setSettings(const AnalysisSettings &settings, const QString &text);
+    /// Adds a line of a known SNR in the noise at its place to what is open, as one undoable step.
+    void inject(const LineSettings &line);
     /// By what the threshold is set from now on; its place stays.
     void setThresholdUnit(DecideSettings::By by);
 

@@ -12,16 +12,16 @@ namespace faintline {
 namespace {
 
     constexpr qint64 mergeMilliseconds = 700;
-    constexpr int settingsEditId = 1;
+    constexpr int editId = 1;
 
 } // namespace
 
-/// The program's only undo command: two settings values.
-class Document::SettingsEdit : public QUndoCommand
+/// The program's only undo command: two values of what is open and its settings.
+class Document::Edit : public QUndoCommand
 {
 public:
-    SettingsEdit(Document &document, const AnalysisSettings &after, const QString &text, QString field)
-        : QUndoCommand(text), m_document(document), m_before(document.settings()), m_after(after),
+    Edit(Document &document, State after, const QString &text, QString field)
+        : QUndoCommand(text), m_document(document), m_before(document.state()), m_after(std::move(after)),
           m_field(std::move(field))
     {
         m_age.start();
@@ -30,23 +30,23 @@ public:
     void undo() override { m_document.apply(m_before); }
     void redo() override { m_document.apply(m_after); }
 
-    int id() const override { return m_field.isEmpty() ? -1 : settingsEditId; }
+    int id() const override { return m_field.isEmpty() ? -1 : editId; }
 
     bool mergeWith(const QUndoCommand *other) override
     {
-        const auto &next = static_cast<const SettingsEdit &>(*other);
+        const auto &next = static_cast<const Edit &>(*other);
         if (next.m_field != m_field || m_age.elapsed() > mergeMilliseconds)
             return false;
         m_after = next.m_after;
         m_age.restart();
-        setObsolete(m_after == m_before);
+        setObsolete(m_after.settings == m_before.settings);
         return true;
     }
 
 private:
     Document &m_document;
-    AnalysisSettings m_before;
-    AnalysisSettings m_after;
+    State m_before;
+    State m_after;
     QString m_field;
     QElapsedTimer m_age; ///< since the last edit that went into this
 };
@@ -72,7 +72,12 @@ void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, 
 void Document::edit(const AnalysisSettings &after, const QString &text, const QString &field)
 {
     if (after != m_settings)
-        m_undoStack.push(new SettingsEdit(*this, after, text, field));
+        m_undoStack.push(new Edit(*this, {m_opened, after}, text, field));
+}
+
+void Document::replaceOpened(OpenedSource opened, const QString &text)
+{
+    m_undoStack.push(new Edit(*this, {std::move(opened), m_settings}, text, {}));
 }
 
 void Document::setSaved(const QString &sessionPath)
@@ -134,9 +139,10 @@ const Track *Document::track(int id) const
     return found == tracks.end() ? nullptr : &*found;
 }
 
-void Document::apply(const AnalysisSettings &settings)
+void Document::apply(const State &state)
 {
-    m_settings = settings;
+    m_opened = state.opened;
+    m_settings = state.settings;
     emit settingsChanged();
 }
 

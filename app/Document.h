@@ -31,11 +31,15 @@ public:
     const Source &source() const { return m_opened.source; }
     const RecordingPointer &recording() const { return m_opened.recording; }
     const Truth &truth() const { return m_opened.truth; }
+    const OpenedSource &openedSource() const { return m_opened; }
 
     // ---- settings ------------------------------------------------------------------------------------------------
 
     const AnalysisSettings &settings() const { return m_settings; }
     QUndoStack &undoStack() { return m_undoStack; }
+
+    /// One undoable step to what is open with a line added, its settings as they are.
+    void replaceOpened(OpenedSource opened, const QString &text);
 
     /// One undoable step. Steps that name the same field and follow each other at once, as those of a held key or a
     /// dragged value, become one.
@@ -55,7 +59,7 @@ public:
     /// `events`: those of the analysis.
     void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events);
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
-    bool isCurrent() const { return m_analysis && m_analysis->settings == m_settings; }
+    bool isCurrent() const { return m_analysis && m_analysis->settings == m_settings && m_analysis->recording == m_opened.recording; }
 
     void setShownThreshold(double nats);
     double shownThreshold() const { return m_shownThreshold; }
@@ -73,9 +77,15 @@ signals:
     void sessionChanged();     ///< its path, or whether there is something to save
 
 private:
-    class SettingsEdit;
+    /// What undo goes back to.
+    struct State {
+        OpenedSource opened;
+        AnalysisSettings settings;
+    };
+    class Edit;
 
-    void apply(const AnalysisSettings &settings);
+    State state() const { return {m_opened, m_settings}; }
+    void apply(const State &state);
     bool isShown(const Event &event) const { return event.statistic >= m_shownThreshold; }
     std::ptrdiff_t shownCount() const;
 

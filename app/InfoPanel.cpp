@@ -1,6 +1,7 @@
 #include "app/InfoPanel.h"
 
 #include "app/Document.h"
+#include "app/statisticUnit.h"
 #include "base/utc.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/quantities.h"
@@ -84,15 +85,17 @@ namespace {
         const Calibration &calibration = *analysis.calibration;
         const double eventRate = calibration.eventRateAt(analysis.threshold);
         rows.heading(tr("Detector on noise"));
-        rows.row(tr("Threshold"), tr("%1 ± %2 nat")
+        const QString unit = statisticUnit(analysis.settings);
+        rows.row(tr("Threshold"), tr("%1 ± %2 %3")
                                       .arg(analysis.threshold, 0, 'f', 2)
-                                      .arg(calibration.thresholdUncertainty(eventRate), 0, 'f', 2));
+                                      .arg(calibration.thresholdUncertainty(eventRate), 0, 'f', 2)
+                                      .arg(unit));
         rows.row(tr("False alarms"), powerText(eventRate * analysis.cellFramesPerHour, 3) + tr(" per hour"));
         rows.row(tr("Pfa per cell"), powerText(calibration.exceedanceAt(analysis.threshold)));
         rows.row(tr("ln K"), withUnit(calibration.lnK, 3, "nat"));
         rows.row(tr("Paths continued"), withUnit(100.0 * calibration.continuedFraction, 1, "%"));
         rows.row(tr("Tail e^(-θT), θ"),
-                 tr("%1 ± %2 per nat").arg(calibration.tailSlope, 0, 'f', 3).arg(calibration.slopeError, 0, 'f', 3));
+                 tr("%1 ± %2 per %3").arg(calibration.tailSlope, 0, 'f', 3).arg(calibration.slopeError, 0, 'f', 3).arg(unit));
     }
 
 } // namespace

@@ -1,17 +1,28 @@
 #include "app/MainWindow.h"
 
 #include "app/ActivityBar.h"
+#include "app/EvaluatePanel.h"
+#include "app/ExperimentForm.h"
+#include "app/ExperimentsPanel.h"
 #include "app/FileDrop.h"
 #include "app/InfoPanel.h"
+#include "app/InjectDialog.h"
 #include "app/KeysOverlay.h"
 #include "app/MessageBar.h"
+#include "app/NoiseFitPanel.h"
 #include "app/OpenOptionsDialog.h"
 #include "app/PipelinePanel.h"
+#include "app/ReproductionPanel.h"
 #include "app/ScenarioCard.h"
 #include "app/SessionSaver.h"
+#include "app/TrialViewer.h"
+#include "app/TrialWindow.h"
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
 #include "app/hint.h"
+#include "app/statisticUnit.h"
+#include "spectrum/NoiseNormaliser.h"
+#include "widgets/ChartPlot.h"
 #include "widgets/EventTable.h"
 #include "widgets/ExceedancePlot.h"
 #include "widgets/OverviewStrip.h"
@@ -81,6 +92,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, QWidget *parent)
     connectDocument();
     connectController();
     connectViews();
+    connectEvaluation();
     m_keys = new KeysOverlay(this);
     resize(1440, 900);
     m_defaultLayout = saveState();
@@ -94,6 +106,8 @@ MainWindow::~MainWindow()
 {
     m_controller.disconnect(this); // what is still running ends after the widgets are gone
     m_document.disconnect(this);
+    m_experiments.disconnect();
+    m_trials.reset();
 }
 
 // ---- building -------------------------------------------------------------------------------------------------------
@@ -153,6 +167,25 @@ void MainWindow::buildDocks()
     events->raise();
     resizeDocks({pipeline, threshold}, {270, 380}, Qt::Horizontal);
     resizeDocks({threshold, events}, {400, 400}, Qt::Vertical);
+    m_noiseFit = new NoiseFitPanel(m_document);
+    tabifyDockWidget(noise, addDock(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Qt::RightDockWidgetArea));
+    events->raise();
+    buildEvaluationDocks();
+}
+
+/// At the bottom, out of sight until they are asked for: the pictures need the room.
+void MainWindow::buildEvaluationDocks()
+{
+    m_evaluate = new EvaluatePanel(m_document, m_experiments);
+    m_experimentList = new ExperimentsPanel(m_experiments);
+    m_reproduction = new ReproductionPanel;
+    QDockWidget *evaluate = addDock(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Qt::BottomDockWidgetArea);
+    QDockWidget *list = addDock(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Qt::BottomDockWidgetArea);
+    QDockWidget *reproduction = addDock(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Qt::BottomDockWidgetArea);
+    tabifyDockWidget(evaluate, list);
+    tabifyDockWidget(list, reproduction);
+    for (QDockWidget *dock : {evaluate, list, reproduction})
+        dock->hide();
 }
 
 void MainWindow::buildBottom()
@@ -195,6 +228,8 @@ void MainWindow::buildMenus()
     buildEditMenu();
     buildViewMenu();
     buildDetectMenu();
+    buildEvaluateMenu();
+    buildReproduceMenu();
     buildHelpMenu();
     // A hidden menu's shortcuts do nothing; the window's do, and a presentation has no menu.
     for (const QAction *menu : menuBar()->actions())
@@ -303,6 +338,30 @@ void MainWindow::buildDetectMenu()
     m_workbench->addAction(m_playAction);
     addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { m_workbench->stepFrames(-1); });
     addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { m_workbench->stepFrames(1); });
+}
+
+void MainWindow::buildEvaluateMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("E&valuate"));
+    addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { showDock(m_evaluate); });
+    addViewAction(*menu, tr("&Experiments"), {}, [this] { showDock(m_experimentList); });
+    addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
+}
+
+void MainWindow::buildReproduceMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Reproduce"));
+    QAction *quick = menu->addAction(tr("&Quick: a tenth of the trials"));
+    quick->setCheckable(true);
+    quick->setChecked(true);
+    menu->addSeparator();
+    for (const Reproducible &entry : reproducibles()) {
+        QAction *action = menu->addAction(QString::fromStdString(entry.title));
+        action->setData(QString::fromStdString(entry.name));
+        connect(action, &QAction::triggered, this, [this, &entry, quick] { reproduce(entry, quick->isChecked()); });
+    }
 }
 
 void MainWindow::buildHelpMenu()
@@ -434,6 +493,23 @@ void MainWindow::connectViews()
     connect(new FileDrop(this), &FileDrop::dropped, this, [this](const QString &path) { open(path); });
 }
 
+void MainWindow::connectEvaluation()
+{
+    m_trials = std::make_unique<TrialViewer>(m_experiments, this);
+    connect(m_evaluate, &EvaluatePanel::trialRequested, m_trials.get(), &TrialViewer::open);
+    connect(m_evaluate, &EvaluatePanel::failed, this, &MainWindow::showError);
+    connect(m_trials.get(), &TrialViewer::failed, this, &MainWindow::showError);
+    connect(m_trials.get(), &TrialViewer::busyChanged, m_activity, &ActivityBar::setBusy);
+    connect(m_trials.get(), &TrialViewer::progressed, m_activity, &ActivityBar::setProgress);
+    connect(m_experimentList, &ExperimentsPanel::failed, this, &MainWindow::showError);
+    connect(m_experimentList, &ExperimentsPanel::showRequested, this, &MainWindow::showExperiment);
+    connect(&m_experiments, &Experiments::changed, this, [this](int id) {
+        // A reproduction shows itself when it is done; curves grow where they are.
+        if (const Experiments::Entry *entry = m_experiments.entry(id); entry->state == Experiments::State::Done && entry->reproduction)
+            showExperiment(id);
+    });
+}
+
 // ---- what is open ---------------------------------------------------------------------------------------------------
 
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
@@ -533,6 +609,10 @@ void MainWindow::showAnalysis()
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.back();
     m_readOut->setResolution(analysis.time().step, frequency.step);
+    const QString unit = statisticUnit(analysis.settings);
+    m_threshold->setStatisticUnit(unit);
+    m_readOut->setStatisticUnit(unit);
+    m_events->setStatisticUnit(unit);
     m_threshold->setCalibration(analysis.calibration, analysis.cellFramesPerHour);
     m_threshold->setHistogram(analysis.statisticCounts);
     m_threshold->setUnit(unitOf(analysis.settings.decide.by));
@@ -628,16 +708,71 @@ void MainWindow::setAsking(bool isAsking)
 const QStringList &MainWindow::viewNames()
 {
     static const QStringList names{QStringLiteral("window"),    QStringLiteral("input"),  QStringLiteral("output"),
-                                   QStringLiteral("threshold"), QStringLiteral("events"), QStringLiteral("noise")};
+                                   QStringLiteral("threshold"), QStringLiteral("events"), QStringLiteral("noise"),
+                                   QStringLiteral("noisefit"),  QStringLiteral("pd")};
     return names;
 }
 
 QWidget *MainWindow::view(const QString &name)
 {
-    const std::array<QWidget *, 6> views{
-        this, m_workbench->inputPane(), m_workbench->outputPane(), m_threshold, m_events, m_info};
+    const std::array<QWidget *, 8> views{this,     m_workbench->inputPane(), m_workbench->outputPane(), m_threshold,       m_events,
+                                         m_info,   m_noiseFit,               m_evaluate};
     const auto index = viewNames().indexOf(name);
     return index < 0 ? nullptr : views[static_cast<std::size_t>(index)];
+}
+
+void MainWindow::injectLine()
+{
+    const auto &analysis = m_document.analysis();
+    const auto *frames = analysis ? dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()) : nullptr;
+    if (!frames)
+        return;
+    const RecordingInfo &info = m_document.recording()->info();
+    const Viewport &viewport = m_document.viewport();
+    const Viewport::Point at = viewport.cursor().value_or(Viewport::Point{viewport.full().time.middle(), viewport.full().frequency.middle()});
+    const double window = static_cast<double>(frames->spectrogram().windowSamples()) / info.sampleRateHz;
+    InjectDialog dialog(info, at.seconds, at.hz, window, this);
+    if (dialog.exec() == QDialog::Accepted)
+        m_controller.inject(dialog.line());
+}
+
+void MainWindow::reproduce(const Reproducible &reproducible, bool quick)
+{
+    ReproduceOptions options;
+    options.quick = quick;
+    showWorkbench();
+    showDock(m_experimentList);
+    m_experiments.start(reproducible, options);
+}
+
+void MainWindow::showExperiment(int id)
+{
+    const Experiments::Entry *entry = m_experiments.entry(id);
+    if (!entry)
+        return;
+    if (entry->reproduction) {
+        m_reproduction->show(entry->reproduction);
+        return showDock(m_reproduction);
+    }
+    if (entry->reproducible)
+        return;
+    m_evaluate->show(id);
+    showDock(m_evaluate);
+}
+
+void MainWindow::showNoiseFit()
+{
+    showDock(m_noiseFit);
+}
+
+void MainWindow::showDock(QWidget *panel)
+{
+    auto *dock = static_cast<QDockWidget *>(panel->parentWidget());
+    const bool wasHidden = dock->isHidden();
+    dock->show();
+    dock->raise();
+    if (wasHidden && dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
+        resizeDocks({dock}, {height() * 36 / 100}, Qt::Vertical);
 }
 
 void MainWindow::setTheme(Theme::Kind kind)

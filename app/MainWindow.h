@@ -2,6 +2,7 @@
 
 #include "app/AnalysisController.h"
 #include "app/Document.h"
+#include "app/Experiments.h"
 #include "app/WindowMemory.h"
 #include "widgets/Theme.h"
 
@@ -17,16 +18,21 @@ class QToolBar;
 namespace faintline {
 
 class ActivityBar;
+class EvaluatePanel;
 class EventTable;
 class ExceedancePlot;
+class ExperimentsPanel;
 class InfoPanel;
 class KeysOverlay;
 class MessageBar;
+class NoiseFitPanel;
 class OverviewStrip;
 class PipelinePanel;
 class ReadOut;
+class ReproductionPanel;
 class ScenarioCard;
 class SessionSaver;
+class TrialViewer;
 class WelcomePage;
 class Workbench;
 
@@ -51,10 +57,19 @@ public:
     MessageBar &messages() { return *m_messages; }
     ExceedancePlot &thresholdPlot() { return *m_threshold; }
     EventTable &eventTable() { return *m_events; }
+    Experiments &experiments() { return m_experiments; }
+    EvaluatePanel &evaluation() { return *m_evaluate; }
+    ExperimentsPanel &experimentList() { return *m_experimentList; }
+    ReproductionPanel &reproduction() { return *m_reproduction; }
+    NoiseFitPanel &noiseFit() { return *m_noiseFit; }
+    TrialViewer &trials() { return *m_trials; }
 
-    /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise".
+    /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
+    /// "noisefit", "pd".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
+
+    void showNoiseFit();
 
     /// Off: nobody is there to answer a dialog.
     void setAsking(bool isAsking);
@@ -68,6 +83,7 @@ protected:
 private:
     void buildCentre();
     void buildDocks();
+    void buildEvaluationDocks();
     void buildBottom();
     void buildStatusBar();
     void buildMenus();
@@ -75,11 +91,14 @@ private:
     void buildEditMenu();
     void buildViewMenu();
     void buildDetectMenu();
+    void buildEvaluateMenu();
+    void buildReproduceMenu();
     void buildHelpMenu();
     void buildToolBar();
     void connectDocument();
     void connectController();
     void connectViews();
+    void connectEvaluation();
     /// An action that makes sense only while a recording is shown.
     QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
     QDockWidget *addDock(const QString &name, const QString &title, QWidget *widget, Qt::DockWidgetArea area);
@@ -95,6 +114,10 @@ private:
     void openScenario(ScenarioCard *card);
     void chooseFile();
     void chooseRawFile();
+    void injectLine();
+    void reproduce(const Reproducible &reproducible, bool quick);
+    void showExperiment(int id);
+    void showDock(QWidget *panel);
     void setTheme(Theme::Kind kind);
     void setPresenting(bool isPresenting);
     void takeDefaultLayout();
@@ -106,6 +129,7 @@ private:
 
     Document m_document;
     AnalysisController m_controller;
+    Experiments m_experiments;
     WindowMemory m_memory;
     bool m_isAsking = true;
     QByteArray m_defaultLayout;
@@ -120,6 +144,11 @@ private:
     ExceedancePlot *m_threshold = nullptr;
     EventTable *m_events = nullptr;
     InfoPanel *m_info = nullptr;
+    EvaluatePanel *m_evaluate = nullptr;
+    ExperimentsPanel *m_experimentList = nullptr;
+    ReproductionPanel *m_reproduction = nullptr;
+    NoiseFitPanel *m_noiseFit = nullptr;
+    std::unique_ptr<TrialViewer> m_trials;
     OverviewStrip *m_overview = nullptr;
     ReadOut *m_readOut = nullptr;
     ActivityBar *m_activity = nullptr;

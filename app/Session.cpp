@@ -12,10 +12,41 @@ namespace {
 
     constexpr int formatVersion = 1;
 
+    Json toJson(const Source::Injection &injection)
+    {
+        return {{"line", writeFields(injection.line.line, LineSettings::fields())},
+                {"amplitude", injection.line.amplitude},
+                {"channel", injection.channel},
+                {"seed", injection.seed}};
+    }
+
+    Source::Injection injectionFromJson(const Json &json, const std::string &where)
+    {
+        checkKeys(json, where, {"line", "amplitude", "channel", "seed"});
+        Source::Injection injection;
+        readFields(json.at("line"), LineSettings::fields(), injection.line.line, where + ".line");
+        injection.line.amplitude = json.at("amplitude").get<double>();
+        injection.channel = json.value("channel", 0);
+        injection.seed = json.value("seed", std::uint64_t(1));
+        return injection;
+    }
+
+    Json toJson(const std::vector<Source::Injection> &injections)
+    {
+        Json list = Json::array();
+        for (const Source::Injection &injection : injections)
+            list.push_back(toJson(injection));
+        return list;
+    }
+
     Json toJson(const Source &source, const std::string &hash, const QDir &folder)
     {
-        if (source.scene)
-            return {{"name", source.name().toStdString()}, {"scenario", toJson(*source.scene)}};
+        if (source.scene) {
+            Json scene = {{"name", source.name().toStdString()}, {"scenario", toJson(*source.scene)}};
+            if (!source.injections.empty())
+                scene["injected"] = toJson(source.injections);
+            return scene;
+        }
         const OpenOptions &options = source.options;
         const QString path = QFileInfo(source.path).absoluteFilePath();
         Json json = {{"path", folder.relativeFilePath(path).toStdString()}, {"sha256", hash}};
@@ -27,6 +58,8 @@ namespace {
             json["rawChannels"] = options.rawChannels;
             json["rawHeaderBytes"] = options.rawHeaderBytes;
         }
+        if (!source.injections.empty())
+            json["injected"] = toJson(source.injections);
         return json;
     }
 
@@ -34,8 +67,13 @@ namespace {
     {
         checkKeys(
             json, "recording",
-            {"name", "scenario", "path", "sha256", "iq", "rawType", "rawRateHz", "rawChannels", "rawHeaderBytes"});
+            {"name", "scenario", "path", "sha256", "iq", "rawType", "rawRateHz", "rawChannels", "rawHeaderBytes",
+             "injected"});
         Source source;
+        if (json.contains("injected"))
+            for (const Json &one : json["injected"])
+                source.injections.push_back(
+                    injectionFromJson(one, "recording.injected[" + std::to_string(source.injections.size()) + "]"));
         if (json.contains("scenario")) {
             source.path = QString::fromStdString(json.value("name", std::string("scenario")));
             source.scene = lineSceneFromJson(json["scenario"]);

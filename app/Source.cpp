@@ -28,6 +28,16 @@ namespace {
         }
     }
 
+    /// Without the lines that were added.
+    OpenedSource openBase(Source source)
+    {
+        source.injections.clear();
+        if (!source.scene)
+            return {source, openRecording(source.path.toStdString(), source.options), {}};
+        const auto recording = std::make_shared<SimulatedRecording>(*source.scene);
+        return {source, recording, recording->truth()};
+    }
+
 } // namespace
 
 QString Source::name() const
@@ -37,7 +47,7 @@ QString Source::name() const
 
 Source sourceOf(const QString &path, const OpenOptions &options)
 {
-    Source source{path, options, {}};
+    Source source{path, options, {}, {}};
     if (path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive))
         source.scene = readScene(path);
     return source;
@@ -45,10 +55,22 @@ Source sourceOf(const QString &path, const OpenOptions &options)
 
 OpenedSource openSource(const Source &source)
 {
-    if (!source.scene)
-        return {source, openRecording(source.path.toStdString(), source.options), {}};
-    const auto recording = std::make_shared<SimulatedRecording>(*source.scene);
-    return {source, recording, recording->truth()};
+    OpenedSource opened = openBase(source);
+    for (const Source::Injection &injection : source.injections)
+        opened = withInjection(opened, injection);
+    return opened;
+}
+
+OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)
+{
+    OpenedSource result = opened;
+    const auto recording =
+        std::make_shared<InjectedRecording>(opened.recording, std::vector{injection.line}, injection.channel, injection.seed);
+    const Truth added = recording->truth();
+    result.recording = recording;
+    result.source.injections.push_back(injection);
+    result.truth.lines.insert(result.truth.lines.end(), added.lines.begin(), added.lines.end());
+    return result;
 }
 
 bool needsRawOptions(const QString &path, const OpenOptions &options)

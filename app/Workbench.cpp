@@ -1,5 +1,6 @@
 #include "app/Workbench.h"
 
+#include "app/statisticUnit.h"
 #include "widgets/ColourBar.h"
 #include "widgets/StripPlot.h"
 
@@ -168,6 +169,9 @@ void Workbench::showAnalysis()
     const Axis &frequency = analysis.grid().axes.back();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
 
+    const QString unit = statisticUnit(analysis.settings);
+    m_output->setStatisticUnit(unit, tr("Statistic D (%1)").arg(unit));
+    m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
     followExtents(analysis, isFirst);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
     m_input->setPicture(analysis.input, frequency);

@@ -1,6 +1,9 @@
 #include "app/renderCommand.h"
 
+#include "app/EvaluatePanel.h"
+#include "app/ExperimentForm.h"
 #include "app/MainWindow.h"
+#include "app/NoiseFitPanel.h"
 #include "app/Workbench.h"
 #include "base/AtomicFile.h"
 
@@ -9,6 +12,8 @@
 #include <QEventLoop>
 #include <QFileInfo>
 #include <QPixmap>
+
+#include <algorithm>
 
 namespace faintline {
 
@@ -41,6 +46,41 @@ namespace {
         loop.exec();
         if (failure)
             throw *failure;
+    }
+
+    /// What a picture of the curves shows: a small experiment on lines such as the papers', the same from run to run.
+    void measureCurves(MainWindow &window)
+    {
+        constexpr int runs = 2;
+        window.evaluation().form().setQuick(runs, {QStringLiteral("SMD 5 slopes"), QStringLiteral("3 of 4"), QStringLiteral("integrator")}, -5, 3, 2);
+        QEventLoop loop;
+        QObject::connect(&window.experiments(), &Experiments::busyChanged, &loop, [&](bool isBusy) {
+            if (!isBusy)
+                loop.quit();
+        });
+        window.evaluation().start();
+        loop.exec();
+        const Experiments::Entry *entry = window.experiments().entry(window.evaluation().shown());
+        if (entry->state == Experiments::State::Failed)
+            throw Error("experiment", entry->failure.toStdString(), Error::Kind::Failure);
+    }
+
+    void measureNoise(MainWindow &window)
+    {
+        QEventLoop loop;
+        QObject::connect(&window.noiseFit(), &NoiseFitPanel::settled, &loop, &QEventLoop::quit);
+        window.showNoiseFit();
+        if (window.noiseFit().isBusy())
+            loop.exec();
+    }
+
+    void prepare(MainWindow &window, const std::vector<std::string> &views)
+    {
+        const auto has = [&](const char *name) { return std::find(views.begin(), views.end(), name) != views.end(); };
+        if (has("pd"))
+            measureCurves(window);
+        if (has("noisefit"))
+            measureNoise(window);
     }
 
     void placeCursor(Viewport &viewport, const RenderOptions &options)
@@ -107,6 +147,7 @@ void render(const RenderOptions &options)
     window.show();
     openAndSettle(window, options);
     placeCursor(window.document().viewport(), options);
+    prepare(window, options.views);
     for (const std::string &view : options.views)
         write(pictureOf(*window.view(QString::fromStdString(view)), options.size), fileName(options, view));
 }

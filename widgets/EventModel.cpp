@@ -103,6 +103,12 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
     }
 }
 
+void EventModel::setStatisticUnit(const QString &unit)
+{
+    m_statisticUnit = unit;
+    emit headerDataChanged(Qt::Horizontal, Statistic, Statistic);
+}
+
 QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     if (orientation != Qt::Horizontal)
@@ -111,14 +117,14 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         return QVariant::fromValue(
             Qt::Alignment((section == State ? Qt::AlignHCenter : Qt::AlignRight) | Qt::AlignVCenter));
     const QString names[] = {tr("№"),      tr("Onset"),        tr("Detected"), tr("End"),
-                             tr("f (Hz)"), tr("Drift (Hz/s)"), tr("D (nat)"),  tr("State")};
+                             tr("f (Hz)"), tr("Drift (Hz/s)"), tr("D (%1)").arg(m_statisticUnit),  tr("State")};
     const QString tips[] = {tr("Number, in order of detection"),
                             tr("Where the detecting path was last reset, from the first sample"),
                             tr("Where the statistic first exceeded the threshold"),
                             tr("Last frame with evidence"),
                             tr("Frequency at detection"),
                             tr("Straight-line slope of the track"),
-                            tr("Largest statistic, nats above background"),
+                            tr("Largest statistic"),
                             tr("Confirmed or tentative; open where the data ended first")};
     if (section < 0 || section >= ColumnCount)
         return {};

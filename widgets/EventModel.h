@@ -21,6 +21,7 @@ public:
     using QAbstractTableModel::QAbstractTableModel;
 
     void setEvents(std::vector<Event> events);
+    void setStatisticUnit(const QString &unit);
     const std::vector<Event> &events() const { return m_events; }
 
     /// Row of an event, -1 if there is none of that id.
@@ -38,6 +39,7 @@ private:
     QString text(const Event &event, int column) const;
 
     std::vector<Event> m_events;
+    QString m_statisticUnit = QStringLiteral("nat");
 };
 
 } // namespace faintline

@@ -86,6 +86,11 @@ void EventTable::setEvents(const std::vector<Event> &events)
     updateCount();
 }
 
+void EventTable::setStatisticUnit(const QString &unit)
+{
+    m_model->setStatisticUnit(unit);
+}
+
 void EventTable::setEmptySentence(const QString &sentence)
 {
     m_empty->setText(sentence);

@@ -29,6 +29,7 @@ public:
 
     /// Keeps the selection where the event of that id still exists. Emits nothing.
     void setEvents(const std::vector<Event> &events);
+    void setStatisticUnit(const QString &unit);
     void setEmptySentence(const QString &sentence);
 
     int selectedEvent() const;         ///< 0: none

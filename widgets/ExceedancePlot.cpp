@@ -83,15 +83,14 @@ ExceedancePlot::ExceedancePlot(QWidget *parent)
     setAxisScaleDraw(QwtAxis::XBottom, new NumberScaleDraw);
     setAxisScaleDraw(QwtAxis::YLeft, new PowerScaleDraw);
     setAxisScaleDraw(QwtAxis::YRight, new PowerScaleDraw);
-    setAxisTitle(QwtAxis::XBottom, tr("Statistic D (nat)"));
-    setAxisTitle(QwtAxis::YRight, tr("Cells per ¼ nat"));
+    setAxisTitle(QwtAxis::YRight, tr("Cells per step of ¼"));
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     canvas()->setFocusPolicy(Qt::NoFocus);
     canvas()->setMouseTracking(true);
     canvas()->installEventFilter(this);
     setAccessibleName(tr("Threshold: exceedance of the statistic on noise"));
-    setToolTip(tr("Drag the line to move the threshold, or press comma and full stop for a quarter nat."));
+    setToolTip(tr("Drag the line to move the threshold, or press comma and full stop for a quarter of its unit."));
     restyle();
 }
 
@@ -113,6 +112,14 @@ void ExceedancePlot::setHistogram(const std::vector<double> &counts)
 void ExceedancePlot::setClosedForm(const QPolygonF &points)
 {
     m_closedFormPoints = points;
+    restyle();
+}
+
+void ExceedancePlot::setStatisticUnit(const QString &unit)
+{
+    if (unit == m_statisticUnit)
+        return;
+    m_statisticUnit = unit;
     restyle();
 }
 
@@ -154,7 +161,7 @@ double ExceedancePlot::ordinate(double nats) const
 
 QString ExceedancePlot::thresholdText() const
 {
-    const QString nats = tr("%1 nat").arg(numberText(m_threshold, 2));
+    const QString nats = numberText(m_threshold, 2) + QLatin1Char(' ') + m_statisticUnit;
     if (!m_calibration || m_unit == Unit::Nats)
         return nats;
     if (m_unit == Unit::PfaPerCell)
@@ -183,6 +190,7 @@ Span ExceedancePlot::natSpan() const
 void ExceedancePlot::restyle()
 {
     const Theme::Colours &colours = Theme::colours(*this);
+    setAxisTitle(QwtAxis::XBottom, tr("Statistic D (%1)").arg(m_statisticUnit));
     setAxisTitle(QwtAxis::YLeft, isRate() ? tr("False alarms/h") : tr("P(D > T) per cell"));
     Theme::style(*this);
     m_grid->setPen(colours.grid, 1.0);
@@ -301,7 +309,7 @@ void ExceedancePlot::updateThresholdLine()
     m_label->x = m_threshold;
     m_label->text = thresholdText();
     if (m_unit != Unit::Nats)
-        m_label->text += tr("\n%1 nat").arg(numberText(m_threshold, 2));
+        m_label->text += QLatin1Char('\n') + numberText(m_threshold, 2) + QLatin1Char(' ') + m_statisticUnit;
     setAccessibleDescription(tr("Threshold at %1").arg(thresholdText()));
     replot();
 }
@@ -363,7 +371,7 @@ void ExceedancePlot::contextMenuEvent(QContextMenuEvent *event)
     auto *group = new QActionGroup(&menu);
     const std::pair<Unit, QString> rows[] = {{Unit::FalseAlarmsPerHour, tr("False alarms per hour")},
                                              {Unit::PfaPerCell, tr("False-alarm probability per cell")},
-                                             {Unit::Nats, tr("Nats")}};
+                                             {Unit::Nats, m_statisticUnit == QLatin1String("nat") ? tr("Nats") : tr("Statistic, %1").arg(m_statisticUnit)}};
     for (const auto &[unit, text] : rows) {
         QAction *action = group->addAction(menu.addAction(text));
         action->setCheckable(true);

@@ -47,6 +47,9 @@ public:
     /// Points (nat, P(D > nat)) of a closed form; empty for none.
     void setClosedForm(const QPolygonF &points);
 
+    /// What the statistic is measured in: "nat" unless said otherwise.
+    void setStatisticUnit(const QString &unit);
+
     double threshold() const { return m_threshold; }
     Unit unit() const { return m_unit; }
 
@@ -94,6 +97,7 @@ private:
     QPolygonF m_closedFormPoints;
     double m_threshold = 20.0;
     Unit m_unit = Unit::FalseAlarmsPerHour;
+    QString m_statisticUnit = QStringLiteral("nat");
     bool m_isDragging = false;
 
     QwtPlotGrid *m_grid;

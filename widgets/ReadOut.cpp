@@ -40,11 +40,11 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     m_utc = addItem(tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));
     m_frequency = addItem(tr("Frequency"), QStringLiteral("0000.000 kHz"));
     m_level = addItem(tr("Level"), QStringLiteral("−00.0 dB"));
-    m_statistic = addItem(tr("Statistic"), QStringLiteral("0000.0 nat"));
+    m_statistic = addItem(tr("Statistic"), QStringLiteral("000.00 × noise"));
     m_slope = addItem(tr("Slope"), QStringLiteral("−00.000 Hz/s"));
     layout->addStretch(1);
     m_level.box->setToolTip(tr("Power over the mean of the noise"));
-    m_statistic.box->setToolTip(tr("Nats above background"));
+    m_statistic.box->setToolTip(tr("The detector's statistic D"));
     m_slope.box->setToolTip(tr("Slope of the best path that ends here"));
     setAccessibleName(tr("Read-out"));
     setStartUnixSeconds({});
@@ -83,6 +83,12 @@ void ReadOut::setResolution(double frameSeconds, double binHz)
     setReading(m_reading);
 }
 
+void ReadOut::setStatisticUnit(const QString &unit)
+{
+    m_statisticUnit = unit;
+    setReading(m_reading);
+}
+
 void ReadOut::setReading(const Reading &reading)
 {
     m_reading = reading;
@@ -94,7 +100,9 @@ void ReadOut::setReading(const Reading &reading)
          [this](double v) { return utcText(m_startUnixSeconds.value_or(0.0) + v, decimalsFor(m_frameSeconds)); });
     show(m_frequency, reading.hz, [this](double v) { return hertzText(v, m_binHz); });
     show(m_level, reading.levelDb, [](double v) { return numberText(v, 1) + tr(" dB"); });
-    show(m_statistic, reading.statisticNats, [](double v) { return numberText(v, 1) + tr(" nat"); });
+    const int decimals = m_statisticUnit == QLatin1String("nat") ? 1 : 2;
+    show(m_statistic, reading.statisticNats,
+         [&](double v) { return numberText(v, decimals) + QLatin1Char(' ') + m_statisticUnit; });
     show(m_slope, reading.slopeHzPerSecond, [](double v) { return powerText(v, 3) + tr(" Hz/s"); });
     setAccessibleDescription(text());
 }

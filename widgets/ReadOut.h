@@ -25,6 +25,9 @@ public:
 
     explicit ReadOut(QWidget *parent = nullptr);
 
+    /// What the statistic is measured in: "nat" unless said otherwise.
+    void setStatisticUnit(const QString &unit);
+
     /// UTC of the first sample; without it only relative time is shown.
     void setStartUnixSeconds(std::optional<double> unixSeconds);
     /// Digits are chosen so that neighbouring cells differ.
@@ -50,6 +53,7 @@ private:
     double m_frameSeconds = 0.01;
     double m_binHz = 0.1;
     Reading m_reading;
+    QString m_statisticUnit = QStringLiteral("nat");
 };
 
 } // namespace faintline

@@ -182,6 +182,13 @@ void StripPlot::removeSeries(const QString &name)
     restyle();
 }
 
+void StripPlot::setLeftTitle(const QString &title)
+{
+    setAxisTitle(QwtAxis::YLeft, title);
+    setAccessibleName(tr("%1 over time").arg(title));
+    restyle();
+}
+
 void StripPlot::setRightTitle(const QString &title)
 {
     setAxisTitle(QwtAxis::YRight, title);

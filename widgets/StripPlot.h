@@ -42,6 +42,7 @@ public:
     /// Replaces the curve of that name. `values`: one per step of `time`. NaN leaves a gap.
     void setSeries(const QString &name, const Axis &time, std::vector<float> values, Side side = Side::Left);
     void removeSeries(const QString &name);
+    void setLeftTitle(const QString &title);
     void setRightTitle(const QString &title);
 
     /// The values of a picture along time at the cursor's frequency; follows the cursor by itself. Null for none.

@@ -169,6 +169,10 @@ const Theme::Colours &Theme::colours(Kind kind)
         c.curves[1] = isDark ? QColor(0xf0a33c) : QColor(0xc96f00);
         c.curves[2] = isDark ? QColor(0x35c9a0) : QColor(0x00896a);
         c.curves[3] = isDark ? QColor(0xe08fbf) : QColor(0xb14d87);
+        c.curves[4] = isDark ? QColor(0xf0764a) : QColor(0xc03f00);
+        c.curves[5] = isDark ? QColor(0x9fd8f5) : QColor(0x3f9bd0);
+        c.curves[6] = isDark ? QColor(0xe6dc58) : QColor(0x8d8400);
+        c.curves[7] = isDark ? QColor(0xb9c0ca) : QColor(0x444b55);
         return c;
     };
     static const Colours light = make(Kind::Light);
@@ -208,11 +212,16 @@ QFont Theme::plotTitleFont()
 
 void Theme::frame(QwtPlot &plot)
 {
+    frame(plot, plot.hasFocus());
+}
+
+void Theme::frame(QwtPlot &plot, bool hasFocus)
+{
     auto *canvas = qobject_cast<QwtPlotCanvas *>(plot.canvas());
     if (!canvas)
         return;
     QPalette palette = canvas->palette();
-    palette.setColor(QPalette::WindowText, plot.hasFocus() ? colours(plot).accent : colours(plot).frame);
+    palette.setColor(QPalette::WindowText, hasFocus ? colours(plot).accent : colours(plot).frame);
     canvas->setPalette(palette);
 }
 

@@ -39,7 +39,7 @@ public:
         QColor cursor;
         QColor contour; ///< round the cells above the threshold
         QColor error;
-        QColor curves[4]; ///< distinguishable without colour vision, in this order
+        QColor curves[8]; ///< distinguishable without colour vision, in this order
     };
 
     /// Removes the environment variables that would change sizes or style. Call before QApplication is made.
@@ -63,6 +63,7 @@ public:
 
     /// The thin frame of a plot's canvas, in the accent's colour while the plot has the focus.
     static void frame(QwtPlot &plot);
+    static void frame(QwtPlot &plot, bool hasFocus); ///< where the plot is a part of what has it
 
     /// Makes a Qwt plot look like the rest: canvas, thin frame, short ticks, our fonts, margins.
     static void style(QwtPlot &plot);

@@ -136,7 +136,17 @@ void WaterfallView::setEmptySentence(const QString &sentence)
 
 QString WaterfallView::valueUnit() const
 {
-    return m_picture && m_picture->scale().kind() == ByteScale::Kind::ScoreNats ? tr("nat") : tr("dB");
+    return m_picture && m_picture->scale().kind() == ByteScale::Kind::ScoreNats ? m_statisticUnit : tr("dB");
+}
+
+void WaterfallView::setStatisticUnit(const QString &unit, const QString &heading)
+{
+    if (unit == m_statisticUnit && heading == m_heading)
+        return;
+    m_statisticUnit = unit;
+    m_heading = heading;
+    setAccessibleName(tr("%1 waterfall").arg(heading));
+    layAxes();
 }
 
 std::optional<double> WaterfallView::valueAt(double seconds, double hz) const

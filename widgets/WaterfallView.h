@@ -83,7 +83,9 @@ public:
     Span automaticRange() const;
     /// Number of pixels per byte of the picture's scale, for the whole picture at this zoom.
     const std::vector<double> &histogram() const { return m_histogram; }
-    QString valueUnit() const; ///< "dB" or "nat"
+    QString valueUnit() const; ///< "dB", or the statistic's
+    /// What a statistic is measured in, "nat" unless said otherwise, and the heading that says so.
+    void setStatisticUnit(const QString &unit, const QString &heading);
 
     /// The value of the cell there, at the finest level kept; nothing outside the picture.
     std::optional<double> valueAt(double seconds, double hz) const;
@@ -180,6 +182,7 @@ private:
     void fillMenu(QMenu &menu);
 
     QString m_heading;
+    QString m_statisticUnit = QStringLiteral("nat");
     QPointer<Viewport> m_viewport;
     std::shared_ptr<const PeakPyramid> m_picture;
     Axis m_frequency;

@@ -1,15 +1,11 @@
 #include "app/cli/commands.h"
 
+#include "analysis/lineInNoise.h"
 #include "base/AtomicFile.h"
-#include "base/Error.h"
-#include "recording/InjectedRecording.h"
 #include "recording/writeRecording.h"
-#include "spectrum/NoiseNormaliser.h"
-#include "spectrum/Spectrogram.h"
 
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <memory>
 
 namespace faintline::cli {
@@ -47,17 +43,8 @@ void addInject(CLI::App &app, Common &common)
     command->callback([options, &common] {
         const RecordingPointer recording = options->analysis.recording();
         const AnalysisSettings settings = options->analysis.settings();
-        InjectedLine injected{options->line, 0.0};
-        injected.line.fading = options->fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
-        const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
-        const RecordingInfo &info = recording->info();
-        if (injected.line.referenceSeconds <= 0.0)
-            injected.line.referenceSeconds = static_cast<double>(spectrogram.windowSamples()) / info.sampleRateHz;
-        checkLine(injected.line, info, "line");
-        const auto background = estimateBackground(spectrogram, settings.noise, common.context().part(0.0, 0.3));
-        const double end = injected.line.durationSeconds > 0.0 ? injected.line.startSeconds + injected.line.durationSeconds : info.durationSeconds();
-        const double noise = std::exp(background->lnPowerAt(0.5 * (injected.line.startSeconds + end), injected.line.frequencyHz - info.centreHz));
-        injected.amplitude = toneAmplitude(injected.line.snrDb, noise, injected.line.referenceSeconds * info.sampleRateHz, info.isComplex);
+        options->line.fading = options->fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
+        const InjectedLine injected = lineInNoise(options->line, recording, settings, common.context().part(0.0, 0.3));
         const InjectedRecording made(recording, {injected}, settings.selection.channel, static_cast<std::uint64_t>(options->seed));
         writeRecording(made, options->out, options->type == "int16" ? WrittenType::Int16 : WrittenType::Float32, common.context().part(0.3, 1.0));
         if (!options->truth.empty())

@@ -48,6 +48,9 @@ using DetectorSettings =
 inline constexpr std::array<std::string_view, std::variant_size_v<DetectorSettings>> detectorNames{
     "smd", "pOfN", "integrator", "energy", "blockViterbi", "shiryaevRoberts"};
 
+/// What the statistics of these are measured in: log-likelihoods in nats, mean powers as multiples of the noise's.
+inline constexpr std::array<std::string_view, detectorNames.size()> detectorUnits{"nat", "× noise", "× noise", "× noise", "nat", "nat"};
+
 /// The default settings of the alternative of that index.
 DetectorSettings detectorOfKind(std::size_t index);
 

@@ -34,6 +34,13 @@ namespace {
         return ascending.end() - first;
     }
 
+    PdPoint pdOf(const std::vector<float> &ascending, double snrDb, double threshold)
+    {
+        const std::int64_t wins = countAbove(ascending, threshold);
+        const std::int64_t trials = std::ssize(ascending);
+        return {snrDb, static_cast<double>(wins) / static_cast<double>(trials), wilsonInterval(wins, trials), trials};
+    }
+
 } // namespace
 
 PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr)
@@ -68,10 +75,7 @@ PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOut
 PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr,
                       double threshold)
 {
-    const std::vector<float> signals = pooledSignal(outcomes, detector, snr);
-    const std::int64_t wins = countAbove(signals, threshold);
-    const std::int64_t trials = std::ssize(signals);
-    return {experiment.snrDb[snr], static_cast<double>(wins) / static_cast<double>(trials), wilsonInterval(wins, trials), trials};
+    return pdOf(pooledSignal(outcomes, detector, snr), experiment.snrDb[snr], threshold);
 }
 
 double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector, double probability)
@@ -89,10 +93,11 @@ std::vector<RocPoint> rocCurve(const LineExperiment &experiment, std::span<const
     const std::vector<float> maxima = thresholds;
     thresholds.erase(std::unique(thresholds.begin(), thresholds.end()), thresholds.end());
     std::reverse(thresholds.begin(), thresholds.end());
+    const std::vector<float> signals = pooledSignal(outcomes, detector, snr);
     std::vector<RocPoint> curve;
     for (const float threshold : thresholds) {
         const auto above = static_cast<double>(countAbove(maxima, static_cast<double>(threshold)));
-        const PdPoint pd = pdAtThreshold(experiment, outcomes, detector, snr, static_cast<double>(threshold));
+        const PdPoint pd = pdOf(signals, experiment.snrDb[snr], static_cast<double>(threshold));
         curve.push_back({static_cast<double>(threshold), -std::log1p(-above / blocks), pd.pd, pd.interval});
     }
     return curve;

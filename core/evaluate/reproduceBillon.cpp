@@ -2,6 +2,7 @@
 
 #include "base/logmath.h"
 #include "evaluate/PdCurve.h"
+#include "evaluate/peers.h"
 #include "evaluate/theory.h"
 
 #include <algorithm>
@@ -93,21 +94,11 @@ namespace {
 
     Contestant contestantOf(const std::string &name, double durationWindows)
     {
-        Contestant contestant{name, {}};
-        AnalysisSettings &settings = contestant.settings;
-        settings.model = {}; // r0 = 0.5, five slopes, h = 1/3
-        if (name == "integrator")
-            settings.detector = IntegratorSettings{IntegratorSettings::Shape::Boxcar, durationWindows};
-        else if (name == "3 of 4")
-            settings.detector = PofNSettings{3, 4};
-        else if (name == "6 of 8")
-            settings.detector = PofNSettings{6, 8};
-        else if (name == "SMD 5 slopes, K = 2")
-            settings.detector = SmdSettings{SmdSettings::Reset::Fixed, std::log(2.0)};
-        else if (name == "SMD stable") {
-            settings.model.lowestSlope = settings.model.highestSlope = 0;
-            settings.model.slopeChange = {1.0};
-        }
+        if (name != "SMD 5 slopes, K = 2")
+            return peer(name, durationWindows);
+        Contestant contestant = peer("SMD 5 slopes", durationWindows);
+        contestant.name = name;
+        contestant.settings.detector = SmdSettings{SmdSettings::Reset::Fixed, std::log(2.0)};
         return contestant;
     }
 

@@ -17,6 +17,7 @@ namespace {
 
     constexpr int fileVersion = 1;
     constexpr const char *versionKey = "faintlineCampaign";
+    constexpr const char *curveHead = "detector,snr_db,pd,pd_low,pd_high,trials,threshold";
 
     std::string headOf(const Campaign &campaign)
     {
@@ -80,6 +81,50 @@ namespace {
         return path + ".part";
     }
 
+    /// Every detector and SNR of the experiment must have its answers.
+    void checkShape(const Campaign &campaign, const RunOutcome &outcome, const std::string &where)
+    {
+        const auto [detectors, snrs] =
+            std::visit([](const auto &one) { return std::pair(one.detectors.size(), one.snrDb.size()); }, campaign.experiment);
+        bool isWhole = outcome.noise.size() == detectors && outcome.signal.size() == detectors;
+        for (const auto &noise : outcome.noise)
+            isWhole = isWhole && !noise.empty();
+        for (const auto &signal : outcome.signal) {
+            isWhole = isWhole && signal.size() == snrs;
+            for (const auto &values : signal)
+                isWhole = isWhole && !values.empty();
+        }
+        if (!isWhole)
+            throw Error(where, "must hold values for each of the " + std::to_string(detectors) + " detectors and " + std::to_string(snrs) + " SNRs");
+    }
+
+    /// "name",snr,pd,low,high,trials,threshold: the last may be empty.
+    CurvePoint pointFrom(std::string_view line, const std::string &where)
+    {
+        const Error refusal(where, std::string("must be ") + curveHead);
+        const std::size_t quote = line.starts_with('"') ? line.find('"', 1) : std::string_view::npos;
+        if (quote == std::string_view::npos || quote + 1 >= line.size())
+            throw refusal;
+        CurvePoint point;
+        point.detector = line.substr(1, quote - 1);
+        std::vector<std::optional<double>> values;
+        for (std::string_view rest = line.substr(quote + 2);;) {
+            const std::size_t comma = rest.find(',');
+            values.push_back(parseNumber(rest.substr(0, comma)));
+            if (comma == std::string_view::npos)
+                break;
+            rest = rest.substr(comma + 1);
+        }
+        if (values.size() != 6 || !values[0] || !values[1] || !values[2] || !values[3] || !values[4])
+            throw refusal;
+        point.snrDb = *values[0];
+        point.pd = *values[1];
+        point.interval = {*values[2], *values[3]};
+        point.trials = static_cast<std::int64_t>(*values[4]);
+        point.threshold = values[5];
+        return point;
+    }
+
 } // namespace
 
 void writeCampaign(const Campaign &campaign, const std::string &path)
@@ -105,7 +150,9 @@ Campaign readCampaign(const std::string &path)
         if (file.eof())
             break; // no line end: cut off
         try {
-            campaign.outcomes.push_back(outcomeFrom(parseJson(line, path + ", line " + std::to_string(number))));
+            const std::string where = path + ", line " + std::to_string(number);
+            campaign.outcomes.push_back(outcomeFrom(parseJson(line, where)));
+            checkShape(campaign, campaign.outcomes.back(), where);
         } catch (const nlohmann::json::exception &) {
             throw Error(path + ", line " + std::to_string(number), "must be {\"run\": …, \"noise\": [[…]], \"signal\": [[[…]]]}");
         }
@@ -123,12 +170,26 @@ bool isCampaignFile(const std::string &path)
 
 void writeCurve(const Campaign &campaign, const std::string &path)
 {
-    std::string csv = "detector,snr_db,pd,pd_low,pd_high,trials,threshold\n";
+    std::string csv = std::string(curveHead) + "\n";
     for (const CurvePoint &point : pdCurve(campaign))
         csv += "\"" + point.detector + "\"," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + "," + formatNumber(point.interval.low) + ","
             + formatNumber(point.interval.high) + "," + std::to_string(point.trials) + ","
             + (point.threshold ? formatNumber(*point.threshold) : std::string()) + "\n";
     writeTextFile(path, csv);
+}
+
+std::vector<CurvePoint> readCurve(const std::string &path)
+{
+    std::ifstream file(path);
+    if (!file)
+        throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
+    std::string line;
+    if (!std::getline(file, line) || !line.starts_with(curveHead))
+        throw Error(path, "is no curve: its first line must be " + std::string(curveHead));
+    std::vector<CurvePoint> curve;
+    for (int number = 2; std::getline(file, line); ++number)
+        curve.push_back(pointFrom(line, path + ", line " + std::to_string(number)));
+    return curve;
 }
 
 Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> &runs, const std::string &path, const RunContext &context)

@@ -22,6 +22,9 @@ bool isCampaignFile(const std::string &path);
 /// Detection probabilities as CSV: detector, snr_db, pd, pd_low, pd_high (95 %), trials, threshold.
 void writeCurve(const Campaign &campaign, const std::string &path);
 
+/// The points of such a file, in order. Throws Error naming the file and line.
+std::vector<CurvePoint> readCurve(const std::string &path);
+
 /// Does the given runs of an experiment, keeping every finished one in `path` + ".part": a later call with the same experiment takes
 /// them from there, even after a kill. The file is removed by whoever writes the final result (`removeParts`).
 Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> &runs, const std::string &path, const RunContext &context = {});

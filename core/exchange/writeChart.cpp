@@ -45,6 +45,7 @@ namespace {
         bool isLogarithmic = false;
         double from = 0.0; ///< pixel of `low`
         double to = 1.0;
+        double step = 1.0; ///< from tick to tick, linear
 
         void include(double value)
         {
@@ -70,7 +71,7 @@ namespace {
             }
             if (low == high)
                 high += 1.0;
-            const double step = tickStep();
+            step = tickStep(); // of the range as it is: the widened one might ask for another, and its top lie off the canvas
             low = std::floor(low / step + 1e-9) * step;
             high = std::ceil(high / step - 1e-9) * step;
         }
@@ -95,7 +96,6 @@ namespace {
                     result.push_back(std::pow(10.0, std::round(std::log10(low)) + i));
                 return result;
             }
-            const double step = tickStep();
             const int count = static_cast<int>(std::lround((high - low) / step));
             for (int i = 0; i <= count; ++i)
                 result.push_back(std::round(low / step + i) * step);
@@ -213,9 +213,10 @@ std::string chartSvg(const Chart &chart)
     y.settle();
     std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(width + legend) + "\" height=\"" + pixels(height)
         + "\" font-family=\"Inter, sans-serif\" font-size=\"12\" fill=\"#222222\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+    svg += "<defs><clipPath id=\"canvas\"><rect x=\"" + pixels(x.from - 4.0) + "\" y=\"" + pixels(y.to - 4.0) + "\" width=\""
+        + pixels(x.to - x.from + 8.0) + "\" height=\"" + pixels(y.from - y.to + 8.0) + "\"/></clipPath></defs>\n";
     svg += drawAxes(chart, x, y);
-    svg += "<clipPath id=\"canvas\"><rect x=\"" + pixels(x.from - 4.0) + "\" y=\"" + pixels(y.to - 4.0) + "\" width=\"" + pixels(x.to - x.from + 8.0) + "\" height=\""
-        + pixels(y.from - y.to + 8.0) + "\"/></clipPath>\n<g clip-path=\"url(#canvas)\">\n";
+    svg += "<g clip-path=\"url(#canvas)\">\n";
     for (std::size_t i = 0; i < chart.curves.size(); ++i)
         svg += drawCurve(chart.curves[i], std::string(colours[i % colours.size()]), x, y);
     return svg + "</g>\n" + drawLegend(chart, x, y) + "</svg>\n";

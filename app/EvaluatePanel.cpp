@@ -1,0 +1,237 @@
+#include "app/EvaluatePanel.h"
+
+#include "app/Document.h"
+#include "app/ExperimentForm.h"
+#include "evaluate/campaignCharts.h"
+#include "spectrum/Spectrogram.h"
+#include "widgets/ChartPlot.h"
+#include "widgets/quantities.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QTabWidget>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    Chart chartOf(const std::vector<CurvePoint> &points)
+    {
+        Chart chart{"Detection probability", "SNR (dB)", "Pd", false, false, {}};
+        for (const CurvePoint &point : points) {
+            if (chart.curves.empty() || chart.curves.back().name != point.detector)
+                chart.curves.push_back({point.detector, Curve::Kind::Measured, {}});
+            chart.curves.back().points.push_back({point.snrDb, point.pd, point.interval});
+        }
+        return chart;
+    }
+
+    const std::vector<double> &snrsOf(const Campaign &campaign)
+    {
+        return std::visit([](const auto &one) -> const std::vector<double> & { return one.snrDb; },
+                          campaign.experiment);
+    }
+
+} // namespace
+
+EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments, QWidget *parent)
+    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new ExperimentForm),
+      m_start(new QPushButton(tr("Start"))), m_cancel(new QPushButton(tr("Cancel"))), m_progress(new QProgressBar),
+      m_state(new QLabel), m_tabs(new QTabWidget), m_pd(new ChartPlot), m_roc(new ChartPlot), m_snr(new QComboBox)
+{
+    auto *area = new QScrollArea;
+    area->setWidget(m_form);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_progress->setRange(0, 1000);
+    m_progress->setTextVisible(false);
+    m_progress->setFixedHeight(8);
+    m_progress->setAccessibleName(tr("Progress of the experiment"));
+    m_state->setTextFormat(Qt::PlainText);
+    m_state->setWordWrap(true);
+    m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_cancel->setEnabled(false);
+    m_start->setToolTip(tr("Run this experiment; the window stays free meanwhile"));
+
+    auto *buttons = new QHBoxLayout;
+    buttons->setContentsMargins(8, 2, 8, 0);
+    buttons->setSpacing(6);
+    buttons->addWidget(m_start, 1);
+    buttons->addWidget(m_cancel, 1);
+    auto *status = new QVBoxLayout;
+    status->setContentsMargins(8, 2, 8, 4);
+    status->setSpacing(2);
+    status->addWidget(m_progress);
+    status->addWidget(m_state);
+    auto *left = new QVBoxLayout;
+    left->setSpacing(0);
+    left->addWidget(area, 1);
+    left->addLayout(buttons);
+    left->addLayout(status);
+    auto *leftBox = new QWidget;
+    left->setContentsMargins(0, 0, 0, 0);
+    leftBox->setLayout(left);
+    leftBox->setFixedWidth(330);
+
+    auto *rocPage = new QWidget;
+    auto *rocTop = new QHBoxLayout;
+    rocTop->setContentsMargins(8, 4, 8, 0);
+    rocTop->addWidget(new QLabel(tr("at")));
+    rocTop->addWidget(m_snr);
+    rocTop->addStretch(1);
+    m_snr->setAccessibleName(tr("SNR of the ROC curves"));
+    auto *rocLayout = new QVBoxLayout(rocPage);
+    rocLayout->setContentsMargins(0, 0, 0, 0);
+    rocLayout->setSpacing(0);
+    rocLayout->addLayout(rocTop);
+    rocLayout->addWidget(m_roc, 1);
+    m_tabs->addTab(m_pd, tr("Pd against SNR"));
+    m_tabs->addTab(rocPage, tr("ROC"));
+    m_tabs->setDocumentMode(true);
+    m_pd->setInvitation(tr("click to see one of its trials"));
+    for (ChartPlot *plot : {m_pd, m_roc})
+        plot->setEmptySentence(tr("Choose lines and detectors, then press Start: the curves grow here."));
+
+    auto *layout = new QHBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(leftBox);
+    layout->addWidget(m_tabs, 1);
+
+    connect(m_start, &QPushButton::clicked, this, &EvaluatePanel::start);
+    connect(m_cancel, &QPushButton::clicked, this, &EvaluatePanel::cancel);
+    connect(m_form, &ExperimentForm::changed, this, &EvaluatePanel::followForm);
+    connect(m_snr, &QComboBox::activated, this, [this] {
+        if (const Experiments::Entry *entry = m_experiments.entry(m_shown))
+            showRoc(*entry);
+    });
+    connect(m_tabs, &QTabWidget::currentChanged, this, [this] {
+        if (const Experiments::Entry *entry = m_experiments.entry(m_shown))
+            showRoc(*entry);
+    });
+    connect(m_pd, &ChartPlot::pointActivated, this, [this](std::size_t curve, std::size_t point) {
+        if (const Experiments::Entry *entry = m_experiments.entry(m_shown); entry && entry->campaign)
+            emit trialRequested(m_shown, curve, point);
+    });
+    connect(&experiments, &Experiments::changed, this, &EvaluatePanel::follow);
+    connect(&experiments, &Experiments::removed, this, [this](int id) {
+        if (id == m_shown)
+            show(0);
+    });
+    connect(&document, &Document::analysisChanged, this, &EvaluatePanel::followDocument);
+    connect(&document, &Document::opened, this, &EvaluatePanel::followDocument);
+    connect(&document, &Document::settingsChanged, this, &EvaluatePanel::followDocument);
+    followForm();
+}
+
+void EvaluatePanel::followDocument()
+{
+    double windowSeconds = 0.0;
+    if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
+        if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()))
+            windowSeconds =
+                static_cast<double>(frames->spectrogram().windowSamples()) / analysis->recording->info().sampleRateHz;
+    m_form->setCurrent(m_document.settings(), windowSeconds);
+}
+
+void EvaluatePanel::followForm()
+{
+    m_start->setEnabled(m_form->obstacle().isEmpty());
+}
+
+void EvaluatePanel::start()
+{
+    if (const QString why = m_form->obstacle(); !why.isEmpty())
+        return emit failed(Error("experiment", why.toStdString()));
+    const bool isInRecording = m_form->isInRecording();
+    const QString source = m_document.source().name();
+    show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()),
+                                             m_form->injection(m_document.source().path), m_document.recording())
+                       : m_experiments.start(m_form->name(), m_form->lines()));
+}
+
+void EvaluatePanel::cancel()
+{
+    m_experiments.cancel(m_shown);
+}
+
+void EvaluatePanel::show(int id)
+{
+    m_shown = id;
+    if (const Experiments::Entry *entry = m_experiments.entry(id)) {
+        fillSnrs(*entry);
+        return follow(id);
+    }
+    m_pd->setChart({});
+    m_roc->setChart({});
+    m_progress->setValue(0);
+    m_state->clear();
+    m_cancel->setEnabled(false);
+}
+
+void EvaluatePanel::follow(int id)
+{
+    const Experiments::Entry *entry = m_experiments.entry(id);
+    if (id != m_shown || !entry)
+        return;
+    showState(*entry);
+    showPd(*entry);
+    showRoc(*entry);
+}
+
+void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
+{
+    m_snr->clear();
+    if (!entry.campaign)
+        return;
+    const std::vector<double> &snrs = snrsOf(*entry.campaign);
+    for (const double db : snrs)
+        m_snr->addItem(tr("%1 dB").arg(numberText(db, db == std::floor(db) ? 0 : 1)));
+    m_snr->setCurrentIndex(static_cast<int>(snrs.size() / 2));
+}
+
+void EvaluatePanel::showPd(const Experiments::Entry &entry)
+{
+    m_pd->setInvitation(entry.campaign ? tr("click to see one of its trials") : QString());
+    m_pd->setChart(entry.imported ? chartOf(*entry.imported) : entry.campaign ? pdChart(*entry.campaign) : Chart());
+}
+
+/// Only while it is looked at: it costs more than Pd.
+void EvaluatePanel::showRoc(const Experiments::Entry &entry)
+{
+    if (m_tabs->currentIndex() == 1)
+        m_roc->setChart(entry.campaign && m_snr->currentIndex() >= 0
+                            ? rocChart(*entry.campaign, static_cast<std::size_t>(m_snr->currentIndex()))
+                            : Chart());
+}
+
+void EvaluatePanel::showState(const Experiments::Entry &entry)
+{
+    m_cancel->setEnabled(entry.isOpen());
+    m_progress->setValue(static_cast<int>(1000.0 * entry.progress));
+    const int runs = entry.campaign ? runCount(entry.campaign->experiment) : 0;
+    const QString done = tr("%1 of %2 runs").arg(entry.runsDone()).arg(runs);
+    switch (entry.state) {
+    case Experiments::State::Waiting:
+        return m_state->setText(tr("waiting for the one before"));
+    case Experiments::State::Running:
+        return m_state->setText(entry.doing.isEmpty() ? done : done + QStringLiteral(" · ") + entry.doing);
+    case Experiments::State::Done:
+        return m_state->setText(entry.imported ? tr("imported: no trials behind its points")
+                                               : tr("done, %1").arg(done));
+    case Experiments::State::Cancelled:
+        return m_state->setText(tr("cancelled after %1").arg(done));
+    case Experiments::State::Failed:
+        return m_state->setText(tr("failed: %1").arg(entry.failure));
+    }
+}
+
+} // namespace faintline

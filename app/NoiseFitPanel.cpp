@@ -1,0 +1,168 @@
+#include "app/NoiseFitPanel.h"
+
+#include "analysis/Calibration.h"
+#include "app/Document.h"
+#include "widgets/ChartPlot.h"
+#include "widgets/quantities.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int bandCount = 6;
+    constexpr double rarest = 1e-4; ///< beyond it a ratio would rest on a handful of cells
+    constexpr double fewest = 10.0; ///< values beyond a quantile that is drawn
+
+    QString bandText(const FittedBand &band)
+    {
+        const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
+        const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
+        return QObject::tr("%1 … %2 %3")
+            .arg(numberText(band.low / unit.hz, decimals), numberText(band.high / unit.hz, decimals), unit.name);
+    }
+
+    Chart chartOf(const std::vector<FittedBand> &bands)
+    {
+        Chart chart{"Normalised noise against its law", "quantile of the law e^(-y)", "measured y", false, false, {}};
+        double longest = 1.0;
+        for (const FittedBand &band : bands) {
+            Curve curve{bandText(band).toStdString(), Curve::Kind::Measured, {}};
+            for (double x = 0.5; static_cast<double>(band.law.count()) * std::exp(-x) >= fewest; x += 0.5) {
+                curve.points.push_back({x, band.law.quantile(std::exp(-x)), {}});
+                longest = std::max(longest, x);
+            }
+            chart.curves.push_back(std::move(curve));
+        }
+        chart.curves.push_back({"the law", Curve::Kind::Theory, {{0.0, 0.0, {}}, {longest, longest, {}}}});
+        return chart;
+    }
+
+} // namespace
+
+NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_sentence(new QLabel(tr("Open a recording to measure its noise."))),
+      m_plot(new ChartPlot), m_table(new QTableWidget(0, 4))
+{
+    m_sentence->setWordWrap(true);
+    m_sentence->setTextFormat(Qt::PlainText);
+    m_sentence->setContentsMargins(8, 6, 8, 4);
+    m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
+    m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
+    m_table->horizontalHeaderItem(2)->setToolTip(
+        tr("Kolmogorov and Smirnov's distance to e^(-y), and its 95 % limit for as many independent values"));
+    m_table->horizontalHeaderItem(3)->setToolTip(
+        tr("How much likelier this band's noise exceeds a threshold in a cell than noise of the law itself: at the "
+           "threshold's own false-alarm "
+           "probability, or at 10⁻⁴ where that is smaller than can be vouched for"));
+    m_table->verticalHeader()->hide();
+    m_table->verticalHeader()->setDefaultSectionSize(22);
+    m_table->horizontalHeader()->setHighlightSections(false);
+    m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    m_table->horizontalHeader()->setStretchLastSection(true);
+    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
+    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_table->setShowGrid(false);
+    m_table->setFrameShape(QFrame::NoFrame);
+    m_table->setAccessibleName(tr("Fit of the noise, band by band"));
+    auto *splitter = new QSplitter(Qt::Vertical);
+    splitter->addWidget(m_plot);
+    splitter->addWidget(m_table);
+    splitter->setSizes({260, 170});
+    splitter->setChildrenCollapsible(false);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_sentence);
+    layout->addWidget(splitter, 1);
+
+    connect(&document, &Document::analysisChanged, this, &NoiseFitPanel::measure);
+    connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
+        m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+    });
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        m_sentence->setText(QString::fromUtf8(error.what()));
+        emit settled();
+    });
+    connect(&m_runner, &JobRunner::finished, this, &NoiseFitPanel::settled);
+}
+
+QString NoiseFitPanel::sentence() const
+{
+    return m_sentence->text();
+}
+
+void NoiseFitPanel::showEvent(QShowEvent *event)
+{
+    QWidget::showEvent(event);
+    measure();
+}
+
+void NoiseFitPanel::measure()
+{
+    const auto &analysis = m_document.analysis();
+    if (!analysis || !isVisible() || m_measured == analysis)
+        return;
+    m_measured = analysis;
+    m_runner.start([this, analysis](const RunContext &context) -> JobRunner::Delivery {
+        Fit fit{analysis, {}, {}};
+        const FrameGeometry geometry =
+            analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
+        fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4));
+        fit.pfa = misfitPfa(fit.bands, analysis->settings,
+                            std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
+                            context.part(0.4, 1.0));
+        return [this, fit = std::move(fit)] { show(fit); };
+    });
+}
+
+void NoiseFitPanel::show(const Fit &fit)
+{
+    m_plot->setChart(chartOf(fit.bands));
+    m_table->setRowCount(static_cast<int>(fit.bands.size()));
+    for (int row = 0; row < m_table->rowCount(); ++row) {
+        const FittedBand &band = fit.bands[static_cast<std::size_t>(row)];
+        const QString texts[] = {bandText(band), numberText(band.law.mean(), 3),
+                                 tr("%1 %2 %3")
+                                     .arg(numberText(band.law.distance(), 4),
+                                          band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
+                                          numberText(NoiseLaw::distanceLimit(band.independent), 4)),
+                                 QStringLiteral("× ") + powerText(fit.pfa[static_cast<std::size_t>(row)].ratio(), 3)};
+        for (int column = 0; column < 4; ++column) {
+            auto *item = new QTableWidgetItem(texts[column]);
+            item->setTextAlignment((column == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+            m_table->setItem(row, column, item);
+        }
+    }
+    say(fit);
+}
+
+void NoiseFitPanel::say(const Fit &fit)
+{
+    const auto misfits =
+        std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
+    const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
+                                        [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
+    const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())]);
+    const QString ratio = powerText(worst->ratio(), 3);
+    const QString nominal = powerText(worst->nominal);
+    m_sentence->setText(misfits == 0 ? tr("All bands follow the law. Where it gives a Pfa of %3 per cell, these give "
+                                          "at most %1 times that (%2).")
+                                           .arg(ratio, band, nominal)
+                                     : tr("%1 of %2 bands depart from the law; lines in them do so too. Taken as "
+                                          "noise, %3 would give %4 times a Pfa of "
+                                          "%5 per cell.")
+                                           .arg(misfits)
+                                           .arg(fit.bands.size())
+                                           .arg(band, ratio, nominal));
+}
+
+} // namespace faintline

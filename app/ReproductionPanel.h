@@ -1,0 +1,46 @@
+#pragma once
+
+#include "evaluate/reproduce.h"
+
+#include <QWidget>
+
+#include <memory>
+
+class QComboBox;
+class QLabel;
+class QTableWidget;
+
+namespace faintline {
+
+class ChartPlot;
+
+/// A table or figure of a publication beside ours: every cell with the paper's figure, ours, its interval, the gap and whether it lies
+/// inside its tolerance; the chart next to it; what the reader should know below.
+class ReproductionPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit ReproductionPanel(QWidget *parent = nullptr);
+
+    void show(std::shared_ptr<const Reproduction> reproduction);
+    QTableWidget *table() const { return m_table; }
+    ChartPlot &plot() { return *m_plot; }
+
+    QSize sizeHint() const override { return {900, 320}; }
+
+protected:
+    void changeEvent(QEvent *event) override;
+
+private:
+    void fillTable();
+
+    std::shared_ptr<const Reproduction> m_reproduction;
+    QLabel *m_title;
+    QLabel *m_notes;
+    QTableWidget *m_table;
+    QComboBox *m_which;
+    ChartPlot *m_plot;
+};
+
+} // namespace faintline

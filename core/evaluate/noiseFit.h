@@ -1,0 +1,81 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "base/RunContext.h"
+#include "spectrum/NormalisedFrames.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// How the normalised noise of one band is distributed, beside the law that every threshold rests on:
+///
+///   P(y > t) = e^{-t},   mean 1
+///
+/// Values are counted in steps of 2⁻¹⁰ up to 32, so a band of any length costs the same memory and the distance is known to 10⁻³.
+class NoiseLaw
+{
+public:
+    NoiseLaw();
+
+    void add(std::span<const float> y);
+    void add(const NoiseLaw &other);
+
+    std::int64_t count() const { return m_count; }
+    double mean() const { return m_count > 0 ? m_sum / static_cast<double>(m_count) : 0.0; }
+
+    /// P(y > t), the share of the values counted.
+    double exceedance(double t) const;
+
+    /// The t with P(y > t) = probability, linear within a step.
+    double quantile(double probability) const;
+
+    /// Kolmogorov and Smirnov's distance: sup |P(y > t) - e^{-t}|.
+    double distance() const;
+
+    /// The distance's 95 % limit for `independent` values of the law itself: 1.358/√n (Smirnov 1948).
+    static double distanceLimit(double independent);
+
+private:
+    static constexpr int stepsPerUnit = 1024;
+    static constexpr int largest = 32;
+
+    std::vector<std::int64_t> m_counts; ///< per step; the last holds whatever lies above
+    std::int64_t m_count = 0;
+    double m_sum = 0.0;
+};
+
+/// One band's law, and what it does to false alarms.
+struct FittedBand {
+    double low = 0.0; ///< position on the frames' last axis, Hz
+    double high = 0.0;
+    NoiseLaw law;
+    double independent = 0.0; ///< values that overlap leaves independent: cells over k_t·k_f
+
+    bool fits() const { return law.distance() <= NoiseLaw::distanceLimit(independent); }
+};
+
+/// Counts frames' values in `bands` bands of equal width. Looks at no more than about `cells` values, in frames spread evenly.
+/// `geometry`: how far overlap makes neighbours dependent. Throws Cancelled.
+std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {},
+                                 const RunContext &context = {}, std::int64_t cells = 20'000'000);
+
+/// Of one detector's statistic at a threshold, per cell: as the exponential law has it, and as a band's own law has it.
+struct MisfitPfa {
+    double nominal = 0.0;
+    double actual = 0.0;
+
+    double ratio() const { return nominal > 0.0 ? actual / nominal : 1.0; }
+};
+
+/// What the bands' misfits do to a false-alarm probability per cell, band by band: the detector runs on independent cells drawn from
+/// the band's law, and on cells of the exponential law made of the same random numbers; the threshold is the one that gives `pfa` on
+/// the latter, with K found there. Beyond 3·10⁻⁵ the exceedance goes on with the slope of its last decade and a half, as the
+/// statistic's exponential tail does. Overlap's correlation is left out of both. Oracle: the energy detector, whose exceedance is the
+/// law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
+std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa,
+                                 const RunContext &context = {});
+
+} // namespace faintline

@@ -1,0 +1,267 @@
+// The evaluation side from outside: an experiment is started, grows, is cancelled, looked into; a line is injected and taken out again.
+
+#include "app/EvaluatePanel.h"
+#include "app/ExperimentForm.h"
+#include "app/ExperimentsPanel.h"
+#include "app/MainWindow.h"
+#include "app/NoiseFitPanel.h"
+#include "app/ReproductionPanel.h"
+#include "app/TrialViewer.h"
+#include "app/TrialWindow.h"
+#include "app/Workbench.h"
+#include "widgets/ChartPlot.h"
+
+#include <QFile>
+#include <QSignalSpy>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <memory>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 120000; // ms
+
+} // namespace
+
+class tst_Evaluation : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void cleanupTestCase() { m_window.reset(); }
+
+    void anExperimentGrowsAndEnds();
+    void aPointOpensItsTrials();
+    void cancelKeepsTheRunsThereAre();
+    void oneAfterTheOther();
+    void whatCannotRunSaysWhy();
+    void curvesComeBackFromFiles();
+    void linesInThisRecording();
+    void aLineIsInjectedAndUndone();
+    void aReproductionShowsItsTable();
+    void theNoiseIsMeasuredWhileItIsSeen();
+
+private:
+    bool idle()
+    {
+        return QTest::qWaitFor([this] { return !m_window->experiments().isBusy(); }, patience);
+    }
+    const Experiments::Entry &shown() { return *m_window->experiments().entry(m_window->evaluation().shown()); }
+    void fillForm(int runs) { m_window->evaluation().form().setQuick(runs, {"3 of 4", "integrator"}, 0.0, 3.0, 3.0); }
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+};
+
+void tst_Evaluation::initTestCase()
+{
+    Theme::apply(Theme::Kind::Dark);
+    QFile scene(m_folder.filePath("scene.json"));
+    QVERIFY(scene.open(QIODevice::WriteOnly));
+    scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120}]})");
+    scene.close();
+    m_window = std::make_unique<MainWindow>();
+    m_window->setAsking(false);
+    m_window->resize(1400, 900);
+    m_window->show();
+    QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
+    m_window->open(scene.fileName());
+    QVERIFY(settled.wait(patience));
+    QVERIFY(m_window->document().analysis());
+}
+
+void tst_Evaluation::anExperimentGrowsAndEnds()
+{
+    fillForm(3);
+    QSignalSpy changed(&m_window->experiments(), &Experiments::changed);
+    m_window->evaluation().start();
+    QVERIFY(m_window->experiments().isBusy());
+    QVERIFY(idle());
+    QVERIFY(shown().state == Experiments::State::Done);
+    QCOMPARE(shown().runsDone(), 3);
+    QVERIFY(changed.count() >= 2);
+    const Chart &chart = m_window->evaluation().pd().chart();
+    QCOMPARE(chart.curves.size(), std::size_t(3)); // two measured, Marcum's Q
+    QCOMPARE(chart.curves[0].points.size(), std::size_t(2));
+    QVERIFY(chart.curves[1].points[0].y > chart.curves[0].points[0].y); // who knows the duration is better
+
+    // The same as the library's own answer.
+    Campaign whole{std::get<LineExperiment>(shown().campaign->experiment), {}, {}};
+    carryOut(whole, {0, 1, 2});
+    QVERIFY(whole.outcomes == shown().campaign->outcomes);
+}
+
+void tst_Evaluation::aPointOpensItsTrials()
+{
+    ChartPlot &pd = m_window->evaluation().pd();
+    QSignalSpy opened(&m_window->trials(), &TrialViewer::shown);
+    emit pd.pointActivated(1, 1);
+    QVERIFY(opened.wait(patience));
+    TrialWindow *window = m_window->trials().window();
+    QVERIFY(window->isVisible());
+    QVERIFY2(window->sentence().startsWith("integrator at 3.0 dB: detected"), qPrintable(window->sentence()));
+    QVERIFY(window->workbench().output()->picture());
+    QCOMPARE(window->document().truth().lines.size(), std::size_t(1));
+    QVERIFY(!window->document().shownEvents().empty());
+    // What was open stays open.
+    QCOMPARE(m_window->document().source().name(), QString("scene.json"));
+    const QString first = window->windowTitle();
+    emit window->stepRequested(1, false);
+    QVERIFY(opened.wait(patience));
+    QVERIFY(window->windowTitle() != first);
+    window->close();
+}
+
+void tst_Evaluation::cancelKeepsTheRunsThereAre()
+{
+    fillForm(10000);
+    m_window->evaluation().start();
+    const int id = m_window->evaluation().shown();
+    QVERIFY(QTest::qWaitFor([&] { return m_window->experiments().entry(id)->runsDone() >= 1; }, patience));
+    m_window->evaluation().cancel();
+    QVERIFY(m_window->experiments().entry(id)->state == Experiments::State::Cancelled);
+    QVERIFY(!m_window->experiments().isBusy());
+    const int runs = m_window->experiments().entry(id)->runsDone();
+    QVERIFY(runs >= 1 && runs < 10000);
+    QVERIFY(!m_window->evaluation().pd().chart().curves.empty());
+    QTest::qWait(50);
+    QCOMPARE(m_window->experiments().entry(id)->runsDone(), runs); // nothing trickles in
+}
+
+void tst_Evaluation::oneAfterTheOther()
+{
+    Experiments &experiments = m_window->experiments();
+    fillForm(1);
+    m_window->evaluation().start();
+    const int first = m_window->evaluation().shown();
+    m_window->evaluation().start();
+    const int second = m_window->evaluation().shown();
+    m_window->evaluation().start();
+    const int third = m_window->evaluation().shown();
+    QVERIFY(experiments.entry(first)->state == Experiments::State::Running);
+    QVERIFY(experiments.entry(second)->state == Experiments::State::Waiting);
+    experiments.remove(second);
+    QVERIFY(idle());
+    QVERIFY(experiments.entry(first)->state == Experiments::State::Done);
+    QVERIFY(!experiments.entry(second));
+    QVERIFY(experiments.entry(third)->state == Experiments::State::Done);
+    QVERIFY(experiments.entry(first)->campaign->outcomes == experiments.entry(third)->campaign->outcomes);
+    emit m_window->experimentList().showRequested(first);
+    QCOMPARE(m_window->evaluation().shown(), first);
+}
+
+void tst_Evaluation::whatCannotRunSaysWhy()
+{
+    ExperimentForm &form = m_window->evaluation().form();
+    form.setQuick(1, {}, 0.0, 3.0, 3.0);
+    QVERIFY(form.obstacle().contains("detector"));
+    form.setQuick(1, {"3 of 4"}, 3.0, 0.0, 1.0);
+    QVERIFY(form.obstacle().contains("SNR"));
+    fillForm(1);
+    QCOMPARE(form.obstacle(), QString());
+}
+
+void tst_Evaluation::curvesComeBackFromFiles()
+{
+    ExperimentsPanel &list = m_window->experimentList();
+    const int id = m_window->evaluation().shown();
+    const Chart before = m_window->evaluation().pd().chart();
+    list.exportTo(id, m_folder.filePath("curve.csv"));
+    list.exportTo(id, m_folder.filePath("runs.jsonl"));
+    m_window->evaluation().show(list.importFile(m_folder.filePath("runs.jsonl")));
+    QCOMPARE(m_window->evaluation().pd().chart().curves.size(), before.curves.size());
+    QVERIFY(shown().campaign->outcomes == m_window->experiments().entry(id)->campaign->outcomes);
+    m_window->evaluation().show(list.importFile(m_folder.filePath("curve.csv")));
+    const Chart after = m_window->evaluation().pd().chart();
+    QCOMPARE(after.curves.size(), std::size_t(2));
+    QCOMPARE(after.curves[1].points[1].y, before.curves[1].points[1].y);
+    QVERIFY_EXCEPTION_THROWN(list.importFile(m_folder.filePath("scene.json")), Error);
+}
+
+void tst_Evaluation::linesInThisRecording()
+{
+    ExperimentForm &form = m_window->evaluation().form();
+    form.setQuick(4, {"integrator"}, 6.0, 6.0, 1.0);
+    form.setInRecording(true);
+    m_window->evaluation().start();
+    QVERIFY(idle());
+    form.setInRecording(false);
+    QVERIFY2(shown().state == Experiments::State::Done, qPrintable(shown().failure));
+    QCOMPARE(shown().runsDone(), 4);
+    QCOMPARE(m_window->evaluation().pd().chart().curves.size(), std::size_t(1));
+    QSignalSpy opened(&m_window->trials(), &TrialViewer::shown);
+    emit m_window->evaluation().pd().pointActivated(0, 0);
+    QVERIFY(opened.wait(patience));
+    QCOMPARE(m_window->trials().window()->document().truth().lines.size(), std::size_t(1));
+    m_window->trials().window()->close();
+}
+
+void tst_Evaluation::aLineIsInjectedAndUndone()
+{
+    Document &document = m_window->document();
+    const RecordingPointer before = document.recording();
+    const std::size_t eventsBefore = document.shownEvents().size();
+    LineSettings line;
+    line.snrDb = 9.0;
+    line.referenceSeconds = 0.0; // the spectrogram's window
+    line.startSeconds = 10.0;
+    line.durationSeconds = 30.0;
+    line.frequencyHz = 330.0;
+    QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
+    m_window->controller().inject(line);
+    QVERIFY(QTest::qWaitFor(
+        [&] { return !m_window->controller().isBusy() && document.isCurrent() && document.recording() != before; },
+        patience));
+    QCOMPARE(document.truth().lines.size(), std::size_t(2));
+    QCOMPARE(document.source().injections.size(), std::size_t(1));
+    QVERIFY(document.shownEvents().size() > eventsBefore);
+    QVERIFY(document.isModified());
+
+    // A session keeps it.
+    const QString path = m_folder.filePath("injected.faintline");
+    writeSession(path, {document.source(), {}, document.settings(), {}});
+    const OpenedSource again = openSource(readSession(path).source);
+    QCOMPARE(again.truth, document.truth());
+    std::vector<float> a(1000), b(1000);
+    document.recording()->read(0, 15000, 1000, a);
+    again.recording->read(0, 15000, 1000, b);
+    QCOMPARE(a, b);
+
+    document.undoStack().undo();
+    QVERIFY(QTest::qWaitFor([&] { return !m_window->controller().isBusy(); }, patience));
+    QCOMPARE(document.recording(), before);
+    QVERIFY(document.isCurrent());
+    QCOMPARE(document.truth().lines.size(), std::size_t(1));
+    QCOMPARE(document.shownEvents().size(), eventsBefore);
+}
+
+void tst_Evaluation::aReproductionShowsItsTable()
+{
+    const int id = m_window->experiments().start(reproducible("billon:figure1"), {true, 1});
+    QVERIFY(idle());
+    QVERIFY2(m_window->experiments().entry(id)->reproduction != nullptr,
+             qPrintable(m_window->experiments().entry(id)->failure));
+    QCOMPARE(m_window->reproduction().table()->rowCount(), 2);
+    QVERIFY(m_window->reproduction().isVisible());
+    QCOMPARE(m_window->reproduction().plot().chart().curves.size(), std::size_t(2));
+    m_window->experimentList().exportTo(id, m_folder.filePath("out"));
+    QVERIFY(QFile::exists(m_folder.filePath("out/billon-figure1.svg")));
+}
+
+void tst_Evaluation::theNoiseIsMeasuredWhileItIsSeen()
+{
+    m_window->showNoiseFit();
+    QVERIFY(QTest::qWaitFor([this] { return !m_window->noiseFit().isBusy(); }, patience));
+    QCOMPARE(m_window->noiseFit().table()->rowCount(), 6);
+    QVERIFY2(m_window->noiseFit().sentence().contains("law"), qPrintable(m_window->noiseFit().sentence()));
+    QCOMPARE(m_window->noiseFit().plot().chart().curves.size(), std::size_t(7));
+}
+
+QTEST_MAIN(tst_Evaluation)
+#include "tst_Evaluation.moc"

@@ -1,0 +1,174 @@
+#include "widgets/ChartPlot.h"
+
+#include "widgets/Theme.h"
+
+#include <qwt_plot.h>
+#include <qwt_plot_curve.h>
+#include <qwt_text.h>
+
+#include <QCheckBox>
+#include <QSignalSpy>
+#include <QtTest>
+
+#include <memory>
+
+using namespace faintline;
+
+/// A chart one can look into: it draws, its key toggles, a point can be read and clicked.
+class tst_ChartPlot : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { Theme::apply(Theme::Kind::Light); }
+    void init();
+    void cleanup() { m_view.reset(); }
+
+    void drawsEveryCurve();
+    void theKeyTogglesAndRemembers();
+    void hoverReadsAndClickAsks();
+    void theoryCannotBeClicked();
+    void keysWalkFromPointToPoint();
+    void logarithmicAxesPlaceDecadesEvenly();
+    void growsWithoutLosingItsKey();
+    void emptySaysWhatToDo();
+
+private:
+    static Chart chart(bool isLogarithmicX = false)
+    {
+        const Curve measured{
+            "integrator", Curve::Kind::Measured, {{1, 0.2, {0.1, 0.3}}, {10, 0.6, {0.5, 0.7}}, {100, 0.9, {0.8, 1.0}}}};
+        const Curve other{"3 of 4", Curve::Kind::Measured, {{1, 0.1, {}}, {10, 0.3, {}}, {100, 0.5, {}}}};
+        const Curve theory{"integrator, Marcum Q", Curve::Kind::Theory, {{1, 0.25, {}}, {100, 0.95, {}}}};
+        const Curve paper{"3 of 4, paper", Curve::Kind::Paper, {{10, 0.35, {}}}};
+        return {"Detection", "SNR (dB)", "Pd", isLogarithmicX, false, {measured, other, theory, paper}};
+    }
+
+    QwtPlotCurve *item(const QString &name) const
+    {
+        for (QwtPlotItem *one : m_view->plot()->itemList(QwtPlotItem::Rtti_PlotCurve))
+            if (one->title().text() == name)
+                return static_cast<QwtPlotCurve *>(one);
+        return nullptr;
+    }
+
+    void hover(const QPointF &at)
+    {
+        QMouseEvent move(QEvent::MouseMove, at, at, Qt::NoButton, Qt::NoButton, {});
+        QCoreApplication::sendEvent(m_view->plot()->canvas(), &move);
+    }
+
+    std::unique_ptr<ChartPlot> m_view;
+};
+
+void tst_ChartPlot::init()
+{
+    m_view = std::make_unique<ChartPlot>();
+    m_view->setInvitation("click to open a trial");
+    m_view->setChart(chart());
+    m_view->resize(640, 360);
+    m_view->show();
+    QVERIFY(QTest::qWaitForWindowExposed(m_view.get()));
+}
+
+void tst_ChartPlot::drawsEveryCurve()
+{
+    QCOMPARE(m_view->plot()->itemList(QwtPlotItem::Rtti_PlotCurve).size(), 4);
+    QCOMPARE(m_view->plot()->itemList(QwtPlotItem::Rtti_PlotIntervalCurve).size(), 1);
+    // The curve's colour is on the canvas; theory has its detector's colour, another detector another.
+    QSet<QRgb> colours;
+    const QImage image = m_view->plot()->canvas()->grab().toImage();
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            colours.insert(image.pixel(x, y) | 0xff000000);
+    const Theme::Colours &theme = Theme::colours(Theme::Kind::Light);
+    QVERIFY(colours.contains(theme.curves[0].rgb()));
+    QVERIFY(colours.contains(theme.curves[1].rgb()));
+    QVERIFY(!colours.contains(theme.curves[2].rgb()));
+}
+
+void tst_ChartPlot::theKeyTogglesAndRemembers()
+{
+    const QList<QCheckBox *> boxes = m_view->findChildren<QCheckBox *>();
+    QCOMPARE(boxes.size(), 4);
+    QCOMPARE(boxes[1]->text(), QString("3 of 4"));
+    QTest::mouseClick(boxes[1], Qt::LeftButton, {}, QPoint(8, boxes[1]->height() / 2));
+    QVERIFY(!m_view->isShown(1));
+    QVERIFY(m_view->isShown(0));
+    m_view->setChart(chart());
+    QVERIFY(!m_view->isShown(1));
+    hover(m_view->canvasPosition(1, 2));
+    QVERIFY2(!m_view->readOut().startsWith("3 of 4:"), qPrintable(m_view->readOut()));
+}
+
+void tst_ChartPlot::hoverReadsAndClickAsks()
+{
+    hover(m_view->canvasPosition(0, 1) + QPointF(3, -2));
+    QVERIFY2(m_view->readOut().startsWith("integrator:"), qPrintable(m_view->readOut()));
+    QVERIFY(m_view->readOut().contains("0.6"));
+    QVERIFY(m_view->readOut().contains(QString::fromUtf8("0.5 … 0.7")));
+    QVERIFY(m_view->readOut().contains("click to open a trial"));
+    QSignalSpy activated(m_view.get(), &ChartPlot::pointActivated);
+    QTest::mouseClick(m_view->plot()->canvas(), Qt::LeftButton, {}, m_view->canvasPosition(1, 2).toPoint());
+    QCOMPARE(activated.count(), 1);
+    QCOMPARE(activated[0][0].value<std::size_t>(), std::size_t(1));
+    QCOMPARE(activated[0][1].value<std::size_t>(), std::size_t(2));
+}
+
+void tst_ChartPlot::theoryCannotBeClicked()
+{
+    QSignalSpy activated(m_view.get(), &ChartPlot::pointActivated);
+    Chart theory = chart();
+    theory.curves = {theory.curves[2], theory.curves[3]};
+    m_view->setChart(theory);
+    QTest::mouseClick(m_view->plot()->canvas(), Qt::LeftButton, {}, m_view->canvasPosition(0, 0).toPoint());
+    QTest::mouseClick(m_view->plot()->canvas(), Qt::LeftButton, {}, m_view->canvasPosition(1, 0).toPoint());
+    QCOMPARE(activated.count(), 0);
+    QVERIFY(m_view->readOut().startsWith("3 of 4, paper:")); // but read
+}
+
+void tst_ChartPlot::keysWalkFromPointToPoint()
+{
+    QSignalSpy activated(m_view.get(), &ChartPlot::pointActivated);
+    QTest::keyClick(m_view.get(), Qt::Key_Right);
+    QTest::keyClick(m_view.get(), Qt::Key_Right);
+    QTest::keyClick(m_view.get(), Qt::Key_Down);
+    QTest::keyClick(m_view.get(), Qt::Key_Return);
+    QCOMPARE(activated.count(), 1);
+    QCOMPARE(activated[0][0].value<std::size_t>(), std::size_t(1));
+    QCOMPARE(activated[0][1].value<std::size_t>(), std::size_t(1));
+}
+
+void tst_ChartPlot::logarithmicAxesPlaceDecadesEvenly()
+{
+    m_view->setChart(chart(true));
+    const double first = m_view->canvasPosition(0, 0).x(), second = m_view->canvasPosition(0, 1).x(),
+                 third = m_view->canvasPosition(0, 2).x();
+    QVERIFY(second > first + 20.0);
+    QVERIFY(std::abs((third - second) - (second - first)) < 1.5);
+}
+
+void tst_ChartPlot::growsWithoutLosingItsKey()
+{
+    QPointer<QCheckBox> box = m_view->findChildren<QCheckBox *>().first();
+    Chart grown = chart();
+    grown.curves[0].points.push_back({200, 0.95, {0.9, 1.0}});
+    m_view->setChart(grown);
+    QVERIFY(box);
+    QCOMPARE(item("integrator")->dataSize(), std::size_t(4));
+    QVERIFY(m_view->canvasPosition(0, 3).x() > m_view->canvasPosition(0, 2).x());
+}
+
+void tst_ChartPlot::emptySaysWhatToDo()
+{
+    const QImage before = m_view->grab().toImage();
+    m_view->setChart({});
+    m_view->setEmptySentence("Press Start.");
+    QVERIFY(m_view->grab().toImage() != before);
+    QCOMPARE(m_view->findChildren<QCheckBox *>().size(), 0);
+    hover({10, 10});
+    QTest::keyClick(m_view.get(), Qt::Key_Right);
+}
+
+QTEST_MAIN(tst_ChartPlot)
+#include "tst_ChartPlot.moc"

@@ -1,0 +1,113 @@
+#pragma once
+
+#include "evaluate/Chart.h"
+
+#include <QSet>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+class QBoxLayout;
+class QCheckBox;
+class QLabel;
+class QScrollArea;
+class QVBoxLayout;
+class QwtPlot;
+class QwtPlotCurve;
+class QwtPlotGrid;
+class QwtPlotItem;
+class QwtPlotMarker;
+
+namespace faintline {
+
+class CanvasSentence;
+
+/// A core `Chart` to look into: measured curves with their intervals as bars, or as a band where points stand close; theory dashed;
+/// publications' points hollow. Beside it the key, whose boxes show and hide curves; below it the value under the mouse in words.
+///
+/// A theory curve or a publication's points take the colour of the measured curve whose name theirs begins with. Click on a measured
+/// point, or arrow keys and Enter, emit `pointActivated`.
+class ChartPlot : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit ChartPlot(QWidget *parent = nullptr);
+    ~ChartPlot() override;
+
+    /// Replaces the chart; curves hidden by name stay hidden.
+    void setChart(const Chart &chart);
+    const Chart &chart() const { return m_chart; }
+
+    /// While there are no curves: what to do to get some.
+    void setEmptySentence(const QString &sentence);
+    /// What a click on a point does, behind its value: "click to open one of its trials". Empty: points cannot be clicked.
+    void setInvitation(const QString &invitation);
+
+    bool isShown(std::size_t curve) const;
+    void setShown(std::size_t curve, bool isShown);
+
+    /// Where a point is on the canvas.
+    QPointF canvasPosition(std::size_t curve, std::size_t point) const;
+    QwtPlot *plot() const { return m_plot; }
+    QString readOut() const;
+
+    QSize sizeHint() const override { return {520, 260}; }
+    QSize minimumSizeHint() const override { return {260, 130}; }
+
+signals:
+    void pointActivated(std::size_t curve, std::size_t point);
+
+protected:
+    void keyPressEvent(QKeyEvent *event) override;
+    void changeEvent(QEvent *event) override;
+    void resizeEvent(QResizeEvent *event) override;
+    void focusInEvent(QFocusEvent *event) override;
+    void focusOutEvent(QFocusEvent *event) override;
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
+private:
+    struct Place {
+        std::size_t curve = 0;
+        std::size_t point = 0;
+        bool operator==(const Place &) const = default;
+    };
+
+    void restyle();
+    void rebuild();
+    void addCurve(std::size_t index);
+    void addIntervals(std::size_t index, const QColor &colour);
+    void rebuildKey();
+    void layAxes();
+    void showPlace(const std::optional<Place> &place);
+    void move(int points, int curves);
+    std::optional<Place> nearest(const QPointF &canvas) const;
+    bool isMeasured(std::size_t curve) const;
+    std::optional<std::size_t> styleOf(std::size_t curve) const;
+    QColor colourOf(std::size_t curve) const;
+    void placeKey();
+    QPixmap sample(std::size_t curve) const;
+    double abscissa(double x) const;
+    double ordinate(double y) const;
+
+    Chart m_chart;
+    QSet<QString> m_hidden; ///< by name
+    std::optional<Place> m_place;
+    QString m_invitation;
+
+    QwtPlot *m_plot;
+    QwtPlotGrid *m_grid;
+    QwtPlotMarker *m_ring; ///< round the point read out
+    CanvasSentence *m_sentence;
+    QBoxLayout *m_row; ///< plot and key
+    QScrollArea *m_keyArea;
+    QWidget *m_key;
+    QVBoxLayout *m_keyLayout;
+    QLabel *m_readOut;
+    std::vector<QwtPlotCurve *> m_curves;              ///< owned by the plot
+    std::vector<std::vector<QwtPlotItem *>> m_details; ///< intervals of each curve
+    std::vector<QCheckBox *> m_boxes;
+};
+
+} // namespace faintline
