@@ -11,6 +11,7 @@
 #include "app/MessageBar.h"
 #include "app/NoiseFitPanel.h"
 #include "app/OpenOptionsDialog.h"
+#include "app/Panels.h"
 #include "app/PipelinePanel.h"
 #include "app/ReproductionPanel.h"
 #include "app/ScenarioCard.h"
@@ -82,7 +83,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, QWidget *parent)
 {
     setObjectName(QStringLiteral("MainWindow"));
     setAnimated(false);
-    setDockNestingEnabled(true);
+    m_panels = new Panels(*this);
     buildCentre();
     buildDocks();
     buildBottom();
@@ -95,7 +96,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, QWidget *parent)
     connectEvaluation();
     m_keys = new KeysOverlay(this);
     resize(1440, 900);
-    m_defaultLayout = saveState();
+    m_panels->rememberDefault();
     restoreLayout();
     showWelcome();
     showHint();
@@ -130,62 +131,30 @@ void MainWindow::buildCentre()
     setCentralWidget(centre);
 }
 
-QDockWidget *MainWindow::addDock(const QString &name, const QString &title, QWidget *widget, Qt::DockWidgetArea area)
-{
-    auto *dock = new QDockWidget(title);
-    dock->setObjectName(name);
-    dock->setWidget(widget);
-    addDockWidget(area, dock);
-    m_docks.push_back(dock);
-    return dock;
-}
-
 void MainWindow::buildDocks()
 {
-    setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
-    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
-    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-
     m_pipeline = new PipelinePanel(m_document, m_controller);
     m_threshold = new ExceedancePlot;
-    m_events = new EventTable;
-    m_info = new InfoPanel(m_document);
     m_threshold->setObjectName(QStringLiteral("threshold"));
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    m_events = new EventTable;
     m_events->setEmptySentence(tr("No event at this threshold."));
-
-    QDockWidget *pipeline = addDock(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Qt::LeftDockWidgetArea);
-    QDockWidget *threshold =
-        addDock(QStringLiteral("thresholdDock"), tr("Threshold"), m_threshold, Qt::RightDockWidgetArea);
-    QDockWidget *events =
-        addDock(QStringLiteral("eventsDock"), tr("Events · tracks"), m_events, Qt::RightDockWidgetArea);
-    QDockWidget *noise =
-        addDock(QStringLiteral("noiseDock"), tr("Noise · calibration"), m_info, Qt::RightDockWidgetArea);
-    // The threshold above the events it decides about: one sees both while dragging.
-    splitDockWidget(threshold, events, Qt::Vertical);
-    tabifyDockWidget(events, noise);
-    events->raise();
-    resizeDocks({pipeline, threshold}, {270, 380}, Qt::Horizontal);
-    resizeDocks({threshold, events}, {400, 400}, Qt::Vertical);
+    m_info = new InfoPanel(m_document);
     m_noiseFit = new NoiseFitPanel(m_document);
-    tabifyDockWidget(noise, addDock(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Qt::RightDockWidgetArea));
-    events->raise();
-    buildEvaluationDocks();
-}
-
-/// At the bottom, out of sight until they are asked for: the pictures need the room.
-void MainWindow::buildEvaluationDocks()
-{
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
     m_reproduction = new ReproductionPanel;
-    QDockWidget *evaluate = addDock(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Qt::BottomDockWidgetArea);
-    QDockWidget *list = addDock(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Qt::BottomDockWidgetArea);
-    QDockWidget *reproduction = addDock(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Qt::BottomDockWidgetArea);
-    tabifyDockWidget(evaluate, list);
-    tabifyDockWidget(list, reproduction);
-    for (QDockWidget *dock : {evaluate, list, reproduction})
-        dock->hide();
+
+    using Place = Panels::Place;
+    m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
+    // The threshold above the events it decides about: one sees both while dragging.
+    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"), m_threshold, Place::RightTop);
+    m_panels->add(QStringLiteral("eventsDock"), tr("Events · tracks"), m_events, Place::RightBottom);
+    m_panels->add(QStringLiteral("noiseDock"), tr("Noise · calibration"), m_info, Place::RightBottom);
+    m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
+    m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
+    m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
+    m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
 }
 
 void MainWindow::buildBottom()
@@ -218,209 +187,6 @@ void MainWindow::buildStatusBar()
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_hint, 1);
     statusBar()->addPermanentWidget(m_activity);
-}
-
-// ---- menus ----------------------------------------------------------------------------------------------------------
-
-void MainWindow::buildMenus()
-{
-    buildFileMenu();
-    buildEditMenu();
-    buildViewMenu();
-    buildDetectMenu();
-    buildEvaluateMenu();
-    buildReproduceMenu();
-    buildHelpMenu();
-    // A hidden menu's shortcuts do nothing; the window's do, and a presentation has no menu.
-    for (const QAction *menu : menuBar()->actions())
-        for (QAction *action : menu->menu()->actions())
-            if (action != m_playAction)
-                addAction(action);
-}
-
-void MainWindow::buildFileMenu()
-{
-    QMenu *menu = menuBar()->addMenu(tr("&File"));
-    menu->addAction(tr("&Open…"), QKeySequence::Open, this, &MainWindow::chooseFile);
-    menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
-    m_recentMenu = menu->addMenu(tr("Open re&cent"));
-    connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
-    menu->addAction(tr("&Welcome page"), this, &MainWindow::showWelcome);
-    menu->addSeparator();
-    m_iqAction = addViewAction(*menu, tr("Take channels as &I and Q"), {}, [this] {
-        OpenOptions options = m_document.source().options;
-        options.iq = m_iqAction->isChecked();
-        m_controller.reopen(options);
-    });
-    m_iqAction->setCheckable(true);
-    menu->addSeparator();
-    addViewAction(*menu, tr("&Save session"), QKeySequence::Save, [this] { m_saver->save(); });
-    addViewAction(*menu, tr("Save session &as…"), QKeySequence::SaveAs, [this] { m_saver->saveAs(); });
-    menu->addSeparator();
-    menu->addAction(tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), this, &QWidget::close);
-}
-
-void MainWindow::buildEditMenu()
-{
-    QMenu *menu = menuBar()->addMenu(tr("&Edit"));
-    QAction *undo = m_document.undoStack().createUndoAction(this, tr("&Undo"));
-    QAction *redo = m_document.undoStack().createRedoAction(this, tr("&Redo"));
-    undo->setShortcut(QKeySequence::Undo);
-    redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::Key_Y), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)});
-    menu->addActions({undo, redo});
-    menu->addSeparator();
-    addViewAction(*menu, tr("Reset all &settings"), {},
-                  [this] { m_controller.setSettings({}, tr("Reset all settings")); });
-}
-
-void MainWindow::buildViewMenu()
-{
-    QMenu *menu = menuBar()->addMenu(tr("&View"));
-    WaterfallView *input = m_workbench->input();
-    WaterfallView *output = m_workbench->output();
-    Viewport *viewport = &m_document.viewport();
-    addViewAction(*menu, tr("Show &all"), Qt::Key_0, [viewport] { viewport->showAll(); });
-    addViewAction(*menu, tr("Zoom &back"), Qt::Key_Backspace, [viewport] { viewport->zoomBack(); });
-    menu->addSeparator();
-    addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [output] { output->cycleOrientation(); });
-    addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [output] { output->cycleColourMap(); });
-    addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [input, output] {
-        input->setAutomaticRange();
-        output->setAutomaticRange();
-    });
-    menu->addSeparator();
-    addViewAction(*menu, tr("&Measure a box"), Qt::Key_M, [output] { output->setMeasuring(!output->isMeasuring()); });
-    QAction *harmonics = addViewAction(*menu, tr("&Harmonics"), Qt::Key_H, {});
-    harmonics->setCheckable(true);
-    connect(harmonics, &QAction::toggled, input, &WaterfallView::setHarmonics);
-    connect(harmonics, &QAction::toggled, output, &WaterfallView::setHarmonics);
-    menu->addSeparator();
-    QMenu *picture = menu->addMenu(tr("P&icture"));
-    connect(picture, &QMenu::aboutToShow, this, [picture, output] {
-        picture->clear();
-        output->addActionsTo(picture);
-    });
-    m_panelsMenu = menu->addMenu(tr("&Panels"));
-    for (QDockWidget *dock : m_docks)
-        m_panelsMenu->addAction(dock->toggleViewAction());
-    m_panelsMenu->addSeparator();
-    m_panelsMenu->addAction(tr("&Default layout"), this, &MainWindow::takeDefaultLayout);
-    m_presentAction = addViewAction(*menu, tr("&Presentation"), Qt::Key_F5, {});
-    m_presentAction->setCheckable(true);
-    connect(m_presentAction, &QAction::toggled, this, &MainWindow::setPresenting);
-    m_darkAction = menu->addAction(tr("&Dark"));
-    m_darkAction->setCheckable(true);
-    m_darkAction->setChecked(Theme::kind(palette()) == Theme::Kind::Dark);
-    connect(m_darkAction, &QAction::toggled, this,
-            [this](bool isDark) { setTheme(isDark ? Theme::Kind::Dark : Theme::Kind::Light); });
-}
-
-void MainWindow::buildDetectMenu()
-{
-    QMenu *menu = menuBar()->addMenu(tr("&Detect"));
-    addViewAction(*menu, tr("&Run again"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] { m_controller.run(); });
-    m_stopAction = menu->addAction(tr("&Stop"), QKeySequence(Qt::Key_Escape), &m_controller, &AnalysisController::stop);
-    m_stopAction->setEnabled(false);
-    menu->addSeparator();
-    addViewAction(*menu, tr("Threshold &down"), Qt::Key_Comma, [this] { m_controller.stepThreshold(-1); });
-    addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });
-    menu->addSeparator();
-    addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
-    addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
-                  [this] { m_events->selectPrevious(); });
-    menu->addSeparator();
-    m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
-    m_playAction->setCheckable(true);
-    connect(m_playAction, &QAction::toggled, m_workbench, &Workbench::setPlaying);
-    connect(m_workbench, &Workbench::playingChanged, m_playAction, &QAction::setChecked);
-    // Space also presses the button that has the focus: only over the pictures does it play.
-    m_playAction->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-    m_workbench->addAction(m_playAction);
-    addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { m_workbench->stepFrames(-1); });
-    addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { m_workbench->stepFrames(1); });
-}
-
-void MainWindow::buildEvaluateMenu()
-{
-    QMenu *menu = menuBar()->addMenu(tr("E&valuate"));
-    addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { showDock(m_evaluate); });
-    addViewAction(*menu, tr("&Experiments"), {}, [this] { showDock(m_experimentList); });
-    addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
-    menu->addSeparator();
-    addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
-}
-
-void MainWindow::buildReproduceMenu()
-{
-    QMenu *menu = menuBar()->addMenu(tr("&Reproduce"));
-    QAction *quick = menu->addAction(tr("&Quick: a tenth of the trials"));
-    quick->setCheckable(true);
-    quick->setChecked(true);
-    menu->addSeparator();
-    for (const Reproducible &entry : reproducibles()) {
-        QAction *action = menu->addAction(QString::fromStdString(entry.title));
-        action->setData(QString::fromStdString(entry.name));
-        connect(action, &QAction::triggered, this, [this, &entry, quick] { reproduce(entry, quick->isChecked()); });
-    }
-}
-
-void MainWindow::buildHelpMenu()
-{
-    QMenu *menu = menuBar()->addMenu(tr("&Help"));
-    QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(); });
-    keys->setShortcuts(
-        {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
-    menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
-}
-
-QAction *MainWindow::addViewAction(QMenu &menu, const QString &text, const QKeySequence &key,
-                                   std::function<void()> action)
-{
-    QAction *result = menu.addAction(text);
-    result->setShortcut(key);
-    if (action)
-        connect(result, &QAction::triggered, this, action);
-    m_viewActions.push_back(result);
-    return result;
-}
-
-void MainWindow::buildToolBar()
-{
-    QToolBar *bar = addToolBar(tr("Tools"));
-    bar->setObjectName(QStringLiteral("toolBar"));
-    bar->setMovable(false);
-    bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    bar->addAction(tr("Open…"), this, &MainWindow::chooseFile)
-        ->setToolTip(tr("Open a recording, a scenario or a session (Ctrl+O)"));
-
-    auto *scenarioMenu = new QMenu(this);
-    for (ScenarioCard *card : m_welcome->cards())
-        scenarioMenu->addAction(card->scenario().title, this, [this, card] { openScenario(card); });
-    auto *scenarioButton = new QToolButton;
-    scenarioButton->setText(tr("Scenario"));
-    scenarioButton->setToolTip(tr("Open a simulated recording"));
-    scenarioButton->setMenu(scenarioMenu);
-    scenarioButton->setPopupMode(QToolButton::InstantPopup);
-    bar->addWidget(scenarioButton);
-    bar->addSeparator();
-
-    const auto add = [this, bar](const QString &text, const QString &toolTip, auto action) {
-        QAction *result = bar->addAction(text, this, action);
-        result->setToolTip(toolTip);
-        m_viewActions.push_back(result);
-    };
-    add(tr("Run"), tr("Run the chain again (Ctrl+R)"), [this] { m_controller.run(); });
-    bar->addAction(m_stopAction);
-    bar->addSeparator();
-    add(tr("Orientation"), tr("Newest on top, oldest on top, left to right (O)"),
-        [this] { m_workbench->output()->cycleOrientation(); });
-    add(tr("Colours"), tr("Next colour map (C)"), [this] { m_workbench->output()->cycleColourMap(); });
-    add(tr("Show all"), tr("The whole recording (0)"), [this] { m_document.viewport().showAll(); });
-    bar->addSeparator();
-    add(tr("Frame back"), tr("One frame back (J)"), [this] { m_workbench->stepFrames(-1); });
-    bar->addAction(m_playAction);
-    add(tr("Frame forward"), tr("One frame forward (L)"), [this] { m_workbench->stepFrames(1); });
-    add(tr("Next event"), tr("Go to the next event (N)"), [this] { m_events->selectNext(); });
 }
 
 // ---- connections ----------------------------------------------------------------------------------------------------
@@ -577,8 +343,7 @@ void MainWindow::showWelcome()
     saveLayout();
     m_presentAction->setChecked(false);
     m_pages->setCurrentWidget(m_welcome);
-    for (QDockWidget *dock : m_docks)
-        dock->hide();
+    m_panels->hide();
     for (QToolBar *bar : m_bottomBars)
         bar->hide();
     for (QAction *action : m_viewActions)
@@ -595,7 +360,7 @@ void MainWindow::showWorkbench()
     m_welcome->stop();
     m_pages->setCurrentWidget(m_workbench);
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
-        takeDefaultLayout();
+        m_panels->takeDefault();
     for (QToolBar *bar : m_bottomBars)
         bar->show();
     for (QAction *action : m_viewActions)
@@ -741,7 +506,7 @@ void MainWindow::reproduce(const Reproducible &reproducible, bool quick)
     ReproduceOptions options;
     options.quick = quick;
     showWorkbench();
-    showDock(m_experimentList);
+    m_panels->show(m_experimentList);
     m_experiments.start(reproducible, options);
 }
 
@@ -752,56 +517,23 @@ void MainWindow::showExperiment(int id)
         return;
     if (entry->reproduction) {
         m_reproduction->show(entry->reproduction);
-        return showDock(m_reproduction);
+        return m_panels->show(m_reproduction);
     }
     if (entry->reproducible)
         return;
     m_evaluate->show(id);
-    showDock(m_evaluate);
+    m_panels->show(m_evaluate);
 }
 
 void MainWindow::showNoiseFit()
 {
-    showDock(m_noiseFit);
-}
-
-void MainWindow::showDock(QWidget *panel)
-{
-    auto *dock = static_cast<QDockWidget *>(panel->parentWidget());
-    const bool wasHidden = dock->isHidden();
-    dock->show();
-    dock->raise();
-    if (wasHidden && dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
-        resizeDocks({dock}, {height() * 36 / 100}, Qt::Vertical);
+    m_panels->show(m_noiseFit);
 }
 
 void MainWindow::setTheme(Theme::Kind kind)
 {
     Theme::apply(kind);
     m_memory.setTheme(kind);
-}
-
-void MainWindow::takeDefaultLayout()
-{
-    restoreState(m_defaultLayout);
-    const int right = width() * 22 / 100;
-    resizeDocks({m_docks[0], m_docks[1]}, {width() * 17 / 100, right}, Qt::Horizontal);
-}
-
-/// The pictures and nothing else, over the whole screen.
-void MainWindow::setPresenting(bool isPresenting)
-{
-    if (isPresenting)
-        m_layoutBeforePresenting = saveState();
-    for (QToolBar *bar : findChildren<QToolBar *>())
-        bar->setVisible(!isPresenting);
-    for (QDockWidget *dock : m_docks)
-        dock->setVisible(!isPresenting);
-    menuBar()->setVisible(!isPresenting);
-    statusBar()->setVisible(!isPresenting);
-    setWindowState(windowState().setFlag(Qt::WindowFullScreen, isPresenting));
-    if (!isPresenting)
-        restoreState(m_layoutBeforePresenting);
 }
 
 void MainWindow::about()

@@ -27,6 +27,7 @@ class KeysOverlay;
 class MessageBar;
 class NoiseFitPanel;
 class OverviewStrip;
+class Panels;
 class PipelinePanel;
 class ReadOut;
 class ReproductionPanel;
@@ -83,7 +84,6 @@ protected:
 private:
     void buildCentre();
     void buildDocks();
-    void buildEvaluationDocks();
     void buildBottom();
     void buildStatusBar();
     void buildMenus();
@@ -101,7 +101,6 @@ private:
     void connectEvaluation();
     /// An action that makes sense only while a recording is shown.
     QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
-    QDockWidget *addDock(const QString &name, const QString &title, QWidget *widget, Qt::DockWidgetArea area);
 
     void showWorkbench();
     void showAnalysis();
@@ -117,10 +116,7 @@ private:
     void injectLine();
     void reproduce(const Reproducible &reproducible, bool quick);
     void showExperiment(int id);
-    void showDock(QWidget *panel);
     void setTheme(Theme::Kind kind);
-    void setPresenting(bool isPresenting);
-    void takeDefaultLayout();
     void about();
 
     void fillRecentMenu();
@@ -132,9 +128,8 @@ private:
     Experiments m_experiments;
     WindowMemory m_memory;
     bool m_isAsking = true;
-    QByteArray m_defaultLayout;
-    QByteArray m_layoutBeforePresenting;
 
+    Panels *m_panels = nullptr;
     SessionSaver *m_saver = nullptr;
     MessageBar *m_messages = nullptr;
     QStackedWidget *m_pages = nullptr;
@@ -162,7 +157,6 @@ private:
     QAction *m_playAction = nullptr;
     QAction *m_presentAction = nullptr;
     std::vector<QAction *> m_viewActions;
-    std::vector<QDockWidget *> m_docks;
     std::vector<QToolBar *> m_bottomBars;
 };
 

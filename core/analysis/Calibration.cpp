@@ -32,8 +32,9 @@ namespace {
     constexpr Index blockFrames = 128;
     constexpr Index blockCells = 64;
     constexpr std::size_t leastMaxima = 40;
-    /// Events per cell and frame at the thresholds where they are counted: 800, 200 and 50 in the usual 4·10⁷ cells × frames.
-    constexpr std::array<double, 3> eventRates{2e-5, 5e-6, 1.25e-6};
+    /// Block maxima above the thresholds where events are counted, per cell and frame. Clustering and inhibition leave about a quarter of
+    /// them as events: 800 and 100 in the usual 1.6·10⁸ cells × frames. Lower thresholds would count more, but there the tail is steeper.
+    constexpr std::array<double, 2> eventRates{2e-5, 2.5e-6};
     constexpr double leastExpected = 100.0; ///< events at the first of them; in small volumes the rates are higher
     constexpr double leastEvents = 20.0;
 
@@ -46,12 +47,37 @@ namespace {
         float step = 1.0f;
     };
 
+    /// What a detector that nothing is kept from does.
     struct Tail {
         std::vector<double> counts = std::vector<double>(levelCount, 0.0); ///< cells per level bin
         std::vector<float> blockMaxima;
+        double cellFrames = 0.0;
+    };
+
+    /// What chains with their thresholds do.
+    struct EventCounts {
         std::vector<double> events; ///< of each chain
         double cellFrames = 0.0;
     };
+
+    double countedCellFrames(const NormalisedFrames &noise)
+    {
+        return static_cast<double>(noise.grid().size() * std::max<Index>(0, noise.time().count - settlingFrames));
+    }
+
+    /// Calls take(frame, y) for every frame.
+    template <class Take>
+    void forEachFrame(const NormalisedFrames &noise, Take take)
+    {
+        const auto cells = static_cast<std::size_t>(noise.grid().size());
+        std::vector<float> batch(framesAtOnce * cells);
+        for (Index first = 0; first < noise.time().count; first += framesAtOnce) {
+            const Index count = std::min(framesAtOnce, noise.time().count - first);
+            noise.read(first, count, std::span(batch).first(static_cast<std::size_t>(count) * cells));
+            for (Index i = 0; i < count; ++i)
+                take(first + i, std::span<const float>(batch).subspan(static_cast<std::size_t>(i) * cells, cells));
+        }
+    }
 
     /// The frames from the start on, computed once for what goes through them many times.
     std::shared_ptr<const FrameArray> beginningOf(const NormalisedFrames &noise, Index frames)
@@ -133,26 +159,18 @@ namespace {
         return {least, std::max((largest - least) / static_cast<float>(levelsInView), 1e-6f)};
     }
 
-    /// `chains`: if any, their tracks after the settling frames are counted on the same noise.
-    Tail measureTail(const NormalisedFrames &noise, Detector &detector, const Levels &levels,
-                     const std::vector<std::unique_ptr<DetectionChain>> &chains = {})
+    Tail measureTail(const NormalisedFrames &noise, Detector &detector, const Levels &levels)
     {
         const Index cells = noise.grid().size();
         const Index columns = std::max<Index>(1, cells / blockCells);
-        std::vector<float> batch(static_cast<std::size_t>(framesAtOnce * cells));
         std::vector<float> statistic(static_cast<std::size_t>(cells));
         std::vector<float> maxima(static_cast<std::size_t>(columns));
         Tail tail;
         Index inBlock = 0;
-        for (Index frame = 0; frame < noise.time().count; ++frame) {
-            if (frame % framesAtOnce == 0)
-                noise.read(frame, std::min(framesAtOnce, noise.time().count - frame), batch);
-            const auto y = std::span(batch).subspan(static_cast<std::size_t>(frame % framesAtOnce * cells), statistic.size());
-            for (const auto &chain : chains)
-                chain->update(frame, y, statistic);
+        forEachFrame(noise, [&](Index frame, std::span<const float> y) {
             detector.update(y, statistic);
             if (frame < settlingFrames)
-                continue;
+                return;
             for (float value : statistic) {
                 const float position = (value - levels.lowest) / levels.step;
                 tail.counts[static_cast<std::size_t>(std::clamp(position, 0.0f, static_cast<float>(levelCount - 1)))] += 1.0;
@@ -169,14 +187,8 @@ namespace {
                 tail.blockMaxima.insert(tail.blockMaxima.end(), maxima.begin(), maxima.end());
                 inBlock = 0;
             }
-        }
-        for (const auto &chain : chains) {
-            chain->finish();
-            tail.events.push_back(static_cast<double>(std::count_if(chain->tracks().begin(), chain->tracks().end(), [](const Track &track) {
-                return track.detectFrame >= settlingFrames;
-            })));
-        }
-        tail.cellFrames = static_cast<double>(cells * std::max<Index>(0, noise.time().count - settlingFrames));
+        });
+        tail.cellFrames = countedCellFrames(noise);
         return tail;
     }
 
@@ -184,6 +196,30 @@ namespace {
     {
         std::transform(part.counts.begin(), part.counts.end(), whole.counts.begin(), whole.counts.begin(), std::plus<>());
         whole.blockMaxima.insert(whole.blockMaxima.end(), part.blockMaxima.begin(), part.blockMaxima.end());
+        whole.cellFrames += part.cellFrames;
+    }
+
+    /// The chains' tracks after the settling frames.
+    EventCounts countEvents(const NormalisedFrames &noise, const std::vector<std::unique_ptr<DetectionChain>> &chains)
+    {
+        std::vector<float> statistic(static_cast<std::size_t>(noise.grid().size()));
+        forEachFrame(noise, [&](Index frame, std::span<const float> y) {
+            for (const auto &chain : chains)
+                chain->update(frame, y, statistic);
+        });
+        EventCounts counts;
+        for (const auto &chain : chains) {
+            chain->finish();
+            counts.events.push_back(static_cast<double>(std::count_if(chain->tracks().begin(), chain->tracks().end(), [](const Track &track) {
+                return track.detectFrame >= settlingFrames;
+            })));
+        }
+        counts.cellFrames = countedCellFrames(noise);
+        return counts;
+    }
+
+    void add(const EventCounts &part, EventCounts &whole)
+    {
         whole.events.resize(part.events.size());
         std::transform(part.events.begin(), part.events.end(), whole.events.begin(), whole.events.begin(), std::plus<>());
         whole.cellFrames += part.cellFrames;
@@ -292,20 +328,21 @@ namespace {
         trial.frames = firstSegment;
         const Levels levels = levelsOf(*first, *makeDetector(trial));
 
-        const int roughCount = std::max(2, (segmentCount + 3) / 4);
+        const int roughCount = std::max(2, segmentCount / 10);
         Tail rough;
         inRounds(
-            roughCount, context.part(0.2, 0.3), [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
+            roughCount, context.part(0.1, 0.2), [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
             [&](const Tail &part) { add(part, rough); });
+        fillExceedance(rough.counts, levels, *result);
         const double cells = static_cast<double>(first->grid().size());
         const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
         const std::vector<double> thresholds =
             thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns,
                                 rough.cellFrames / roughCount * segmentCount);
 
-        Tail tail;
+        EventCounts counts;
         inRounds(
-            segmentCount, context.part(0.3, 1.0),
+            segmentCount, context.part(0.2, 1.0),
             [&](int number) {
                 Analysis own = trial;
                 own.frames = segment(number);
@@ -314,11 +351,10 @@ namespace {
                     own.threshold = threshold;
                     chains.push_back(makeChain(own, makeDetector(own), false));
                 }
-                return measureTail(*own.frames, *makeDetector(own), levels, chains);
+                return countEvents(*own.frames, chains);
             },
-            [&](const Tail &part) { add(part, tail); });
-        fitEventRate(thresholds, tail.events, tail.cellFrames, *result);
-        fillExceedance(tail.counts, levels, *result);
+            [&](const EventCounts &part) { add(part, counts); });
+        fitEventRate(thresholds, counts.events, counts.cellFrames, *result);
         return result;
     }
 

@@ -13,7 +13,7 @@ namespace faintline {
 /// How a detector answers to noise alone: found by simulation, the same noise through the same chain.
 ///
 /// The statistic's tail is exponential (for one-to-one transitions exactly so, Lindley's recursion: P(L > T) = σ e^{-(1-σ)T}). An event
-/// is what the whole chain starts a track from, with its clustering, reset and inhibition; its rate is counted on noise at three
+/// is what the whole chain starts a track from, with its clustering, reset and inhibition; its rate is counted on noise at two
 /// thresholds where there are many, and continued with ln(rate) = ln(eventRate) - θ(T - u), fitted by maximum likelihood to the
 /// Poisson counts, to where events are rare.
 struct Calibration {
@@ -43,7 +43,7 @@ struct Calibration {
 /// dimensionless part of the settings (windows, overlaps, model, detector), which is also the key under which results
 /// are kept, for the life of the program and in the `CalibrationStore`. `cellFrames`: cells × frames to simulate for the tail.
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
-                                             double cellFrames = 4e7);
+                                             double cellFrames = 1.6e8);
 
 /// The model on a piece of its grid large enough to learn its answer to noise: where it has more than 20 000 cells, the longest
 /// bounded axis is cut to about 5000 cells in all and made cyclic, so that no path runs off the piece. A sonar's bounded range

@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int framesPerBlock = 64;   // more add nothing to the estimate's accuracy
+    constexpr int framesPerBlock = 512; // longer blocks are looked at here and there
     constexpr Index largestBlockCount = 1024;
     constexpr float largestRatio = 1e30f;
     constexpr Index pivotCells = 5;      // at the band's edges, about which the sequence is continued
@@ -138,7 +138,7 @@ namespace {
 
     /// Averages each block with its neighbours in time as far as the noise keeps its colour: stationary noise is known better than one
     /// block tells. What the whole band's level does meanwhile is taken out; a step of more than a factor of e ends the average, and so
-    /// does, for each cell, a difference of more than four standard errors of a block, which are a median's of `framesUsed` × window
+    /// does, for each cell, more than four standard errors of a difference of two blocks, which are a median's of `framesUsed` × window
     /// cells, and of fewer toward the band's edges, where the window is continued from a few of them.
     std::vector<float> averageWhileSteady(const std::vector<float> &ln, Index blocks, Index cells, Index half, double framesUsed)
     {
@@ -147,7 +147,7 @@ namespace {
         for (Index cell = 0; cell < cells; ++cell) {
             const double inward = static_cast<double>(std::min({cell, cells - 1 - cell, half})) / static_cast<double>(half);
             const double effective = pivotCells + (2.0 * static_cast<double>(half) + 1.0 - pivotCells) * inward;
-            tolerance[static_cast<std::size_t>(cell)] = static_cast<float>(4.0 * 1.44 / std::sqrt(framesUsed * effective / 2.0));
+            tolerance[static_cast<std::size_t>(cell)] = static_cast<float>(4.0 * 1.44 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
         }
         std::vector<float> result = ln;
         std::vector<float> count(tolerance.size());
@@ -330,8 +330,12 @@ namespace {
 
     /// From each window's levels to those that count, per sub-band: the common level's slow and sudden parts, then what a sub-band has
     /// suddenly besides.
-    std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background)
+    ///
+    /// Where every window was looked at, a chance level is that of the very cells it is taken off. Where only some were, it would put
+    /// noise of its own on the others, so that it has to be beyond chance.
+    std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, bool hasEveryWindow)
     {
+        const double certainty = hasEveryWindow ? 2.0 : 4.5;
         const auto bands = static_cast<std::size_t>(background.bandCount);
         const auto windows = static_cast<std::size_t>(background.levelTime.count);
         std::vector<float> result(windows * bands);
@@ -344,12 +348,12 @@ namespace {
         const std::vector<float> slow = slowPart(common);
         for (std::size_t window = 0; window < windows; ++window)
             common[window] -= slow[window];
-        common = suddenPart(common, medianScatter(cells));
+        common = suddenPart(common, medianScatter(cells), certainty);
         std::vector<float> own(windows);
         for (std::size_t band = 0; band < bands; ++band) {
             for (std::size_t window = 0; window < windows; ++window)
                 own[window] = levels[window * (bands + 1) + band] - slow[window] - common[window];
-            own = suddenPart(own, medianScatter(cells / static_cast<double>(bands)));
+            own = suddenPart(own, medianScatter(cells / static_cast<double>(bands)), certainty);
             for (std::size_t window = 0; window < windows; ++window)
                 result[window * bands + band] = slow[window] + common[window] + own[window];
         }
@@ -442,7 +446,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     background->lnPower =
         averageWhileSteady(rows, blockCount, cells, settings.halfWidthCells, std::min<double>(framesPerBlock, blockFrames));
     moveToBackground(levels, rows, *background, blockFrames / static_cast<double>(stride));
-    background->lnLevel = finishLevels(levels, *background);
+    background->lnLevel = finishLevels(levels, *background, stride == 1);
     return background;
 }
 

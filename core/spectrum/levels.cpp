@@ -91,7 +91,7 @@ std::vector<float> slowPart(const std::vector<float> &series)
     return smooth;
 }
 
-std::vector<float> suddenPart(const std::vector<float> &series, double scatter)
+std::vector<float> suddenPart(const std::vector<float> &series, double scatter, double certainty)
 {
     constexpr std::ptrdiff_t half = 3;
     const double medianOfSeven = scatter * 1.25 / std::sqrt(2.0 * half + 1.0);
@@ -101,7 +101,7 @@ std::vector<float> suddenPart(const std::vector<float> &series, double scatter)
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         few.assign(series.begin() + std::max<std::ptrdiff_t>(0, i - half), series.begin() + std::min(n, i + half + 1));
         const auto level = static_cast<double>(medianOf(few));
-        result[static_cast<std::size_t>(i)] = static_cast<float>(level * std::clamp(std::abs(level) / medianOfSeven - 2.0, 0.0, 1.0));
+        result[static_cast<std::size_t>(i)] = static_cast<float>(level * std::clamp(std::abs(level) / medianOfSeven - certainty, 0.0, 1.0));
     }
     return result;
 }

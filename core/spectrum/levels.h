@@ -32,7 +32,7 @@ float truncatedMean(std::span<const float> cells, float guess);
 /// walk where the differences at a lag of 16 exceed those at 1 by two standard errors (from medians: steps and clicks are none).
 std::vector<float> slowPart(const std::vector<float> &series);
 
-/// The running median of a series over seven values, faded in between two and three of its standard errors. `scatter`: of one value.
-std::vector<float> suddenPart(const std::vector<float> &series, double scatter);
+/// The running median of a series over seven values, faded in from `certainty` to one more of its standard errors. `scatter`: of one value.
+std::vector<float> suddenPart(const std::vector<float> &series, double scatter, double certainty);
 
 } // namespace faintline

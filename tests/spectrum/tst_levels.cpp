@@ -115,13 +115,17 @@ void tst_levels::whatIsSudden()
     for (std::size_t i = 700; i < 1400; ++i)
         w.series[i] += 30.0f;
     w.series[100] = 50.0f; // one value of seven is no level
-    const std::vector<float> sudden = suddenPart(w.series, 1.0);
+    const std::vector<float> sudden = suddenPart(w.series, 1.0, 2.0);
     QCOMPARE(sudden[100], 0.0f);
     for (std::size_t i = 700; i < 1400; ++i)
         QVERIFY(std::abs(sudden[i] - 30.0f) < 5.0f * 1.25f / std::sqrt(7.0f));
     // Of white noise next to nothing: 5 % of the medians lie beyond two deviations, and those hardly count.
     const double left = deviation(std::vector<float>(sudden.begin(), sudden.begin() + 690), std::vector<float>(690, 0.0f));
     QVERIFY2(left < 0.25, qPrintable(QString::number(left)));
+    // Asked to be surer, it takes nothing for a change that is none, and the change itself as before.
+    const std::vector<float> sure = suddenPart(w.series, 1.0, 4.5);
+    QVERIFY(std::all_of(sure.begin(), sure.begin() + 690, [](float value) { return value == 0.0f; }));
+    QVERIFY(std::equal(sure.begin() + 700, sure.begin() + 1400, sudden.begin() + 700));
 }
 
 QTEST_APPLESS_MAIN(tst_levels)

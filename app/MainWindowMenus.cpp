@@ -1,0 +1,222 @@
+// The window's menus and its tool bar: every action there is, with its key.
+
+#include "app/MainWindow.h"
+
+#include "app/EvaluatePanel.h"
+#include "app/ExperimentsPanel.h"
+#include "app/KeysOverlay.h"
+#include "app/Panels.h"
+#include "app/ScenarioCard.h"
+#include "app/SessionSaver.h"
+#include "app/WelcomePage.h"
+#include "app/Workbench.h"
+#include "widgets/EventTable.h"
+
+#include <QMenu>
+#include <QMenuBar>
+#include <QToolBar>
+#include <QToolButton>
+
+namespace faintline {
+
+void MainWindow::buildMenus()
+{
+    buildFileMenu();
+    buildEditMenu();
+    buildViewMenu();
+    buildDetectMenu();
+    buildEvaluateMenu();
+    buildReproduceMenu();
+    buildHelpMenu();
+    // A hidden menu's shortcuts do nothing; the window's do, and a presentation has no menu.
+    for (const QAction *menu : menuBar()->actions())
+        for (QAction *action : menu->menu()->actions())
+            if (action != m_playAction)
+                addAction(action);
+}
+
+void MainWindow::buildFileMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&File"));
+    menu->addAction(tr("&Open…"), QKeySequence::Open, this, &MainWindow::chooseFile);
+    menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
+    m_recentMenu = menu->addMenu(tr("Open re&cent"));
+    connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
+    menu->addAction(tr("&Welcome page"), this, &MainWindow::showWelcome);
+    menu->addSeparator();
+    m_iqAction = addViewAction(*menu, tr("Take channels as &I and Q"), {}, [this] {
+        OpenOptions options = m_document.source().options;
+        options.iq = m_iqAction->isChecked();
+        m_controller.reopen(options);
+    });
+    m_iqAction->setCheckable(true);
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Save session"), QKeySequence::Save, [this] { m_saver->save(); });
+    addViewAction(*menu, tr("Save session &as…"), QKeySequence::SaveAs, [this] { m_saver->saveAs(); });
+    menu->addSeparator();
+    menu->addAction(tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), this, &QWidget::close);
+}
+
+void MainWindow::buildEditMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Edit"));
+    QAction *undo = m_document.undoStack().createUndoAction(this, tr("&Undo"));
+    QAction *redo = m_document.undoStack().createRedoAction(this, tr("&Redo"));
+    undo->setShortcut(QKeySequence::Undo);
+    redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::Key_Y), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)});
+    menu->addActions({undo, redo});
+    menu->addSeparator();
+    addViewAction(*menu, tr("Reset all &settings"), {},
+                  [this] { m_controller.setSettings({}, tr("Reset all settings")); });
+}
+
+void MainWindow::buildViewMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&View"));
+    WaterfallView *input = m_workbench->input();
+    WaterfallView *output = m_workbench->output();
+    Viewport *viewport = &m_document.viewport();
+    addViewAction(*menu, tr("Show &all"), Qt::Key_0, [viewport] { viewport->showAll(); });
+    addViewAction(*menu, tr("Zoom &back"), Qt::Key_Backspace, [viewport] { viewport->zoomBack(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [output] { output->cycleOrientation(); });
+    addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [output] { output->cycleColourMap(); });
+    addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [input, output] {
+        input->setAutomaticRange();
+        output->setAutomaticRange();
+    });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Measure a box"), Qt::Key_M, [output] { output->setMeasuring(!output->isMeasuring()); });
+    QAction *harmonics = addViewAction(*menu, tr("&Harmonics"), Qt::Key_H, {});
+    harmonics->setCheckable(true);
+    connect(harmonics, &QAction::toggled, input, &WaterfallView::setHarmonics);
+    connect(harmonics, &QAction::toggled, output, &WaterfallView::setHarmonics);
+    menu->addSeparator();
+    QMenu *picture = menu->addMenu(tr("P&icture"));
+    connect(picture, &QMenu::aboutToShow, this, [picture, output] {
+        picture->clear();
+        output->addActionsTo(picture);
+    });
+    m_panelsMenu = menu->addMenu(tr("&Panels"));
+    m_panelsMenu->addActions(m_panels->toggleActions());
+    m_panelsMenu->addSeparator();
+    m_panelsMenu->addAction(tr("&Default layout"), m_panels, &Panels::takeDefault);
+    m_presentAction = addViewAction(*menu, tr("&Presentation"), Qt::Key_F5, {});
+    m_presentAction->setCheckable(true);
+    connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);
+    m_darkAction = menu->addAction(tr("&Dark"));
+    m_darkAction->setCheckable(true);
+    m_darkAction->setChecked(Theme::kind(palette()) == Theme::Kind::Dark);
+    connect(m_darkAction, &QAction::toggled, this,
+            [this](bool isDark) { setTheme(isDark ? Theme::Kind::Dark : Theme::Kind::Light); });
+}
+
+void MainWindow::buildDetectMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Detect"));
+    addViewAction(*menu, tr("&Run again"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] { m_controller.run(); });
+    m_stopAction = menu->addAction(tr("&Stop"), QKeySequence(Qt::Key_Escape), &m_controller, &AnalysisController::stop);
+    m_stopAction->setEnabled(false);
+    menu->addSeparator();
+    addViewAction(*menu, tr("Threshold &down"), Qt::Key_Comma, [this] { m_controller.stepThreshold(-1); });
+    addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
+    addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
+                  [this] { m_events->selectPrevious(); });
+    menu->addSeparator();
+    m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
+    m_playAction->setCheckable(true);
+    connect(m_playAction, &QAction::toggled, m_workbench, &Workbench::setPlaying);
+    connect(m_workbench, &Workbench::playingChanged, m_playAction, &QAction::setChecked);
+    // Space also presses the button that has the focus: only over the pictures does it play.
+    m_playAction->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    m_workbench->addAction(m_playAction);
+    addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { m_workbench->stepFrames(-1); });
+    addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { m_workbench->stepFrames(1); });
+}
+
+void MainWindow::buildEvaluateMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("E&valuate"));
+    addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
+    addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
+    addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
+}
+
+void MainWindow::buildReproduceMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Reproduce"));
+    QAction *quick = menu->addAction(tr("&Quick: a tenth of the trials"));
+    quick->setCheckable(true);
+    quick->setChecked(true);
+    menu->addSeparator();
+    for (const Reproducible &entry : reproducibles()) {
+        QAction *action = menu->addAction(QString::fromStdString(entry.title));
+        action->setData(QString::fromStdString(entry.name));
+        connect(action, &QAction::triggered, this, [this, &entry, quick] { reproduce(entry, quick->isChecked()); });
+    }
+}
+
+void MainWindow::buildHelpMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Help"));
+    QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(); });
+    keys->setShortcuts(
+        {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
+    menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
+}
+
+QAction *MainWindow::addViewAction(QMenu &menu, const QString &text, const QKeySequence &key,
+                                   std::function<void()> action)
+{
+    QAction *result = menu.addAction(text);
+    result->setShortcut(key);
+    if (action)
+        connect(result, &QAction::triggered, this, action);
+    m_viewActions.push_back(result);
+    return result;
+}
+
+void MainWindow::buildToolBar()
+{
+    QToolBar *bar = addToolBar(tr("Tools"));
+    bar->setObjectName(QStringLiteral("toolBar"));
+    bar->setMovable(false);
+    bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    bar->addAction(tr("Open…"), this, &MainWindow::chooseFile)
+        ->setToolTip(tr("Open a recording, a scenario or a session (Ctrl+O)"));
+
+    auto *scenarioMenu = new QMenu(this);
+    for (ScenarioCard *card : m_welcome->cards())
+        scenarioMenu->addAction(card->scenario().title, this, [this, card] { openScenario(card); });
+    auto *scenarioButton = new QToolButton;
+    scenarioButton->setText(tr("Scenario"));
+    scenarioButton->setToolTip(tr("Open a simulated recording"));
+    scenarioButton->setMenu(scenarioMenu);
+    scenarioButton->setPopupMode(QToolButton::InstantPopup);
+    bar->addWidget(scenarioButton);
+    bar->addSeparator();
+
+    const auto add = [this, bar](const QString &text, const QString &toolTip, auto action) {
+        QAction *result = bar->addAction(text, this, action);
+        result->setToolTip(toolTip);
+        m_viewActions.push_back(result);
+    };
+    add(tr("Run"), tr("Run the chain again (Ctrl+R)"), [this] { m_controller.run(); });
+    bar->addAction(m_stopAction);
+    bar->addSeparator();
+    add(tr("Orientation"), tr("Newest on top, oldest on top, left to right (O)"),
+        [this] { m_workbench->output()->cycleOrientation(); });
+    add(tr("Colours"), tr("Next colour map (C)"), [this] { m_workbench->output()->cycleColourMap(); });
+    add(tr("Show all"), tr("The whole recording (0)"), [this] { m_document.viewport().showAll(); });
+    bar->addSeparator();
+    add(tr("Frame back"), tr("One frame back (J)"), [this] { m_workbench->stepFrames(-1); });
+    bar->addAction(m_playAction);
+    add(tr("Frame forward"), tr("One frame forward (L)"), [this] { m_workbench->stepFrames(1); });
+    add(tr("Next event"), tr("Go to the next event (N)"), [this] { m_events->selectNext(); });
+}
+
+} // namespace faintline

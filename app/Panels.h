@@ -1,0 +1,56 @@
+#pragma once
+
+#include <QByteArray>
+#include <QList>
+#include <QObject>
+
+#include <vector>
+
+class QAction;
+class QDockWidget;
+class QMainWindow;
+class QWidget;
+
+namespace faintline {
+
+/// The docks of a window and where they stand.
+class Panels : public QObject
+{
+    Q_OBJECT
+
+public:
+    /// Where a panel stands at first. Panels in one place are tabs, the first one in front; those at the bottom are out of
+    /// sight until they are asked for, because the pictures need the room.
+    enum class Place { Left, RightTop, RightBottom, Bottom };
+
+    explicit Panels(QMainWindow &window);
+
+    void add(const QString &name, const QString &title, QWidget *panel, Place place);
+    /// What stands now is the default layout: call it once all panels are there.
+    void rememberDefault();
+
+    void show(QWidget *panel); ///< brings it to the front
+    void hide();               ///< all of them
+    QList<QAction *> toggleActions() const;
+
+public slots:
+    void takeDefault();
+    /// The pictures and nothing else, over the whole screen.
+    void setPresenting(bool isPresenting);
+
+private:
+    struct Entry {
+        QDockWidget *dock;
+        Place place;
+    };
+
+    QDockWidget *first(Place place) const;
+    QDockWidget *last(Place place) const;
+
+    QMainWindow &m_window;
+    std::vector<Entry> m_entries;
+    QByteArray m_default;
+    QByteArray m_beforePresenting;
+};
+
+} // namespace faintline
