@@ -100,7 +100,8 @@ void MainWindow::buildViewMenu()
     m_panelsMenu = menu->addMenu(tr("&Panels"));
     m_panelsMenu->addActions(m_panels->toggleActions());
     m_panelsMenu->addSeparator();
-    m_panelsMenu->addAction(tr("&Default layout"), m_panels, &Panels::takeDefault);
+    for (const QString &name : Panels::layoutNames())
+        m_panelsMenu->addAction(tr("Layout: %1").arg(name), m_panels, [this, name] { m_panels->takeLayout(name); });
     m_presentAction = addViewAction(*menu, tr("&Presentation"), Qt::Key_F5, {});
     m_presentAction->setCheckable(true);
     connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);

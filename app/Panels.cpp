@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QDockWidget>
+#include <QLayout>
 #include <QMainWindow>
 #include <QMenuBar>
 #include <QStatusBar>
@@ -23,6 +24,21 @@ namespace {
             break;
         }
         return Qt::RightDockWidgetArea;
+    }
+
+    struct Layout {
+        const char *name;
+        QStringList docks; ///< what is there, the foremost of tabs last; none: as at first
+    };
+
+    const std::vector<Layout> &layouts()
+    {
+        static const std::vector<Layout> all{
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Lines"), {}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Evaluate"), {"experimentsDock", "reproductionDock", "evaluateDock"}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Teach"), {"eventsDock", "thresholdDock"}},
+        };
+        return all;
     }
 
 } // namespace
@@ -71,7 +87,49 @@ void Panels::show(QWidget *panel)
     dock->show();
     dock->raise();
     if (wasHidden && m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
-        m_window.resizeDocks({dock}, {m_window.height() * 36 / 100}, Qt::Vertical);
+        raiseFromBottom(dock, 36);
+}
+
+/// Its share of the window's height, once the window knows that it is there.
+void Panels::raiseFromBottom(QDockWidget *dock, int percent)
+{
+    m_window.layout()->activate();
+    m_window.resizeDocks({dock}, {m_window.height() * percent / 100}, Qt::Vertical);
+}
+
+QStringList Panels::layoutNames()
+{
+    QStringList names;
+    for (const Layout &layout : layouts())
+        names.append(tr(layout.name));
+    return names;
+}
+
+void Panels::takeLayout(const QString &name)
+{
+    const auto index = layoutNames().indexOf(name);
+    if (index < 0)
+        return;
+    takeDefault();
+    const Layout &layout = layouts()[static_cast<std::size_t>(index)];
+    if (layout.docks.isEmpty())
+        return;
+    for (const Entry &entry : m_entries)
+        entry.dock->setVisible(layout.docks.contains(entry.dock->objectName()));
+    for (const QString &shown : layout.docks)
+        if (QDockWidget *own = dock(shown))
+            own->raise();
+    for (const QString &shown : layout.docks)
+        if (QDockWidget *own = dock(shown); own && m_window.dockWidgetArea(own) == Qt::BottomDockWidgetArea)
+            raiseFromBottom(own, 48);
+}
+
+QDockWidget *Panels::dock(const QString &name) const
+{
+    for (const Entry &entry : m_entries)
+        if (entry.dock->objectName() == name)
+            return entry.dock;
+    return nullptr;
 }
 
 void Panels::hide()

@@ -3,6 +3,7 @@
 #include <QByteArray>
 #include <QList>
 #include <QObject>
+#include <QStringList>
 
 #include <vector>
 
@@ -33,6 +34,10 @@ public:
     void hide();               ///< all of them
     QList<QAction *> toggleActions() const;
 
+    /// Arrangements for what one is about, by name; the first is the default.
+    static QStringList layoutNames();
+    void takeLayout(const QString &name);
+
 public slots:
     void takeDefault();
     /// The pictures and nothing else, over the whole screen.
@@ -44,6 +49,8 @@ private:
         Place place;
     };
 
+    QDockWidget *dock(const QString &name) const;
+    void raiseFromBottom(QDockWidget *dock, int percent);
     QDockWidget *first(Place place) const;
     QDockWidget *last(Place place) const;
 

@@ -293,6 +293,15 @@ void Workbench::play()
         std::max(1, static_cast<int>(viewport.time().width() / playerSteps / m_document.analysis()->time().step)));
 }
 
+void Workbench::resizeEvent(QResizeEvent *event)
+{
+    constexpr int enoughForOne = 340;
+    constexpr int enoughForBoth = 520;
+    m_statistic->setVisible(height() >= enoughForOne);
+    m_regulation->setVisible(height() >= enoughForBoth);
+    QWidget::resizeEvent(event);
+}
+
 ViewState Workbench::viewState() const
 {
     const Viewport &viewport = m_document.viewport();

@@ -41,6 +41,10 @@ public slots:
     void stepFrames(int frames);
     void setPlaying(bool isPlaying);
 
+protected:
+    /// The curves give way where there is little height: the pictures come first.
+    void resizeEvent(QResizeEvent *event) override;
+
 signals:
     void eventActivated(int id);
     void thresholdStepRequested(int quarterNats);

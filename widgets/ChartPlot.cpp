@@ -379,14 +379,14 @@ void ChartPlot::rebuildKey()
     placeKey();
 }
 
-/// Beside the plot, or below it where that would take too much of its width.
+/// Beside the plot, or below it where that would take too much of its width and there is height to spare.
 void ChartPlot::placeKey()
 {
     int widest = 0;
     for (const QCheckBox *box : m_boxes)
         widest = std::max(widest, box->sizeHint().width() + 26);
     constexpr int heightBelow = 76;
-    const bool isBelow = 3 * widest > width();
+    const bool isBelow = 3 * widest > width() && height() > 4 * heightBelow;
     m_row->setDirection(isBelow ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     m_keyArea->setMinimumSize(isBelow ? 0 : widest, isBelow ? heightBelow : 0);
     m_keyArea->setMaximumSize(isBelow ? QWIDGETSIZE_MAX : widest, isBelow ? heightBelow : QWIDGETSIZE_MAX);

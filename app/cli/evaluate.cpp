@@ -2,7 +2,10 @@
 
 #include "base/Error.h"
 #include "base/json.h"
+#include "base/AtomicFile.h"
+#include "evaluate/campaignCharts.h"
 #include "exchange/CampaignFile.h"
+#include "exchange/writeChart.h"
 
 #include <CLI/CLI.hpp>
 
@@ -46,6 +49,12 @@ namespace {
                         point.interval.low, point.interval.high, static_cast<long long>(point.trials));
     }
 
+    void draw(const Campaign &campaign, const std::string &path)
+    {
+        if (!path.empty())
+            writeTextFile(path, chartSvg(pdChart(campaign)));
+    }
+
 } // namespace
 
 void addEvaluate(CLI::App &app, Common &common)
@@ -53,6 +62,7 @@ void addEvaluate(CLI::App &app, Common &common)
     struct Options {
         std::vector<std::string> files;
         std::string out;
+        std::string chart;
         std::string shard;
         int seed = -1;
     };
@@ -60,6 +70,7 @@ void addEvaluate(CLI::App &app, Common &common)
     CLI::App *command = app.add_subcommand("evaluate", "Monte-Carlo detection probability of an experiment; resumes where it was interrupted");
     command->add_option("EXPERIMENT", options->files, "The experiment, JSON; or: merge SHARD…")->required();
     command->add_option("--out", options->out, "Curve to write, .csv; with --shard the shard's runs");
+    command->add_option("--chart", options->chart, "Pd against SNR to draw, .svg");
     command->add_option("--shard", options->shard, "Only part I of N, for 'merge'");
     command->add_option("--seed", options->seed, "Seed in place of the experiment's own")->check(CLI::Range(0, 2147483647));
     command->callback([options, &common] {
@@ -82,6 +93,7 @@ void addEvaluate(CLI::App &app, Common &common)
             Campaign campaign = begin(experiment, common.context());
             carryOut(campaign, runs, common.context());
             print(campaign);
+            draw(campaign, options->chart);
             return;
         }
         const Campaign campaign = carryOutResumably(experiment, runs, options->out, common.context());
@@ -89,6 +101,7 @@ void addEvaluate(CLI::App &app, Common &common)
             writeCurve(campaign, options->out);
         else
             writeCampaign(campaign, options->out);
+        draw(campaign, options->chart);
         removeParts(options->out);
     });
 }

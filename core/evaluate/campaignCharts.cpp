@@ -110,14 +110,14 @@ Chart pdChart(const Campaign &campaign)
 {
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
     Chart chart{"Detection probability",
-                "SNR (dB)",
-                lines ? "Pd at 1 false alarm per block" : "Pd at the thresholds",
+                "SNR (dB), at 1 false alarm per block",
+                "Pd",
                 false,
                 false,
                 {}};
     if (const auto *injection = std::get_if<InjectionExperiment>(&campaign.experiment)) {
         chart.title = "Detection probability in this recording";
-        chart.yLabel = "Pd at " + formatNumber(injection->falseAlarmsPerHour) + " false alarms/h";
+        chart.xLabel = "SNR (dB), at " + formatNumber(injection->falseAlarmsPerHour) + (injection->falseAlarmsPerHour == 1.0 ? " false alarm/h" : " false alarms/h");
     }
     for (const CurvePoint &point : pdCurve(campaign)) {
         if (chart.curves.empty() || chart.curves.back().name != point.detector)
