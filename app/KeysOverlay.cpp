@@ -48,6 +48,7 @@ namespace {
             {{QT_TRANSLATE_NOOP("KeysOverlay", "Detect"),
               {{",  .", "threshold down, up by a quarter nat"},
                {"N   Shift + N", "next, previous event"},
+               {"W", "why detected, or why not"},
                {"M", "measure a box"},
                {"H", "harmonics of the cursor's frequency"},
                {"Space", "play"},

@@ -19,6 +19,7 @@
 #include "app/TrialViewer.h"
 #include "app/TrialWindow.h"
 #include "app/WelcomePage.h"
+#include "app/WhyPanel.h"
 #include "app/Workbench.h"
 #include "app/hint.h"
 #include "app/statisticUnit.h"
@@ -139,6 +140,7 @@ void MainWindow::buildDocks()
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     m_events = new EventTable;
     m_events->setEmptySentence(tr("No event at this threshold."));
+    m_why = new WhyPanel(m_document);
     m_info = new InfoPanel(m_document);
     m_noiseFit = new NoiseFitPanel(m_document);
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
@@ -150,6 +152,7 @@ void MainWindow::buildDocks()
     // The threshold above the events it decides about: one sees both while dragging.
     m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"), m_threshold, Place::RightTop);
     m_panels->add(QStringLiteral("eventsDock"), tr("Events · tracks"), m_events, Place::RightBottom);
+    m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseDock"), tr("Noise · calibration"), m_info, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);

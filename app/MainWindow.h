@@ -35,6 +35,7 @@ class ScenarioCard;
 class SessionSaver;
 class TrialViewer;
 class WelcomePage;
+class WhyPanel;
 class Workbench;
 
 /// The window: it puts the panels in their places and connects them to the document and its controller.
@@ -63,6 +64,7 @@ public:
     ExperimentsPanel &experimentList() { return *m_experimentList; }
     ReproductionPanel &reproduction() { return *m_reproduction; }
     NoiseFitPanel &noiseFit() { return *m_noiseFit; }
+    WhyPanel &why() { return *m_why; }
     TrialViewer &trials() { return *m_trials; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
@@ -138,6 +140,7 @@ private:
     PipelinePanel *m_pipeline = nullptr;
     ExceedancePlot *m_threshold = nullptr;
     EventTable *m_events = nullptr;
+    WhyPanel *m_why = nullptr;
     InfoPanel *m_info = nullptr;
     EvaluatePanel *m_evaluate = nullptr;
     ExperimentsPanel *m_experimentList = nullptr;

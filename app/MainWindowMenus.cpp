@@ -9,6 +9,7 @@
 #include "app/ScenarioCard.h"
 #include "app/SessionSaver.h"
 #include "app/WelcomePage.h"
+#include "app/WhyPanel.h"
 #include "app/Workbench.h"
 #include "widgets/EventTable.h"
 
@@ -125,6 +126,8 @@ void MainWindow::buildDetectMenu()
     addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
     addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
                   [this] { m_events->selectPrevious(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { m_panels->show(m_why); });
     menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);

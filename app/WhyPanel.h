@@ -1,0 +1,58 @@
+#pragma once
+
+#include "analysis/explain.h"
+#include "app/JobRunner.h"
+
+#include <QWidget>
+
+#include <optional>
+
+class QLabel;
+class QTableWidget;
+class QTimer;
+
+namespace faintline {
+
+class ChartPlot;
+class Document;
+
+/// Why the cell under the cursor was detected, or was not: the best path that ends there, step by step, with terms that add up to
+/// the statistic displayed. Goes through the chain again, on a worker, while it is seen; the newest cursor wins.
+class WhyPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit WhyPanel(Document &document, QWidget *parent = nullptr);
+
+    const std::optional<Explanation> &explanation() const { return m_explanation; }
+    QString sentence() const;
+    QTableWidget *ladder() const { return m_ladder; }
+    ChartPlot &plot() { return *m_plot; }
+
+    QSize sizeHint() const override { return {360, 420}; }
+
+signals:
+    void settled(); ///< the ladder belongs to the cursor, or the sentence says why there is none
+
+protected:
+    void showEvent(QShowEvent *event) override;
+
+private:
+    void follow();
+    void explainCursor();
+    void show(const Explanation &explanation);
+
+    Document &m_document;
+    std::optional<Explanation> m_explanation;
+    QLabel *m_sentence;
+    ChartPlot *m_plot;
+    QTableWidget *m_ladder;
+    QTimer *m_pause; ///< a cursor on its way is not asked about
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+/// The explanation in words: detected or not, by how much, since when, and what the terms amount to.
+QString whySentence(const Explanation &explanation, const Axis &time, const Axis &frequency);
+
+} // namespace faintline

@@ -1,0 +1,107 @@
+// The ladder under the cursor: its terms add up to what the picture shows, and its sentence says which way it went.
+
+#include "app/MainWindow.h"
+#include "app/WhyPanel.h"
+#include "widgets/ChartPlot.h"
+
+#include <QFile>
+#include <QSignalSpy>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <memory>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 120000; // ms
+
+} // namespace
+
+class tst_WhyPanel : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void cleanupTestCase() { m_window.reset(); }
+
+    void termsAddUp_data();
+    void termsAddUp();
+    void otherDetectorsSayThatTheyHaveNoPath();
+
+private:
+    void askAt(double seconds, double hz)
+    {
+        QSignalSpy settled(&m_window->why(), &WhyPanel::settled);
+        m_window->document().viewport().setCursor({seconds, hz});
+        QVERIFY(settled.wait(patience));
+    }
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+};
+
+void tst_WhyPanel::initTestCase()
+{
+    Theme::apply(Theme::Kind::Light);
+    QFile scene(m_folder.filePath("scene.json"));
+    QVERIFY(scene.open(QIODevice::WriteOnly));
+    scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        {"snrDb": 6, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 120}]})");
+    scene.close();
+    m_window = std::make_unique<MainWindow>();
+    m_window->setAsking(false);
+    m_window->resize(1400, 900);
+    m_window->show();
+    QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
+    m_window->open(scene.fileName());
+    QVERIFY(settled.wait(patience));
+    QTest::keyClick(m_window.get(), Qt::Key_W);
+    QVERIFY(m_window->why().isVisible());
+}
+
+void tst_WhyPanel::termsAddUp_data()
+{
+    QTest::addColumn<double>("seconds");
+    QTest::addColumn<double>("hz");
+    QTest::addColumn<QString>("begins");
+    QTest::newRow("on the line") << 40.0 << 120.0 << "Followed by a track";
+    QTest::newRow("beside it") << 40.0 << 300.0 << "Not detected";
+    QTest::newRow("before it") << 10.0 << 120.0 << "Not detected";
+}
+
+void tst_WhyPanel::termsAddUp()
+{
+    QFETCH(double, seconds);
+    QFETCH(double, hz);
+    QFETCH(QString, begins);
+    askAt(seconds, hz);
+    WhyPanel &why = m_window->why();
+    QVERIFY2(why.sentence().startsWith(begins), qPrintable(why.sentence()));
+    const Explanation &explanation = why.explanation().value();
+    double sum = 0.0;
+    for (const PathStep &step : explanation.steps)
+        sum += step.logLikelihoodRatio + step.lnTransition + step.lnK;
+    QVERIFY(std::abs(sum - explanation.displayed) < 1e-3 * std::max(1.0, std::abs(sum)));
+    QCOMPARE(why.ladder()->rowCount(), static_cast<int>(explanation.steps.size()));
+    QCOMPARE(why.ladder()->item(0, 5)->text().replace(QChar(0x2212), '-').toDouble(),
+             std::round(100.0 * explanation.steps.back().score) / 100.0);
+    QCOMPARE(why.plot().chart().curves.size(), std::size_t(2));
+}
+
+void tst_WhyPanel::otherDetectorsSayThatTheyHaveNoPath()
+{
+    QSignalSpy analysed(&m_window->document(), &Document::analysisChanged);
+    QSignalSpy settled(&m_window->why(), &WhyPanel::settled);
+    m_window->controller().edit("detector.kind", std::string("pOfN"), "detector");
+    QVERIFY(analysed.wait(patience));
+    QVERIFY(!settled.isEmpty() || settled.wait(patience));
+    QVERIFY2(m_window->why().sentence().contains("path"), qPrintable(m_window->why().sentence()));
+    QCOMPARE(m_window->why().ladder()->rowCount(), 0);
+}
+
+QTEST_MAIN(tst_WhyPanel)
+#include "tst_WhyPanel.moc"
