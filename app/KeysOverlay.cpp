@@ -59,6 +59,7 @@ namespace {
               {{"Ctrl + O", "open; or drop a file on the window"},
                {"Ctrl + S", "save the session"},
                {"Ctrl + Z   Ctrl + Y", "undo, redo a setting"},
+               {"Ctrl + K", "find a command by name"},
                {"F1   ?", "these keys"},
                {"F5", "presentation"},
                {"Ctrl + Q", "quit"}}}},

@@ -1,6 +1,7 @@
 #include "app/MainWindow.h"
 
 #include "app/ActivityBar.h"
+#include "app/CommandPalette.h"
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
 #include "app/ExperimentsPanel.h"
@@ -96,6 +97,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, QWidget *parent)
     connectViews();
     connectEvaluation();
     m_keys = new KeysOverlay(this);
+    m_palette = new CommandPalette(this);
     resize(1440, 900);
     m_panels->rememberDefault();
     restoreLayout();

@@ -18,6 +18,7 @@ class QToolBar;
 namespace faintline {
 
 class ActivityBar;
+class CommandPalette;
 class EvaluatePanel;
 class EventTable;
 class ExceedancePlot;
@@ -152,6 +153,7 @@ private:
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;
     KeysOverlay *m_keys = nullptr;
+    CommandPalette *m_palette = nullptr;
     QMenu *m_recentMenu = nullptr;
     QMenu *m_panelsMenu = nullptr;
     QAction *m_stopAction = nullptr;

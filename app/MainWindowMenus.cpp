@@ -2,6 +2,7 @@
 
 #include "app/MainWindow.h"
 
+#include "app/CommandPalette.h"
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentsPanel.h"
 #include "app/KeysOverlay.h"
@@ -170,6 +171,7 @@ void MainWindow::buildHelpMenu()
     QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(); });
     keys->setShortcuts(
         {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
+    menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this, [this] { m_palette->open(menuBar()->actions()); });
     menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
 }
 

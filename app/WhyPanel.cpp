@@ -124,6 +124,13 @@ void WhyPanel::showEvent(QShowEvent *event)
     follow();
 }
 
+void WhyPanel::resizeEvent(QResizeEvent *event)
+{
+    constexpr int enoughForBoth = 400;
+    m_plot->setVisible(height() >= enoughForBoth);
+    QWidget::resizeEvent(event);
+}
+
 void WhyPanel::follow()
 {
     if (isVisible())

@@ -37,6 +37,8 @@ signals:
 
 protected:
     void showEvent(QShowEvent *event) override;
+    /// Where there is little height the ladder comes first.
+    void resizeEvent(QResizeEvent *event) override;
 
 private:
     void follow();
