@@ -157,6 +157,20 @@ void AnalysisController::stepThreshold(int quarterNats)
     commitThreshold(m_document.shownThreshold() + 0.25 * quarterNats);
 }
 
+void AnalysisController::recover(const QString &path)
+{
+    m_isOpening = true;
+    m_runner.start([this, path](const RunContext &context) -> JobRunner::Delivery {
+        context.checkpoint(0.0, "opening");
+        Opening opening = openNow(path, {});
+        opening.sessionPath.clear();
+        return [this, opening = std::move(opening)] {
+            deliver(opening);
+            m_document.undoStack().resetClean();
+        };
+    });
+}
+
 AnalysisController::Opening AnalysisController::openNow(const QString &path, const OpenOptions &options)
 {
     if (!isSessionPath(path))

@@ -27,6 +27,8 @@ public:
     /// Opens a recording, a scenario or a session, by its name. `adjust` changes the settings it begins with: the
     /// defaults, or the session's. May be called on another thread.
     void open(const QString &path, const OpenOptions &options = {}, const Adjust &adjust = {});
+    /// Opens a session that a program left behind when it died: unsaved work, of no file of its own.
+    void recover(const QString &path);
     /// What is open, read in another way.
     void reopen(const OpenOptions &options);
     /// Shows what was opened and analysed elsewhere.

@@ -14,6 +14,7 @@
 #include "app/OpenOptionsDialog.h"
 #include "app/Panels.h"
 #include "app/PipelinePanel.h"
+#include "app/Recovery.h"
 #include "app/ReproductionPanel.h"
 #include "app/ScenarioCard.h"
 #include "app/SessionSaver.h"
@@ -34,6 +35,7 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDateTime>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -80,8 +82,8 @@ namespace {
 
 } // namespace
 
-MainWindow::MainWindow(std::unique_ptr<QSettings> memory, QWidget *parent)
-    : QMainWindow(parent), m_controller(m_document), m_memory(std::move(memory))
+MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recoveryFolder, QWidget *parent)
+    : QMainWindow(parent), m_controller(m_document), m_memory(std::move(memory)), m_recoveryFolder(recoveryFolder)
 {
     setObjectName(QStringLiteral("MainWindow"));
     setAnimated(false);
@@ -231,6 +233,8 @@ void MainWindow::connectController()
     connect(&m_controller, &AnalysisController::viewRestored, m_workbench, &Workbench::restore);
     m_saver = new SessionSaver(
         m_document, [this] { return m_workbench->viewState(); }, this);
+    m_recovery = new Recovery(
+        m_document, [this] { return m_workbench->viewState(); }, m_recoveryFolder, this);
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::closable, this, &QWidget::close);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
@@ -300,6 +304,22 @@ void MainWindow::open(const QString &path, const OpenOptions &options, const Ana
         showWorkbench();
     }
     m_controller.open(path, chosen, adjust);
+}
+
+void MainWindow::offerRecovery()
+{
+    const QStringList left = Recovery::leftBehind(m_recoveryFolder);
+    if (left.isEmpty())
+        return;
+    const QString when = QFileInfo(left.first()).lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"));
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Unsaved work"), tr("of %1 was left behind when the program ended unexpectedly.").arg(when),
+                            tr("Restore"), [this, session = left.first()] {
+                                m_welcome->stop();
+                                // What was left behind goes when it is kept again.
+                                connect(
+                                    m_recovery, &Recovery::kept, this, [session] { Recovery::discard(session); }, Qt::SingleShotConnection);
+                                m_controller.recover(session);
+                            });
 }
 
 void MainWindow::openScenario(ScenarioCard *card)

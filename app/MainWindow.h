@@ -31,6 +31,7 @@ class OverviewStrip;
 class Panels;
 class PipelinePanel;
 class ReadOut;
+class Recovery;
 class ReproductionPanel;
 class ScenarioCard;
 class SessionSaver;
@@ -45,13 +46,15 @@ class MainWindow : public QMainWindow
     Q_OBJECT
 
 public:
-    /// `memory`: where recent files and the window's layout are kept; null keeps nothing.
-    explicit MainWindow(std::unique_ptr<QSettings> memory = {}, QWidget *parent = nullptr);
+    /// `memory`: where recent files and the window's layout are kept; null keeps nothing. `recoveryFolder`: where unsaved work is.
+    explicit MainWindow(std::unique_ptr<QSettings> memory = {}, const QString &recoveryFolder = {}, QWidget *parent = nullptr);
     ~MainWindow() override;
 
     /// Opens a recording, a scenario or a session. Asks only what the file itself cannot tell.
     void open(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {});
     void showWelcome();
+    /// Offers unsaved work that a program left behind when it died.
+    void offerRecovery();
 
     Document &document() { return m_document; }
     AnalysisController &controller() { return m_controller; }
@@ -66,6 +69,7 @@ public:
     ReproductionPanel &reproduction() { return *m_reproduction; }
     NoiseFitPanel &noiseFit() { return *m_noiseFit; }
     WhyPanel &why() { return *m_why; }
+    Recovery &recovery() { return *m_recovery; }
     TrialViewer &trials() { return *m_trials; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
@@ -134,6 +138,8 @@ private:
 
     Panels *m_panels = nullptr;
     SessionSaver *m_saver = nullptr;
+    Recovery *m_recovery = nullptr;
+    QString m_recoveryFolder;
     MessageBar *m_messages = nullptr;
     QStackedWidget *m_pages = nullptr;
     WelcomePage *m_welcome = nullptr;

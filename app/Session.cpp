@@ -171,7 +171,7 @@ Session readSession(const QString &path)
 
 void writeSession(const QString &path, Session session)
 {
-    if (!session.source.scene)
+    if (!session.source.scene && session.recordingHash.empty())
         session.recordingHash = recordingHash(session.source.path.toStdString());
     const Json json = {{"faintline", formatVersion},
                        {"recording", toJson(session.source, session.recordingHash, folderOf(path))},

@@ -33,7 +33,7 @@ bool isSessionPath(const QString &path);
 /// Throws Error naming the file and the key.
 Session readSession(const QString &path);
 
-/// Takes the recording's hash and writes, completely or not at all. Throws Error.
+/// Takes the recording's hash where none is given, and writes, completely or not at all. Throws Error.
 void writeSession(const QString &path, Session session);
 
 /// Why the recording on disk is not the one the session was saved with; empty where it is.

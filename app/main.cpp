@@ -1,6 +1,7 @@
 // The window, and its twin that draws pictures without a screen.
 
 #include "app/MainWindow.h"
+#include "app/Recovery.h"
 #include "app/renderCommand.h"
 
 #include <CLI/CLI.hpp>
@@ -120,11 +121,12 @@ namespace {
 
         std::vector<std::unique_ptr<MainWindow>> windows;
         for (std::size_t i = 0; i < std::max<std::size_t>(1, files.size()); ++i) {
-            windows.push_back(std::make_unique<MainWindow>(WindowMemory::programStore()));
+            windows.push_back(std::make_unique<MainWindow>(WindowMemory::programStore(), Recovery::programFolder()));
             if (i < files.size())
                 windows.back()->open(QString::fromStdString(files[i]), options);
             windows.back()->show();
         }
+        windows.front()->offerRecovery();
         return QApplication::exec();
     }
 

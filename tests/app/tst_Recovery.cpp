@@ -1,0 +1,133 @@
+// Unsaved work survives: kept while it is unsaved, found again after the program was killed.
+
+#include "app/MainWindow.h"
+#include "app/MessageBar.h"
+#include "app/Recovery.h"
+
+#include <QApplication>
+#include <QFile>
+#include <QProcess>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+
+#include <cstdio>
+#include <memory>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 60000; // ms
+
+QString writeScene(const QTemporaryDir &folder)
+{
+    const QString path = folder.filePath("scene.json");
+    QFile scene(path);
+    if (!scene.open(QIODevice::WriteOnly))
+        return {};
+    scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
+    return path;
+}
+
+std::unique_ptr<MainWindow> openedWindow(const QString &scene, const QString &recoveryFolder)
+{
+    auto window = std::make_unique<MainWindow>(nullptr, recoveryFolder);
+    window->setAsking(false);
+    window->show();
+    QSignalSpy settled(&window->controller(), &AnalysisController::settled);
+    window->open(scene);
+    settled.wait(patience);
+    return window;
+}
+
+/// The program that is killed: it edits, tells that its work is kept, and waits for its end.
+int beKilled(const QString &scene, const QString &recoveryFolder)
+{
+    const auto window = openedWindow(scene, recoveryFolder);
+    QSignalSpy kept(&window->recovery(), &Recovery::kept);
+    window->controller().edit("decide.falseAlarmsPerHour", 7.0, "false alarms");
+    kept.wait(patience);
+    std::puts("kept");
+    std::fflush(stdout);
+    return QApplication::exec();
+}
+
+} // namespace
+
+class tst_Recovery : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void keptAsLongAsItIsUnsaved();
+    void survivesAKill();
+    void withoutAFolderNothingIsKept();
+};
+
+void tst_Recovery::keptAsLongAsItIsUnsaved()
+{
+    QTemporaryDir folder;
+    const auto window = openedWindow(writeScene(folder), folder.filePath("recovery"));
+    QSignalSpy kept(&window->recovery(), &Recovery::kept);
+    window->controller().edit("model.snr", 0.7, "SNR");
+    QVERIFY(kept.wait(patience));
+    const QString session = kept[0][0].toString();
+    QCOMPARE(readSession(session).settings, window->document().settings());
+    QVERIFY2(Recovery::leftBehind(folder.filePath("recovery")).isEmpty(), "of a program that still runs");
+    window->document().undoStack().undo();
+    QVERIFY(!QFile::exists(session));
+}
+
+void tst_Recovery::survivesAKill()
+{
+    QTemporaryDir folder;
+    const QString scene = writeScene(folder);
+    const QString recovery = folder.filePath("recovery");
+    QProcess program;
+    program.start(QCoreApplication::applicationFilePath(), {"--be-killed", scene, recovery});
+    QVERIFY(program.waitForReadyRead(patience));
+    QCOMPARE(program.readLine().trimmed(), QByteArray("kept"));
+    QVERIFY(Recovery::leftBehind(recovery).isEmpty());
+    program.kill();
+    QVERIFY(program.waitForFinished(patience));
+
+    QCOMPARE(Recovery::leftBehind(recovery).size(), 1);
+    MainWindow window(nullptr, recovery);
+    window.setAsking(false);
+    window.show();
+    window.offerRecovery();
+    QVERIFY(window.messages().text().contains("Unsaved work"));
+    QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+    QSignalSpy kept(&window.recovery(), &Recovery::kept);
+    for (QToolButton *button : window.messages().findChildren<QToolButton *>())
+        if (button->text() == "Restore")
+            button->click();
+    QVERIFY(settled.wait(patience));
+    QCOMPARE(window.document().settings().decide.falseAlarmsPerHour, 7.0);
+    QVERIFY2(window.document().isModified(), "it is still unsaved");
+    QVERIFY(window.document().sessionPath().isEmpty());
+    QVERIFY(!kept.isEmpty() || kept.wait(patience));
+    QVERIFY2(Recovery::leftBehind(recovery).isEmpty(), "it belongs to this program now");
+}
+
+void tst_Recovery::withoutAFolderNothingIsKept()
+{
+    QTemporaryDir folder;
+    const auto window = openedWindow(writeScene(folder), {});
+    window->controller().edit("model.snr", 0.7, "SNR");
+    QVERIFY(!window->recovery().isPending());
+}
+
+int main(int argc, char *argv[])
+{
+    QApplication application(argc, argv);
+    Theme::apply(Theme::Kind::Light);
+    if (argc == 4 && qstrcmp(argv[1], "--be-killed") == 0)
+        return beKilled(QString::fromLocal8Bit(argv[2]), QString::fromLocal8Bit(argv[3]));
+    tst_Recovery test;
+    return QTest::qExec(&test, argc, argv);
+}
+
+#include "tst_Recovery.moc"
