@@ -499,14 +499,14 @@ const QStringList &MainWindow::viewNames()
 {
     static const QStringList names{QStringLiteral("window"),    QStringLiteral("input"),  QStringLiteral("output"),
                                    QStringLiteral("threshold"), QStringLiteral("events"), QStringLiteral("noise"),
-                                   QStringLiteral("noisefit"),  QStringLiteral("pd")};
+                                   QStringLiteral("noisefit"),  QStringLiteral("pd"),     QStringLiteral("why")};
     return names;
 }
 
 QWidget *MainWindow::view(const QString &name)
 {
-    const std::array<QWidget *, 8> views{this,     m_workbench->inputPane(), m_workbench->outputPane(), m_threshold,       m_events,
-                                         m_info,   m_noiseFit,               m_evaluate};
+    const std::array<QWidget *, 9> views{this,     m_workbench->inputPane(), m_workbench->outputPane(), m_threshold,       m_events,
+                                         m_info,   m_noiseFit,               m_evaluate,                m_why};
     const auto index = viewNames().indexOf(name);
     return index < 0 ? nullptr : views[static_cast<std::size_t>(index)];
 }
@@ -548,6 +548,11 @@ void MainWindow::showExperiment(int id)
         return;
     m_evaluate->show(id);
     m_panels->show(m_evaluate);
+}
+
+void MainWindow::showWhy()
+{
+    m_panels->show(m_why);
 }
 
 void MainWindow::showNoiseFit()

@@ -73,11 +73,12 @@ public:
     TrialViewer &trials() { return *m_trials; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd".
+    /// "noisefit", "pd", "why".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
 
     void showNoiseFit();
+    void showWhy();
 
     /// Off: nobody is there to answer a dialog.
     void setAsking(bool isAsking);
@@ -164,7 +165,6 @@ private:
     QMenu *m_panelsMenu = nullptr;
     QAction *m_stopAction = nullptr;
     QAction *m_iqAction = nullptr;
-    QAction *m_darkAction = nullptr;
     QAction *m_playAction = nullptr;
     QAction *m_presentAction = nullptr;
     std::vector<QAction *> m_viewActions;

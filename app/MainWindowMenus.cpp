@@ -10,10 +10,10 @@
 #include "app/ScenarioCard.h"
 #include "app/SessionSaver.h"
 #include "app/WelcomePage.h"
-#include "app/WhyPanel.h"
 #include "app/Workbench.h"
 #include "widgets/EventTable.h"
 
+#include <QActionGroup>
 #include <QMenu>
 #include <QMenuBar>
 #include <QToolBar>
@@ -107,11 +107,17 @@ void MainWindow::buildViewMenu()
     m_presentAction = addViewAction(*menu, tr("&Presentation"), Qt::Key_F5, {});
     m_presentAction->setCheckable(true);
     connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);
-    m_darkAction = menu->addAction(tr("&Dark"));
-    m_darkAction->setCheckable(true);
-    m_darkAction->setChecked(Theme::kind(palette()) == Theme::Kind::Dark);
-    connect(m_darkAction, &QAction::toggled, this,
-            [this](bool isDark) { setTheme(isDark ? Theme::Kind::Dark : Theme::Kind::Light); });
+    QMenu *themes = menu->addMenu(tr("&Theme"));
+    auto *group = new QActionGroup(themes);
+    const auto addTheme = [&](const QString &text, Theme::Kind kind) {
+        QAction *action = themes->addAction(text, this, [this, kind] { setTheme(kind); });
+        action->setCheckable(true);
+        action->setActionGroup(group);
+        action->setChecked(Theme::kind(palette()) == kind);
+    };
+    addTheme(tr("&Light"), Theme::Kind::Light);
+    addTheme(tr("&Dark"), Theme::Kind::Dark);
+    addTheme(tr("&High contrast"), Theme::Kind::HighContrast);
 }
 
 void MainWindow::buildDetectMenu()
@@ -128,7 +134,7 @@ void MainWindow::buildDetectMenu()
     addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
                   [this] { m_events->selectPrevious(); });
     menu->addSeparator();
-    addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { m_panels->show(m_why); });
+    addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
     menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);

@@ -141,8 +141,10 @@ void WhyPanel::explainCursor()
 {
     const auto &analysis = m_document.analysis();
     const auto cursor = m_document.viewport().cursor();
-    if (!analysis || !cursor || analysis->grid().axes.size() != 1)
+    if (!analysis || !cursor || analysis->grid().axes.size() != 1) {
+        emit settled();
         return;
+    }
     if (!std::holds_alternative<SmdSettings>(analysis->settings.detector)) {
         m_explanation.reset();
         m_ladder->setRowCount(0);
@@ -153,16 +155,16 @@ void WhyPanel::explainCursor()
     }
     m_runner.start([this, analysis, point = *cursor](const RunContext &context) -> JobRunner::Delivery {
         auto explanation = explain(*analysis, point.seconds, {point.hz}, context);
-        return [this, explanation = std::move(explanation)] { show(explanation); };
+        return [this, analysis, explanation = std::move(explanation)] { show(explanation, *analysis); };
     });
 }
 
-void WhyPanel::show(const Explanation &explanation)
+void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)
 {
     m_explanation = explanation;
-    const Axis &time = m_document.analysis()->time();
-    const Axis &frequency = m_document.analysis()->grid().axes.back();
-    const StateSpace &space = m_document.analysis()->model.space;
+    const Axis &time = analysis.time();
+    const Axis &frequency = analysis.grid().axes.back();
+    const StateSpace &space = analysis.model.space;
     const FrequencyUnit unit = frequencyUnit(std::max(std::abs(frequency.first), std::abs(frequency.last())));
     m_ladder->horizontalHeaderItem(1)->setText(tr("f (%1)").arg(unit.name));
     m_sentence->setText(whySentence(explanation, time, frequency));

@@ -43,7 +43,7 @@ protected:
 private:
     void follow();
     void explainCursor();
-    void show(const Explanation &explanation);
+    void show(const Explanation &explanation, const Analysis &analysis);
 
     Document &m_document;
     std::optional<Explanation> m_explanation;

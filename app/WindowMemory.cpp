@@ -61,14 +61,13 @@ void WindowMemory::setLayout(const Layout &layout)
 
 Theme::Kind WindowMemory::theme() const
 {
-    const bool isLight = m_store && m_store->value(themeKey).toString() == QLatin1String("light");
-    return isLight ? Theme::Kind::Light : Theme::Kind::Dark;
+    return m_store ? Theme::named(m_store->value(themeKey).toString()) : Theme::Kind::Dark;
 }
 
 void WindowMemory::setTheme(Theme::Kind kind)
 {
     if (m_store)
-        m_store->setValue(themeKey, kind == Theme::Kind::Light ? QStringLiteral("light") : QStringLiteral("dark"));
+        m_store->setValue(themeKey, Theme::nameOf(kind));
 }
 
 } // namespace faintline

@@ -57,15 +57,15 @@ namespace {
             ->required();
         command
             ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise; several with commas")
+                         "window, input, output, threshold, events, noise, noisefit, pd, why; several with commas")
             ->delimiter(',')
             ->allow_extra_args(false)
             ->capture_default_str();
         command->add_option("--size", size, "Pixels")->capture_default_str();
         command->add_option("--time", options.seconds, "Where the cursor goes, s");
         command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
-        command->add_option("--theme", options.theme, "light or dark")
-            ->check(CLI::IsMember({"light", "dark"}))
+        command->add_option("--theme", options.theme, "light, dark or contrast")
+            ->check(CLI::IsMember({"light", "dark", "contrast"}))
             ->capture_default_str();
         command->add_option("--preset", options.preset, "Settings to begin with");
         command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);

@@ -4,6 +4,7 @@
 #include "app/ExperimentForm.h"
 #include "app/MainWindow.h"
 #include "app/NoiseFitPanel.h"
+#include "app/WhyPanel.h"
 #include "app/Workbench.h"
 #include "base/AtomicFile.h"
 
@@ -65,6 +66,14 @@ namespace {
             throw Error("experiment", entry->failure.toStdString(), Error::Kind::Failure);
     }
 
+    void explainCursor(MainWindow &window)
+    {
+        QEventLoop loop;
+        QObject::connect(&window.why(), &WhyPanel::settled, &loop, &QEventLoop::quit);
+        window.showWhy();
+        loop.exec();
+    }
+
     void measureNoise(MainWindow &window)
     {
         QEventLoop loop;
@@ -79,6 +88,8 @@ namespace {
         const auto has = [&](const char *name) { return std::find(views.begin(), views.end(), name) != views.end(); };
         if (has("pd"))
             measureCurves(window);
+        if (has("why"))
+            explainCursor(window);
         if (has("noisefit"))
             measureNoise(window);
     }
@@ -140,7 +151,7 @@ void render(const RenderOptions &options)
             throw Error("--view " + view,
                         "is not known; there are " + MainWindow::viewNames().join(QStringLiteral(", ")).toStdString());
 
-    Theme::apply(options.theme == "dark" ? Theme::Kind::Dark : Theme::Kind::Light);
+    Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
     window.setAsking(false);
     window.resize(options.size);

@@ -31,7 +31,17 @@ namespace {
                                   0xa3abb5, 0x2468b2, 0xffffff, 0x1d5fa8, 0xfdfdfe};
         static const Ground dark{0x22262d, 0x191c21, 0x1f2329, 0x2d323a, 0xe2e6eb, 0x98a2af,
                                  0x636c78, 0x2f6fb8, 0xffffff, 0x6fb1f2, 0x2d323a};
-        return kind == Theme::Kind::Dark ? dark : light;
+        static const Ground contrast{Qt::black, 0x202020, 0x2a2a2a, 0x383838, 0xffffff, 0xe0e0e0,
+                                     0x9a9a9a, 0xffd800, Qt::black, 0x7fd4ff, Qt::black};
+        switch (kind) {
+        case Theme::Kind::Light:
+            return light;
+        case Theme::Kind::HighContrast:
+            return contrast;
+        case Theme::Kind::Dark:
+            break;
+        }
+        return dark;
     }
 
     QColor mixed(const QColor &a, const QColor &b, double share)
@@ -107,9 +117,32 @@ void Theme::apply(Kind kind)
     QApplication::setCursorFlashTime(0);
 }
 
+QString Theme::nameOf(Kind kind)
+{
+    switch (kind) {
+    case Kind::Light:
+        return QStringLiteral("light");
+    case Kind::HighContrast:
+        return QStringLiteral("contrast");
+    case Kind::Dark:
+        break;
+    }
+    return QStringLiteral("dark");
+}
+
+Theme::Kind Theme::named(const QString &name)
+{
+    for (const Kind kind : {Kind::Light, Kind::HighContrast})
+        if (name == nameOf(kind))
+            return kind;
+    return Kind::Dark;
+}
+
 QPalette Theme::palette(Kind kind)
 {
     const Ground &g = ground(kind);
+    const bool isDark = kind != Kind::Light;
+    const double lift = kind == Kind::HighContrast ? 0.8 : 0.12; // edges of buttons and fields
     QPalette palette;
     palette.setColor(QPalette::Window, g.window);
     palette.setColor(QPalette::WindowText, g.text);
@@ -126,10 +159,10 @@ QPalette Theme::palette(Kind kind)
     palette.setColor(QPalette::LinkVisited, g.link);
     palette.setColor(QPalette::ToolTipBase, g.toolTip);
     palette.setColor(QPalette::ToolTipText, g.text);
-    palette.setColor(QPalette::Light, mixed(g.button, Qt::white, kind == Kind::Dark ? 0.12 : 1.0));
-    palette.setColor(QPalette::Midlight, mixed(g.button, Qt::white, kind == Kind::Dark ? 0.06 : 0.5));
-    palette.setColor(QPalette::Mid, mixed(g.window, Qt::black, kind == Kind::Dark ? 0.25 : 0.18));
-    palette.setColor(QPalette::Dark, mixed(g.window, Qt::black, kind == Kind::Dark ? 0.45 : 0.35));
+    palette.setColor(QPalette::Light, mixed(g.button, Qt::white, isDark ? lift : 1.0));
+    palette.setColor(QPalette::Midlight, mixed(g.button, Qt::white, isDark ? 0.5 * lift : 0.5));
+    palette.setColor(QPalette::Mid, mixed(g.window, Qt::black, isDark ? 0.25 : 0.18));
+    palette.setColor(QPalette::Dark, mixed(g.window, Qt::black, isDark ? 0.45 : 0.35));
     palette.setColor(QPalette::Shadow, mixed(g.window, Qt::black, 0.7));
     for (const QPalette::ColorRole role :
          {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::HighlightedText})
@@ -141,14 +174,15 @@ QPalette Theme::palette(Kind kind)
 
 Theme::Kind Theme::kind(const QPalette &palette)
 {
-    return palette.color(QPalette::Window).lightness() < 128 ? Kind::Dark : Kind::Light;
+    const int lightness = palette.color(QPalette::Window).lightness();
+    return lightness == 0 ? Kind::HighContrast : lightness < 128 ? Kind::Dark : Kind::Light;
 }
 
 const Theme::Colours &Theme::colours(Kind kind)
 {
     const auto make = [](Kind k) {
         const Ground &g = ground(k);
-        const bool isDark = k == Kind::Dark;
+        const bool isDark = k != Kind::Light;
         Colours c;
         c.canvas = isDark ? QColor(0x14171b) : QColor(0xffffff);
         c.grid = isDark ? QColor(255, 255, 255, 26) : QColor(20, 30, 45, 26);
@@ -173,11 +207,28 @@ const Theme::Colours &Theme::colours(Kind kind)
         c.curves[5] = isDark ? QColor(0x9fd8f5) : QColor(0x3f9bd0);
         c.curves[6] = isDark ? QColor(0xe6dc58) : QColor(0x8d8400);
         c.curves[7] = isDark ? QColor(0xb9c0ca) : QColor(0x444b55);
+        if (k == Kind::HighContrast) {
+            c.canvas = Qt::black;
+            c.grid = QColor(255, 255, 255, 80);
+            c.frame = Qt::white;
+            c.accent = g.accent;
+            c.threshold = QColor(0xff9d3c);
+            c.error = QColor(0xff9d9d);
+        }
         return c;
     };
     static const Colours light = make(Kind::Light);
     static const Colours dark = make(Kind::Dark);
-    return kind == Kind::Dark ? dark : light;
+    static const Colours contrast = make(Kind::HighContrast);
+    switch (kind) {
+    case Kind::Light:
+        return light;
+    case Kind::HighContrast:
+        return contrast;
+    case Kind::Dark:
+        break;
+    }
+    return dark;
 }
 
 const Theme::Colours &Theme::colours(const QWidget &widget)

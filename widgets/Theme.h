@@ -21,7 +21,11 @@ namespace faintline {
 class Theme
 {
 public:
-    enum class Kind { Light, Dark };
+    enum class Kind { Light, Dark, HighContrast };
+
+    /// "light", "dark", "contrast": as files and the command line write them. An unknown name is the dark one.
+    static QString nameOf(Kind kind);
+    static Kind named(const QString &name);
 
     /// What a palette has no role for.
     struct Colours {

@@ -99,15 +99,15 @@ void tst_Theme::fontsHaveEverySignOfTheSources()
 
 void tst_Theme::textCanBeRead_data()
 {
-    QTest::addColumn<bool>("isDark");
-    QTest::newRow("light") << false;
-    QTest::newRow("dark") << true;
+    QTest::addColumn<Theme::Kind>("kind");
+    QTest::newRow("light") << Theme::Kind::Light;
+    QTest::newRow("dark") << Theme::Kind::Dark;
+    QTest::newRow("high contrast") << Theme::Kind::HighContrast;
 }
 
 void tst_Theme::textCanBeRead()
 {
-    QFETCH(bool, isDark);
-    const Theme::Kind kind = isDark ? Theme::Kind::Dark : Theme::Kind::Light;
+    QFETCH(Theme::Kind, kind);
     const QPalette palette = Theme::palette(kind);
     const Theme::Colours &colours = Theme::colours(kind);
     QVERIFY(contrast(palette.color(QPalette::WindowText), palette.color(QPalette::Window)) > 7.0);
@@ -124,8 +124,10 @@ void tst_Theme::textCanBeRead()
 
 void tst_Theme::kindIsFoundInThePalette()
 {
-    for (const Theme::Kind kind : {Theme::Kind::Light, Theme::Kind::Dark})
+    for (const Theme::Kind kind : {Theme::Kind::Light, Theme::Kind::Dark, Theme::Kind::HighContrast}) {
         QCOMPARE(Theme::kind(Theme::palette(kind)), kind);
+        QCOMPARE(Theme::named(Theme::nameOf(kind)), kind);
+    }
     Theme::apply(Theme::Kind::Dark);
     QCOMPARE(Theme::kind(QApplication::palette()), Theme::Kind::Dark);
     Theme::apply(Theme::Kind::Light);
