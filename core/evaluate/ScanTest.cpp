@@ -131,6 +131,19 @@ StageSource scanStages(const ScanTest &test, const ScanRun &run)
     return averagedStages(std::move(source), scanModel(test.scene, test.designSnrDb), test.averagedCells, "design.averagedCells");
 }
 
+std::vector<float> rangeDopplerDb(const ScanTest &test, const ScanRun &run, Index stage)
+{
+    const auto plane = static_cast<std::size_t>(test.scene.rangeCells) * static_cast<std::size_t>(test.scene.dopplerCells);
+    std::vector<double> y(static_cast<std::size_t>(scanGrid(test.scene).size()));
+    scanStages(test, run)(stage, y);
+    std::vector<float> map(plane, 0.0f);
+    for (std::size_t cell = 0; cell < y.size(); ++cell)
+        map[cell % plane] = std::max(map[cell % plane], static_cast<float>(y[cell]));
+    for (float &value : map)
+        value = static_cast<float>(dbFromRatio(std::max(1e-6, static_cast<double>(value))));
+    return map;
+}
+
 SprtResult walkScan(const ScanTest &test, const SequentialModel &model, const ScanRun &run, const RunContext &context)
 {
     return runSprt(model, test.sprt, stageLimit(test), scanStages(test, run), context);

@@ -53,6 +53,10 @@ std::vector<ScanCell> truthOf(const ScanTest &test, const ScanRun &run);
 /// The scans of a run. Runs are independent of each other, those with and without a target too; each is a pure function of (seed, run).
 StageSource scanStages(const ScanTest &test, const ScanRun &run);
 
+/// What the radar receives at a stage, largest over azimuth and elevation, in dB over the noise: range cells × Doppler cells. Where the
+/// noise's power is estimated, as the test sees it.
+std::vector<float> rangeDopplerDb(const ScanTest &test, const ScanRun &run, Index stage);
+
 /// One test of `model`, which is scanModel of the test. Throws Error, Cancelled.
 SprtResult walkScan(const ScanTest &test, const SequentialModel &model, const ScanRun &run, const RunContext &context = {});
 
