@@ -236,13 +236,13 @@ QWidget *SequentialPanel::buildCurves()
         plot->setEmptySentence(tr("Press Run: the curve grows here."));
     addView(m_asn, tr("Stages against SNR"), [this] { return chartCsv(m_asn->chart()); });
     addView(m_variation, tr("Coefficient of variation"), [this] { return chartCsv(m_variation->chart()); });
-    return column({sideBySide(m_asn, m_variation, 3, 2), m_curvesText});
+    return m_curvesPage = column({sideBySide(m_asn, m_variation, 3, 2), m_curvesText});
 }
 
 QWidget *SequentialPanel::buildPrior()
 {
     addView(m_prior, tr("Stages against the prior"), [this] { return chartCsv(m_prior->chart()); });
-    return column({m_prior, m_priorText});
+    return m_priorPage = column({m_prior, m_priorText});
 }
 
 QWidget *SequentialPanel::buildSectors()
@@ -252,12 +252,13 @@ QWidget *SequentialPanel::buildSectors()
     m_sectors->setAccessibleName(tr("Dwell time on each sector"));
     addView(m_sectors, tr("Sectors"),
             [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
-    return column({m_sectors, m_sectorsText});
+    return m_sectorsPage = column({m_sectors, m_sectorsText});
 }
 
 QWidget *SequentialPanel::buildRunRow()
 {
     m_runText->setTextFormat(Qt::PlainText);
+    m_runText->setWordWrap(true);
     m_runText->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_slider->setFixedWidth(220);
     m_slider->setAccessibleName(tr("Stage"));
@@ -399,7 +400,7 @@ void SequentialPanel::showStopping()
     m_stopping->setBars(std::move(series), 1);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
-        marks.push_back({static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: %1").arg(*m_tests.fixedSize())});
+        marks.push_back({static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
     m_stopping->setMarks(std::move(marks));
     m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("When the tests stop is counted here.")
                                                      : tr("One test on a recording stops once; there is nothing to count."));
@@ -492,7 +493,7 @@ void SequentialPanel::showInspection()
         if (at < inspection->test.result.trajectory.size())
             map.points.push_back(point(stage, inspection->test.result.trajectory[at][picture.frameAxis]));
     }
-    m_posterior->setPaths({truth, map});
+    m_posterior->setPaths({map, truth});
     m_runText->setText(runSentence());
     showScan(); // its marks
 }
@@ -551,7 +552,7 @@ void SequentialPanel::showSectors()
     m_sectors->setBars(std::move(series), 1, true);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize()) {
-        marks.push_back({static_cast<double>(*m_tests.fixedSize()), false, tr("a test of fixed size: %1").arg(*m_tests.fixedSize()), true});
+        marks.push_back({static_cast<double>(*m_tests.fixedSize()), false, tr("a test of fixed size: about %1").arg(*m_tests.fixedSize()), true});
         m_sectors->setLeastHeight(static_cast<double>(*m_tests.fixedSize()));
     } else {
         m_sectors->setLeastHeight(0.0);
@@ -569,9 +570,10 @@ QString SequentialPanel::runSentence() const
     if (!m_tests.isOfScans())
         return recordingSentence();
     const auto &[run, result] = m_tests.walks()[static_cast<std::size_t>(m_tests.selected())];
-    return tr("Run %1 %2: %3 after %n stage(s), ln Λ = %4.", nullptr, static_cast<int>(result.stages))
+    return tr("Run %1 %2: %3 after %4, ln Λ = %5.")
                .arg(run.number + 1)
-               .arg(run.hasTarget ? tr("with a target") : tr("of noise only"), decisionText(result), numberText(result.lnLambda.back(), 1))
+               .arg(run.hasTarget ? tr("with a target") : tr("of noise only"), decisionText(result),
+                    result.stages == 1 ? tr("one stage") : tr("%1 stages").arg(result.stages), numberText(result.lnLambda.back(), 1))
         + trajectorySentence();
 }
 
@@ -588,7 +590,9 @@ QString SequentialPanel::trajectorySentence() const
             last = std::max(last, std::abs(inspection->test.result.trajectory[stage][axis] - inspection->truth[stage][axis]));
         worst = std::max(worst, last);
     }
-    return tr(" Its trajectory is off by %1 cells at last, by %2 at most.").arg(last).arg(worst);
+    if (worst == 0)
+        return tr(" Its trajectory is right at every stage.");
+    return tr(" Its trajectory is off by %1 at last and by %2 cells at most.").arg(last).arg(worst);
 }
 
 QString SequentialPanel::recordingSentence() const
@@ -596,7 +600,7 @@ QString SequentialPanel::recordingSentence() const
     const SequentialTests::Selection &selection = m_tests.selection();
     const SprtResult &result = m_tests.walks().front().second;
     const Axis &time = selection.frames->time();
-    QString text = tr("%1, %2 frequencies: %3 after %4 of %5 frames (%6), ln Λ = %7.")
+    QString text = tr("%1, a line since the first frame in view, at any of %2 frequencies: %3 after %4 of %5 frames (%6), ln Λ = %7.")
                        .arg(selection.name)
                        .arg(selection.cellCount)
                        .arg(decisionText(result))
@@ -646,9 +650,10 @@ QString SequentialPanel::priorSentence() const
     const std::optional<Overshoot> over = overshoot(curve);
     if (!over)
         return what;
-    return what + tr(" At the right end the stages differ from the “upper bounds” by %1 on noise and %2 with a target: the bounds neglect by "
-                     "how far ln Λ overshoots its boundary.")
-                      .arg(percent(over->h0), percent(over->h1));
+    const QString how = over->h0 >= 0.0 && over->h1 >= 0.0
+                            ? tr(" At the right end the stages exceed the “upper bounds” by %1 on noise and %2 with a target")
+                            : tr(" At the right end the stages differ from the upper bounds by %1 on noise and %2 with a target");
+    return what + how.arg(percent(over->h0), percent(over->h1)) + tr(": the bounds neglect by how far ln Λ overshoots its boundary.");
 }
 
 QString SequentialPanel::sectorsSentence() const
@@ -667,7 +672,7 @@ QString SequentialPanel::sectorsSentence() const
         falseAlarms += !isTarget && isAccepted ? 1 : 0;
     }
     const int looks = static_cast<int>(survey.visits.size());
-    const QString seen = tr(" A target is found in %1 of %2 looks at one, and in %3 of %4 at none.")
+    const QString seen = tr(" A target is found in %1 of %2 looks at one; %3 of %4 looks at empty sectors end in a false alarm.")
                              .arg(found)
                              .arg(looksAtTargets)
                              .arg(falseAlarms)
@@ -676,7 +681,7 @@ QString SequentialPanel::sectorsSentence() const
         return tr("%1 looks take %2 stages.").arg(looks).arg(survey.stages) + seen;
     if (!m_tests.fixedSize())
         return tr("%1 looks take %2 stages; a test of fixed size would need more than 40 for each.").arg(looks).arg(survey.stages) + seen;
-    return tr("%1 looks take %2 stages; tests of fixed size with the same errors, of %3 stages each, would take %4: %5.")
+    return tr("%1 looks take %2 stages; tests of fixed size with the same errors, of about %3 stages each, would take %4: %5.")
                .arg(looks)
                .arg(survey.stages)
                .arg(*m_tests.fixedSize())

@@ -48,6 +48,9 @@ public:
     CellPicture &posterior() { return *m_posterior; }
     CellPicture &scan() { return *m_scan; }
     BarPlot &sectors() { return *m_sectors; }
+    QWidget *curvesPage() { return m_curvesPage; } ///< with their sentence
+    QWidget *priorPage() { return m_priorPage; }
+    QWidget *sectorsPage() { return m_sectorsPage; }
     QSlider &slider() { return *m_slider; }
     QTabWidget &tabs() { return *m_tabs; }
 
@@ -122,10 +125,13 @@ private:
     ChartPlot *m_asn;
     ChartPlot *m_variation;
     QLabel *m_curvesText;
+    QWidget *m_curvesPage = nullptr;
     ChartPlot *m_prior;
     QLabel *m_priorText;
+    QWidget *m_priorPage = nullptr;
     BarPlot *m_sectors;
     QLabel *m_sectorsText;
+    QWidget *m_sectorsPage = nullptr;
     QLabel *m_runText;
     QLabel *m_stageText;
     QSlider *m_slider;

@@ -4,7 +4,9 @@
 #include "app/ExperimentForm.h"
 #include "app/MainWindow.h"
 #include "app/NoiseFitPanel.h"
+#include "app/SequentialPanel.h"
 #include "app/Workbench.h"
+#include "app/scanScenario.h"
 #include "base/AtomicFile.h"
 
 #include <QApplication>
@@ -14,10 +16,13 @@
 #include <QPixmap>
 
 #include <algorithm>
+#include <functional>
 
 namespace faintline {
 
 namespace {
+
+    constexpr const char *sequentialViews[]{"sequential", "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors"};
 
     void adjust(AnalysisSettings &settings, const RenderOptions &options)
     {
@@ -74,6 +79,58 @@ namespace {
             loop.exec();
     }
 
+    /// Runs a sequential test by `start`, which answers how, and waits until nothing is left to do.
+    void testAndSettle(MainWindow &window, const std::function<void()> &start)
+    {
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.sequential(), &SequentialPanel::failed, &loop, [&](const Error &error) {
+            failure = error;
+            loop.quit();
+        });
+        QObject::connect(&window.sequentialTests(), &SequentialTests::settled, &loop, &QEventLoop::quit);
+        start();
+        if (!failure)
+            loop.exec();
+        if (failure)
+            throw *failure;
+    }
+
+    void testScans(MainWindow &window, const RenderOptions &options)
+    {
+        ScanTest test = readScanTest(QString::fromStdString(options.source));
+        for (const std::string &assignment : options.settings)
+            setScanTestField(test, assignment);
+        checkScanTest(test);
+        testAndSettle(window, [&] { window.openScans(test); });
+        if (!options.seconds)
+            return;
+        const Index stage = static_cast<Index>(*options.seconds / test.scene.secondsPerStage) + 1;
+        if (window.sequentialTests().stage() != stage)
+            testAndSettle(window, [&] {
+                window.sequentialTests().setStage(stage);
+                if (!window.sequentialTests().isBusy())
+                    emit window.sequentialTests().settled();
+            });
+    }
+
+    void checkViewsOfScans(const std::vector<std::string> &views)
+    {
+        for (const std::string &view : views)
+            if (const auto known = std::find(std::begin(sequentialViews), std::end(sequentialViews), view);
+                known == std::end(sequentialViews) && view != "window")
+                throw Error("--view " + view, "is of a recording; a radar's scans have window, sequential, walk, stopping, posterior, scan, "
+                                              "asn, prior, sectors");
+    }
+
+    void testSelection(MainWindow &window, const std::vector<std::string> &views)
+    {
+        for (const char *view : {"stopping", "scan", "asn", "prior", "sectors"})
+            if (std::find(views.begin(), views.end(), view) != views.end())
+                throw Error(std::string("--view ") + view, "is of a radar's scans; the source must be a scenario of kind \"scans\"");
+        testAndSettle(window, [&] { window.sequential().startOnSelection(); });
+    }
+
     void prepare(MainWindow &window, const std::vector<std::string> &views)
     {
         const auto has = [&](const char *name) { return std::find(views.begin(), views.end(), name) != views.end(); };
@@ -81,6 +138,9 @@ namespace {
             measureCurves(window);
         if (has("noisefit"))
             measureNoise(window);
+        for (const char *view : sequentialViews)
+            if (has(view))
+                return testSelection(window, views);
     }
 
     void placeCursor(Viewport &viewport, const RenderOptions &options)
@@ -145,9 +205,14 @@ void render(const RenderOptions &options)
     window.setAsking(false);
     window.resize(options.size);
     window.show();
-    openAndSettle(window, options);
-    placeCursor(window.document().viewport(), options);
-    prepare(window, options.views);
+    if (isScanScenario(QString::fromStdString(options.source))) {
+        checkViewsOfScans(options.views);
+        testScans(window, options);
+    } else {
+        openAndSettle(window, options);
+        placeCursor(window.document().viewport(), options);
+        prepare(window, options.views);
+    }
     for (const std::string &view : options.views)
         write(pictureOf(*window.view(QString::fromStdString(view)), options.size), fileName(options, view));
 }

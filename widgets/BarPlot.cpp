@@ -49,6 +49,7 @@ BarPlot::BarPlot(QWidget *parent) : MarkedPlot(parent), m_item(new BarItem(*this
 {
     m_item->attach(this);
     m_key->attach(this);
+    setMarksTop(42.0); // below the key
     BarPlot::restyle();
 }
 

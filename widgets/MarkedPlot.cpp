@@ -28,7 +28,7 @@ public:
         const Theme::Colours &colours = Theme::colours(m_owner);
         painter->save();
         painter->setFont(Theme::font(12));
-        double row = canvas.top() + 3.0; // words of upright lines, each a row lower, so that near ones do not meet
+        double row = canvas.top() + m_owner.marksTop(); // words of upright lines, each a row lower, so that near ones do not meet
         for (const Mark &mark : m_owner.marks()) {
             painter->setPen(QPen(mark.isUpright ? colours.text : colours.threshold, 1.2, mark.isUpright ? Qt::DashLine : Qt::SolidLine));
             const QSizeF size = QFontMetricsF(painter->font()).size(0, mark.words) + QSizeF(8.0, 2.0);
@@ -104,7 +104,10 @@ void MarkedPlot::setSpans(const Span &x, const Span &y)
 void MarkedPlot::layAxes()
 {
     const QSize size = canvas()->contentsRect().size();
-    setAxisScaleDiv(QwtAxis::XBottom, linearScaleDiv(m_x, std::clamp(size.width() / 50, 2, 12)));
+    QwtScaleDiv x = linearScaleDiv(m_x, std::clamp(std::min(size.width() / 50, static_cast<int>(m_x.width())), 1, 12));
+    if (majorStep(x) <= 1.0) // whole numbers have nothing between them
+        x = QwtScaleDiv(m_x.low, m_x.high, {}, {}, x.ticks(QwtScaleDiv::MajorTick));
+    setAxisScaleDiv(QwtAxis::XBottom, x);
     setAxisScaleDiv(QwtAxis::YLeft, linearScaleDiv(m_y, std::clamp(size.height() / 30, 2, 10)));
     replot();
 }

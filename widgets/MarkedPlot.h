@@ -13,7 +13,7 @@ namespace faintline {
 
 class CanvasSentence;
 
-/// What plots of a sequential test have in common: titles and spans, lines with words on them, a cursor that a click asks for, and a
+/// What plots of a sequential test have in common: an abscissa of whole numbers, titles and spans, lines with words on them, a cursor that a click asks for, and a
 /// sentence while there is nothing to see. Follows the palette.
 class MarkedPlot : public QwtPlot
 {
@@ -38,6 +38,9 @@ public:
     const Span &ySpan() const { return m_y; }
     void setMarks(std::vector<Mark> marks);
     const std::vector<Mark> &marks() const { return m_marks; }
+    /// How far below the canvas's upper edge the words of upright lines begin.
+    void setMarksTop(double pixels) { m_marksTop = pixels; }
+    double marksTop() const { return m_marksTop; }
     void setCursor(std::optional<double> x);
     std::optional<double> cursor() const { return m_cursorAt; }
     void setEmptySentence(const QString &sentence);
@@ -71,6 +74,7 @@ private:
     Span m_x{0.0, 1.0};
     Span m_y{0.0, 1.0};
     std::vector<Mark> m_marks;
+    double m_marksTop = 3.0;
     std::optional<double> m_cursorAt;
     QwtPlotGrid *m_grid;
     MarkItem *m_markItem;

@@ -17,6 +17,7 @@ namespace faintline {
 
 namespace {
 
+    constexpr double belowKey = 42.0;  ///< px
     constexpr double reach = 24.0;     ///< px from the mouse to a walk
     constexpr std::size_t mostPoints = 4000; ///< of a walk that are drawn
 
@@ -108,6 +109,7 @@ WalkPlot::WalkPlot(QWidget *parent) : MarkedPlot(parent), m_item(new WalkItem(*t
 {
     m_item->attach(this);
     m_key->attach(this);
+    setMarksTop(belowKey);
     setTitles(tr("stage"), tr("ln Λ (nat)"));
     setAccessibleName(tr("Log-likelihood ratio of the sequential tests"));
     WalkPlot::restyle();
@@ -149,9 +151,9 @@ void WalkPlot::layOut()
     setSpans({0.0, 1.03 * static_cast<double>(longest)}, {at.lnLower - 0.22 * height, at.lnUpper + 0.36 * height});
 
     std::vector<Mark> marks{{at.lnUpper, false, tr("ln γ₁ = %1: a target").arg(numberText(at.lnUpper, 2)), false},
-                            {at.lnLower, false, tr("ln γ₀ = %1: noise only").arg(numberText(at.lnLower, 2)), true}};
+                            {at.lnLower, false, tr("ln γ₀ = %1: noise only").arg(numberText(at.lnLower, 2)), false}};
     if (m_fixedSize)
-        marks.push_back({static_cast<double>(*m_fixedSize), true, tr("fixed size: %1 stages").arg(*m_fixedSize)});
+        marks.push_back({static_cast<double>(*m_fixedSize), true, tr("fixed size: about %1").arg(*m_fixedSize)});
     if (m_settings.cutOffStage > 0 && static_cast<std::size_t>(m_settings.cutOffStage) <= longest)
         marks.push_back({static_cast<double>(m_settings.cutOffStage), true, tr("cut-off: %1").arg(m_settings.cutOffStage)});
     setMarks(std::move(marks));

@@ -87,7 +87,7 @@ QString settingLabel(const QString &name)
         {"scene.moveCells", "Step deviation"},
         {"runs.walks", "Walks shown"},
         {"runs.trials", "Tests a point"},
-        {"runs.designFollows", "Design follows"},
+        {"runs.designFollows", "Design at each SNR"},
         {"survey.targetSectors", "With a target"},
     };
     const auto found = labels.constFind(name);

@@ -75,6 +75,19 @@ ScanTest scanTestOf(const ScanScene &scene)
     return test;
 }
 
+void setScanTestField(ScanTest &test, const std::string &assignment)
+{
+    const std::size_t equals = assignment.find('=');
+    const std::string name = assignment.substr(0, equals);
+    for (const Field<ScanTest> &one : ScanTest::fields())
+        if (one.name == name && equals != std::string::npos)
+            return one.set(test, parseFieldValue(one, assignment.substr(equals + 1)));
+    std::string names;
+    for (const Field<ScanTest> &one : ScanTest::fields())
+        names += (names.empty() ? "" : ", ") + one.name;
+    throw Error(assignment, "must be name=value; a radar's test has " + names);
+}
+
 void checkScanTest(const ScanTest &test)
 {
     checkFields(test, ScanTest::fields());

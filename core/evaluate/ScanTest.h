@@ -6,6 +6,7 @@
 #include "recording/ScanScene.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace faintline {
@@ -30,6 +31,9 @@ struct ScanTest {
 
 /// The test that goes with a scene: designed for its SNR, cut off after its stages.
 ScanTest scanTestOf(const ScanScene &scene);
+
+/// Sets one member from "name=value". Throws Error.
+void setScanTestField(ScanTest &test, const std::string &assignment);
 
 /// Throws Error naming the member. At most 2²⁰ cells a scan, so that a window stays answering.
 void checkScanTest(const ScanTest &test);

@@ -95,7 +95,7 @@ ScanPoint measureScanPoint(const ScanTest &test, double snrDb, const ScanPoint *
 
 Chart stagesChart(std::vector<ScanPoint> points)
 {
-    Chart chart{"Stages against the SNR", "true SNR (dB)", "average sample number (stages)", false, true, {}};
+    Chart chart{"Stages against the SNR", "true SNR (dB)", "average sample number (stages)", false, false, {}};
     if (points.empty())
         return chart;
     sortBySnr(points);
@@ -148,7 +148,7 @@ PriorPoint measurePriorPoint(const ScanTest &test, const PriorCurve &curve, doub
 
 Chart priorChart(const PriorCurve &curve)
 {
-    Chart chart{"Stages against the prior", "entropy rate / ln M", "average sample number (stages)", false, true, {}};
+    Chart chart{"Stages against the prior", "entropy rate / ln M", "average sample number (stages)", false, false, {}};
     if (curve.points.empty())
         return chart;
     Curve h0{onNoise, Curve::Kind::Measured, {}};
