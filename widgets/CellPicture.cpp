@@ -59,12 +59,14 @@ public:
             return;
         const Span x = outline(m_owner.xAxis());
         const Span y = outline(m_owner.yAxis());
-        const QRectF place = QRectF(QPointF(xMap.transform(x.low), yMap.transform(y.high)),
-                                    QPointF(xMap.transform(x.high), yMap.transform(y.low)))
-                                 .normalized();
-        paint(place.size().toSize());
+        // On whole pixels: stretched by a fraction, the image would lose some of its own.
+        const QRect place = QRectF(QPointF(xMap.transform(x.low), yMap.transform(y.high)),
+                                   QPointF(xMap.transform(x.high), yMap.transform(y.low)))
+                                .normalized()
+                                .toRect();
+        paint(place.size());
         painter->save();
-        painter->drawImage(place, m_image);
+        painter->drawImage(place.topLeft(), m_image);
         painter->setRenderHint(QPainter::Antialiasing);
         for (const Path &path : m_owner.paths())
             drawPath(*painter, path, xMap, yMap);
