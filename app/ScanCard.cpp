@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int pictureHeight = 132; // as the other cards'
+    constexpr int pictureHeight = 112; // with their captions as high as the other cards'
     constexpr int walksShown = 12;     // of each hypothesis
 
     QLabel *caption(const QString &text, const QFont &font)
@@ -25,9 +25,17 @@ namespace {
         return label;
     }
 
+    /// Range and Doppler of the target in the scan that is shown.
+    std::vector<QPointF> truthOn(const ScanCard::Result &result)
+    {
+        const ScanCell cell = truthOf(result.test, result.scan.run)[static_cast<std::size_t>(result.scan.stage - 1)];
+        return {QPointF(static_cast<double>(cell[2]), static_cast<double>(cell[3]))};
+    }
+
     void makePicture(MarkedPlot &plot)
     {
         plot.setFixedHeight(pictureHeight);
+        plot.setBare(true);
         plot.setFocusPolicy(Qt::NoFocus);
         plot.setAttribute(Qt::WA_TransparentForMouseEvents);
     }
@@ -37,8 +45,8 @@ namespace {
 ScanCard::ScanCard(QWidget *parent)
     : QAbstractButton(parent), m_scan(new CellPicture), m_walks(new WalkPlot), m_found(caption(tr("Simulating …"), Theme::font(12)))
 {
-    const QString sentence = tr("A radar looks into a sector only until it is sure. Most are empty and are left early; a target is "
-                                "followed through cells it changes from scan to scan.");
+    const QString sentence = tr("It leaves an empty sector as soon as it is sure, and follows a target through the cells it changes "
+                                "from scan to scan.");
     setText(tr("A radar that looks until it is sure"));
     setAccessibleDescription(sentence);
     setCursor(Qt::PointingHandCursor);
@@ -52,7 +60,7 @@ ScanCard::ScanCard(QWidget *parent)
     layout->setContentsMargins(14, 12, 14, 12);
     layout->setSpacing(4);
     layout->addWidget(caption(text(), Theme::boldFont(15)));
-    layout->addWidget(caption(tr("One scan with a target"), Theme::font(12)));
+    layout->addWidget(caption(tr("One scan, its target ringed"), Theme::font(12)));
     layout->addWidget(m_scan);
     layout->addWidget(caption(tr("The evidence, scan after scan"), Theme::font(12)));
     layout->addWidget(m_walks);
@@ -72,8 +80,8 @@ ScanCard::Result ScanCard::compute(const RunContext &context)
             const ScanRun run{hasTarget, number};
             result.walks.emplace_back(run, walkScan(result.test, model, run));
         }
-    const ScanRun first{true, 0};
-    result.scan = {first, 1, rangeDopplerDb(result.test, first, 0)};
+    const auto &[first, found] = result.walks[1];
+    result.scan = {first, found.stages, rangeDopplerDb(result.test, first, found.stages - 1)};
     return result;
 }
 
@@ -81,11 +89,11 @@ void ScanCard::setResult(const Result &result)
 {
     m_hasResult = true;
     std::vector<WalkPlot::Walk> walks;
-    Index onNoise = 0;
+    double onTargets = 0.0;
     int accepted = 0;
     for (const auto &[run, test] : result.walks) {
         walks.push_back({test.lnLambda, test.decision, run.hasTarget, test.isForced});
-        onNoise += run.hasTarget ? 0 : test.stages;
+        onTargets += run.hasTarget ? static_cast<double>(test.stages) : 0.0;
         accepted += run.hasTarget && test.decision == SprtDecision::H1 ? 1 : 0;
     }
     m_walks->setTest(result.test.sprt, {});
@@ -95,10 +103,8 @@ void ScanCard::setResult(const Result &result)
     // As wide as the card: range to the right.
     m_scan->setPicture({"range", "cell", 0.0, 1.0, scene.rangeCells, false}, {"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false},
                        result.scan.db, {0.0, scene.snrDb + 6.0}, tr("dB"));
-    m_found->setText(tr("%1 of %2 targets found; empty sectors left after %3 scans")
-                         .arg(accepted)
-                         .arg(walksShown)
-                         .arg(static_cast<double>(onNoise) / walksShown, 0, 'f', 1));
+    m_scan->setPaths({{{}, CellPicture::Path::Kind::Rings, Theme::colours(*this).truth, truthOn(result)}});
+    m_found->setText(tr("%1 of %2 targets found, in %3 scans each").arg(accepted).arg(walksShown).arg(onTargets / walksShown, 0, 'f', 1));
 }
 
 QSize ScanCard::sizeHint() const

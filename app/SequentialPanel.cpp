@@ -5,6 +5,7 @@
 #include "app/saveView.h"
 #include "exchange/sequentialCsv.h"
 #include "exchange/writeChart.h"
+#include "spectrum/NoiseNormaliser.h"
 #include "widgets/BarPlot.h"
 #include "widgets/CellPicture.h"
 #include "widgets/ChartPlot.h"
@@ -96,6 +97,7 @@ SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWi
       m_runText(new QLabel), m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
 {
     m_tabs->setDocumentMode(true);
+    m_tabs->setMinimumWidth(280); // the window must not grow for charts that are not looked at
     m_tabs->addTab(buildWalks(), tr("Walks"));
     m_tabs->addTab(buildTrajectory(), tr("Trajectory and scan"));
     m_tabs->addTab(buildCurves(), tr("Stages against SNR"));
@@ -260,7 +262,7 @@ QWidget *SequentialPanel::buildRunRow()
     m_runText->setTextFormat(Qt::PlainText);
     m_runText->setWordWrap(true);
     m_runText->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_slider->setFixedWidth(220);
+    m_slider->setFixedWidth(150);
     m_slider->setAccessibleName(tr("Stage"));
     m_slider->setToolTip(tr("Stage that is looked at (J, L)"));
     connect(m_slider, &QSlider::valueChanged, this, [this](int stage) { m_tests.setStage(stage); });
@@ -402,8 +404,7 @@ void SequentialPanel::showStopping()
     if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
         marks.push_back({static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
     m_stopping->setMarks(std::move(marks));
-    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("When the tests stop is counted here.")
-                                                     : tr("One test on a recording stops once; there is nothing to count."));
+    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("When the tests stop is counted here.") : recordingNote());
 }
 
 void SequentialPanel::selectStoppedAt(int stage)
@@ -600,17 +601,21 @@ QString SequentialPanel::recordingSentence() const
     const SequentialTests::Selection &selection = m_tests.selection();
     const SprtResult &result = m_tests.walks().front().second;
     const Axis &time = selection.frames->time();
-    QString text = tr("%1, a line since the first frame in view, at any of %2 frequencies: %3 after %4 of %5 frames (%6), ln Λ = %7.")
-                       .arg(selection.name)
+    return tr("A line since the first frame in view, in %1 bins: %2 after %3 of %4 frames (%5), ln Λ = %6.")
                        .arg(selection.cellCount)
                        .arg(decisionText(result))
                        .arg(result.stages)
                        .arg(selection.frameCount)
                        .arg(secondsText(static_cast<double>(result.stages) * time.step, time.step),
                             numberText(result.lnLambda.empty() ? 0.0 : result.lnLambda.back(), 1));
-    if (const auto &analysis = m_document.analysis(); analysis && analysis->frames == selection.frames
-                                                      && analysis->settings.spectrogram.stepsPerWindow > 1)
-        text += tr(" Frames overlap, so evidence counts more than once: errors exceed α and β.");
+}
+
+QString SequentialPanel::recordingNote() const
+{
+    QString text = tr("One test stops once: there is nothing to count.");
+    const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(m_tests.selection().frames.get());
+    if (frames && frames->spectrogram().settings().stepsPerWindow > 1)
+        text += tr(" This recording's frames overlap, so evidence counts more than once, and errors exceed α and β.");
     return text;
 }
 

@@ -105,6 +105,7 @@ private:
     Axis cellAxis(const PosteriorPicture &picture) const;
     QString trajectorySentence() const;
     QString recordingSentence() const;
+    QString recordingNote() const;
 
     Document &m_document;
     SequentialTests &m_tests;

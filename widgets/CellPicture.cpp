@@ -103,10 +103,12 @@ private:
         for (const QPointF &point : path.points)
             points << QPointF(xMap.transform(point.x()), yMap.transform(point.y()));
         painter.setBrush(Qt::NoBrush);
-        // A dark seam below, so that the path is seen on bright cells too.
+        // A dark seam below, so that the path is seen on bright cells too; dashes have what lies between them.
         for (const bool isSeam : {true, false}) {
+            if (isSeam && path.kind == Path::Kind::Dashes)
+                continue;
             painter.setPen(QPen(isSeam ? QColor(0, 0, 0, 150) : path.colour, isSeam ? 3.6 : 1.8,
-                                path.kind == Path::Kind::Dashes && !isSeam ? Qt::DashLine : Qt::SolidLine));
+                                path.kind == Path::Kind::Dashes ? Qt::DashLine : Qt::SolidLine));
             switch (path.kind) {
             case Path::Kind::Line:
             case Path::Kind::Dashes:
@@ -174,7 +176,7 @@ void CellPicture::clear()
 void CellPicture::restyle()
 {
     const bool hasPicture = !m_values.empty();
-    setAxisVisible(QwtAxis::YRight, hasPicture);
+    setAxisVisible(QwtAxis::YRight, hasPicture && !isBare());
     if (hasPicture) {
         setAxisTitle(QwtAxis::YRight, m_title);
         setAxisScaleDiv(QwtAxis::YRight, linearScaleDiv(m_range, 5));
@@ -196,7 +198,7 @@ void CellPicture::restyle()
         if (!path.points.empty())
             m_key->entries.push_back({path.name, QPen(path.colour, 2.0, path.kind == Path::Kind::Dashes ? Qt::DashLine : Qt::SolidLine),
                                       path.kind == Path::Kind::Rings || path.kind == Path::Kind::Crosses});
-    m_key->setVisible(hasPicture && !m_key->entries.empty());
+    m_key->setVisible(hasPicture && !isBare() && !m_key->entries.empty());
     replot();
 }
 
