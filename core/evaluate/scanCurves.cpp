@@ -74,7 +74,8 @@ std::vector<double> curveSnrs(const ScanTest &test)
 {
     std::vector<double> snrs;
     for (double step = -12.0; step <= 4.0; step += 2.0)
-        snrs.push_back(test.designSnrDb + step);
+        if (!test.designFollows || test.designSnrDb + step <= highestDesignDb)
+            snrs.push_back(test.designSnrDb + step);
     return snrs;
 }
 

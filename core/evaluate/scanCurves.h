@@ -18,7 +18,7 @@ struct ScanPoint {
     WaldBounds bounds; ///< (8a), (8b) at the design SNR for all cells of a scan
 };
 
-/// SNRs of the curves: from 12 dB below to 4 dB above the design SNR, every 2 dB.
+/// SNRs of the curves: from 12 dB below to 4 dB above the design SNR, every 2 dB, as far as a design may follow.
 std::vector<double> curveSnrs(const ScanTest &test);
 
 /// Simulates one. `before`: another point of the same test, which lends what does not depend on the true SNR. Throws Error, Cancelled.
