@@ -11,8 +11,8 @@
 
 namespace faintline {
 
-/// Bounds (8a) and (8b) are known up to a little more.
-inline constexpr double highestDesignDb = 29.0;
+/// Beyond it the quadrature of bounds (8a) and (8b) takes more than seconds.
+inline constexpr double highestDesignDb = 20.0;
 
 /// A radar's sequential test on simulated scans: how sure it has to be, what it is designed for, what is there, and how often it is
 /// tried. Source: Grossi and Lops 2006, section 4 and Figure 4, whose radar the defaults are.
