@@ -284,6 +284,11 @@ void MainWindow::connectEvaluation()
     connect(m_evaluate, &EvaluatePanel::trialRequested, m_trials.get(), &TrialViewer::open);
     connect(m_evaluate, &EvaluatePanel::failed, this, &MainWindow::showError);
     connect(m_sequential, &SequentialPanel::failed, this, &MainWindow::showError);
+    auto *dock = static_cast<QDockWidget *>(m_sequential->parentWidget());
+    connect(dock->toggleViewAction(), &QAction::toggled, this, [this, dock] {
+        if (dock->isHidden() && m_pages->isHidden()) // it was all there was
+            showWelcome();
+    });
     connect(m_trials.get(), &TrialViewer::failed, this, &MainWindow::showError);
     connect(m_trials.get(), &TrialViewer::busyChanged, m_activity, &ActivityBar::setBusy);
     connect(m_trials.get(), &TrialViewer::progressed, m_activity, &ActivityBar::setProgress);

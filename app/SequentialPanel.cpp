@@ -90,8 +90,8 @@ namespace {
 
 SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
     : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm), m_start(new QPushButton(tr("Run"))),
-      m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the recording’s view"))), m_progress(new QProgressBar),
-      m_state(new QLabel), m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_posterior(new CellPicture),
+      m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the recording’s view"))),
+      m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_posterior(new CellPicture),
       m_scan(new CellPicture), m_axis(new QComboBox), m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()),
       m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()),
       m_runText(new QLabel), m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
@@ -190,8 +190,8 @@ QWidget *SequentialPanel::buildWalks()
     m_stopping->setEmptySentence(tr("When the tests stop is counted here."));
     m_stopping->setTitles(tr("stages taken"), tr("tests"));
     m_stopping->setAccessibleName(tr("How many tests stopped after each stage"));
-    addView(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks()); });
-    addView(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks()); });
+    addView(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    addView(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
     connect(m_walk, &WalkPlot::walkActivated, &m_tests, &SequentialTests::select);
     connect(m_walk, &MarkedPlot::activated, this, [this](double x) { m_tests.setStage(std::lround(x)); });
     connect(m_stopping, &BarPlot::barActivated, this, &SequentialPanel::selectStoppedAt);
@@ -379,7 +379,8 @@ void SequentialPanel::showWalks()
 {
     std::vector<WalkPlot::Walk> walks;
     for (const auto &[run, result] : m_tests.walks())
-        walks.push_back({result.lnLambda, result.decision, m_tests.isOfScans() ? std::optional(run.hasTarget) : std::nullopt, result.isForced});
+        walks.push_back({result.lnLambda, result.decision, m_tests.isOfScans() ? std::optional(run.hasTarget) : std::nullopt,
+                         result.isForced});
     m_walk->setWalks(std::move(walks));
     m_walk->setTest(m_tests.test().sprt, m_tests.fixedSize());
     m_walk->setSelected(m_tests.selected());
@@ -553,7 +554,8 @@ void SequentialPanel::showSectors()
     m_sectors->setBars(std::move(series), 1, true);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize()) {
-        marks.push_back({static_cast<double>(*m_tests.fixedSize()), false, tr("a test of fixed size: about %1").arg(*m_tests.fixedSize()), true});
+        marks.push_back({static_cast<double>(*m_tests.fixedSize()), false,
+                         tr("a test of fixed size: about %1").arg(*m_tests.fixedSize()), true});
         m_sectors->setLeastHeight(static_cast<double>(*m_tests.fixedSize()));
     } else {
         m_sectors->setLeastHeight(0.0);
@@ -648,8 +650,8 @@ QString SequentialPanel::priorSentence() const
     if (!m_tests.prior())
         return {};
     const PriorCurve &curve = *m_tests.prior();
-    const QString what = tr("A line of %1 cells at %2 dB, from a known trajectory (left) to one of which nothing is known (right), without a "
-                            "cut-off.")
+    const QString what = tr("A line of %1 cells at %2 dB, from a known trajectory (left) to one of which nothing is known (right), "
+                            "without a cut-off.")
                              .arg(curve.cells)
                              .arg(numberText(m_tests.test().designSnrDb, 0));
     const std::optional<Overshoot> over = overshoot(curve);
@@ -719,7 +721,8 @@ void SequentialPanel::keyPressEvent(QKeyEvent *event)
 
 void SequentialPanel::save(const View &view)
 {
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title), QStringLiteral("sequential.png"), saveViewFilter());
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title), QStringLiteral("sequential.png"),
+                                                      saveViewFilter());
     if (path.isEmpty())
         return;
     try {

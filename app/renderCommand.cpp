@@ -79,7 +79,7 @@ namespace {
             loop.exec();
     }
 
-    /// Runs a sequential test by `start`, which answers how, and waits until nothing is left to do.
+    /// Calls what starts something in the sequential panel, and waits until nothing is left to do.
     void testAndSettle(MainWindow &window, const std::function<void()> &start)
     {
         QEventLoop loop;
@@ -90,7 +90,7 @@ namespace {
         });
         QObject::connect(&window.sequentialTests(), &SequentialTests::settled, &loop, &QEventLoop::quit);
         start();
-        if (!failure)
+        if (!failure && window.sequentialTests().isBusy())
             loop.exec();
         if (failure)
             throw *failure;
@@ -105,13 +105,8 @@ namespace {
         testAndSettle(window, [&] { window.openScans(test); });
         if (!options.seconds)
             return;
-        const Index stage = static_cast<Index>(*options.seconds / test.scene.secondsPerStage) + 1;
-        if (window.sequentialTests().stage() != stage)
-            testAndSettle(window, [&] {
-                window.sequentialTests().setStage(stage);
-                if (!window.sequentialTests().isBusy())
-                    emit window.sequentialTests().settled();
-            });
+        const double before = std::clamp(*options.seconds / test.scene.secondsPerStage, 0.0, static_cast<double>(stageLimit(test)));
+        testAndSettle(window, [&] { window.sequentialTests().setStage(static_cast<Index>(before) + 1); });
     }
 
     void checkViewsOfScans(const std::vector<std::string> &views)
@@ -119,8 +114,8 @@ namespace {
         for (const std::string &view : views)
             if (const auto known = std::find(std::begin(sequentialViews), std::end(sequentialViews), view);
                 known == std::end(sequentialViews) && view != "window")
-                throw Error("--view " + view, "is of a recording; a radar's scans have window, sequential, walk, stopping, posterior, scan, "
-                                              "asn, prior, sectors");
+                throw Error("--view " + view, "is of a recording; a radar's scans have window, sequential, walk, stopping, posterior, "
+                                              "scan, asn, prior, sectors");
     }
 
     void testSelection(MainWindow &window, const std::vector<std::string> &views)

@@ -49,7 +49,8 @@ const std::vector<Field<ScanTest>> &ScanTest::fields()
         const auto sprt = [](auto &test) { return &test.sprt; };
         const auto scene = [](auto &test) { return &test.scene; };
         std::vector<Field<S>> all = within<S>("sprt", SprtSettings::fields(), sprt);
-        all.push_back(field(&S::designSnrDb, "design.snrDb", "dB", -20.0, highestDesignDb, "SNR of the target that the test is designed for."));
+        all.push_back(
+            field(&S::designSnrDb, "design.snrDb", "dB", -20.0, highestDesignDb, "SNR of the target that the test is designed for."));
         all.push_back(field(&S::averagedCells, "design.averagedCells", "", 0.0, 65536.0,
                             "Neighbours in range whose mean stands for the noise's power; 0: it is known."));
         for (Field<S> &one : within<S>("scene", ScanScene::fields(), scene))

@@ -230,8 +230,8 @@ std::string chartCsv(const Chart &chart)
     for (const Curve &curve : chart.curves)
         for (const Curve::Point &point : curve.points) {
             const bool hasInterval = point.interval.low < point.interval.high;
-            csv += csvText(curve.name) + "," + std::string(kinds[static_cast<std::size_t>(curve.kind)]) + "," + formatNumber(point.x) + ","
-                + formatNumber(point.y) + "," + (hasInterval ? formatNumber(point.interval.low) : "") + ","
+            csv += csvText(curve.name) + "," + std::string(kinds[static_cast<std::size_t>(curve.kind)]) + ","
+                + formatNumber(point.x) + "," + formatNumber(point.y) + "," + (hasInterval ? formatNumber(point.interval.low) : "") + ","
                 + (hasInterval ? formatNumber(point.interval.high) : "") + "\n";
         }
     return csv;

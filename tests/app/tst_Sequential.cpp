@@ -131,6 +131,10 @@ void tst_Sequential::theWelcomeCardOpensTheDock()
     QVERIFY(dock()->height() > m_window->height() / 2); // nothing else needs the room
     tests().cancel();
 
+    dock()->close(); // never an empty window
+    QVERIFY(m_window->welcome().isVisible());
+    m_window->openScans(smallTest());
+    QVERIFY(!m_window->welcome().isVisible());
     m_window->showWelcome();
     QVERIFY(m_window->welcome().isVisible());
     QVERIFY(dock()->isHidden());

@@ -91,23 +91,24 @@ private slots:
         const QStringList views{"sequential", "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors"};
         const QStringList quick{"--size", "700x420", "--set", "runs.trials=20", "--set", "runs.walks=10"};
         for (const QString &name : {QString("s1.png"), QString("s2.png")}) {
-            const Outcome outcome = run(QStringList{"render", path("scans.json"), "--out", path(name), "--view", views.join(',')} + quick);
+            const Outcome outcome =
+                run(QStringList{"render", path("scans.json"), "--out", path(name), "--view", views.join(',')} + quick);
             QCOMPARE(outcome.error, QByteArray());
         }
         for (const QString &view : views) {
             QCOMPARE(QImage(path("s1-" + view + ".png")).size(), QSize(700, 420));
             QVERIFY2(bytesOf(path("s1-" + view + ".png")) == bytesOf(path("s2-" + view + ".png")), qPrintable(view));
         }
-        const Outcome first = run(QStringList{"render", path("scans.json"), "--out", path("s3.png"), "--view", "scan", "--time", "0.5"} + quick);
-        QCOMPARE(first.error, QByteArray());
-        const Outcome other = run(QStringList{"render", path("scans.json"), "--out", path("s4.png"), "--view", "walk", "--set", "sprt.miss=0.1"} + quick);
+        const QStringList again{"render", path("scans.json"), "--out", path("s4.png"), "--view", "walk", "--time", "1e300"};
+        const Outcome other = run(again + quick + QStringList{"--set", "sprt.miss=0.1"});
         QCOMPARE(other.error, QByteArray());
         QVERIFY(bytesOf(path("s4.png")) != bytesOf(path("s1-walk.png")));
     }
 
     void aRecordingsSequentialTest()
     {
-        const Outcome outcome = run({"render", path("scene.json"), "--out", path("r.png"), "--view", "walk,posterior", "--size", "700x420"});
+        const Outcome outcome =
+            run({"render", path("scene.json"), "--out", path("r.png"), "--view", "walk,posterior", "--size", "700x420"});
         QCOMPARE(outcome.error, QByteArray());
         QCOMPARE(QImage(path("r-posterior.png")).size(), QSize(700, 420));
     }

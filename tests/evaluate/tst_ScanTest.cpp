@@ -349,7 +349,8 @@ void tst_ScanTest::entropyOfTheWalk()
 void tst_ScanTest::refusals_data()
 {
     QTest::addColumn<QString>("member");
-    for (const char *name : {"sprt.falseAlarm", "sprt.cutOffStage", "scene.rangeCells", "design.averagedCells", "survey.targetSectors", "runs.walks"})
+    for (const char *name :
+         {"sprt.falseAlarm", "sprt.cutOffStage", "scene.rangeCells", "design.averagedCells", "survey.targetSectors", "runs.walks"})
         QTest::newRow(name) << name;
 }
 

@@ -256,7 +256,8 @@ void tst_WalkPlot::oneBrightCellAmongManyIsSeen()
 void tst_WalkPlot::pathsAreNamed()
 {
     CellPicture view;
-    view.setPicture({"stage", "", 1.0, 1.0, 4, false}, {"range", "cell", 0.0, 1.0, 8, false}, std::vector<float>(32, 0.0f), {0.0, 1.0}, "P");
+    view.setPicture({"stage", "", 1.0, 1.0, 4, false}, {"range", "cell", 0.0, 1.0, 8, false}, std::vector<float>(32, 0.0f),
+                    {0.0, 1.0}, "P");
     show(view);
     const QColor colour(10, 250, 20);
     QVERIFY(!coloursOf(view).contains(colour.rgb()));
