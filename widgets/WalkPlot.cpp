@@ -141,9 +141,9 @@ void WalkPlot::layOut()
 {
     const SprtBoundaries at = sprtBoundaries(m_settings);
     const double height = at.lnUpper - at.lnLower;
-    std::size_t longest = static_cast<std::size_t>(std::max(m_settings.cutOffStage, 4));
-    if (m_settings.cutOffStage == 0 || m_settings.cutOffStage > 1000)
-        longest = 4;
+    constexpr int leastStages = 4;
+    constexpr int mostStages = 1000; // a later cut-off would leave the walks no room
+    auto longest = static_cast<std::size_t>(std::max(leastStages, m_settings.cutOffStage <= mostStages ? m_settings.cutOffStage : 0));
     for (const Walk &walk : m_walks)
         longest = std::max(longest, walk.lnLambda.size());
     if (m_fixedSize)
