@@ -52,7 +52,7 @@ namespace {
                {"M", "measure a box"},
                {"H", "harmonics of the cursor's frequency"},
                {"Space", "play"},
-               {"J  L", "one frame back, forward"},
+               {"J  L", "one frame back, forward; of a sequential test, a stage"},
                {"Ctrl + R", "run again"},
                {"Escape", "stop, or clear what is marked"}}},
              {QT_TRANSLATE_NOOP("KeysOverlay", "File"),

@@ -17,6 +17,7 @@
 #include "app/Recovery.h"
 #include "app/ReproductionPanel.h"
 #include "app/ScenarioCard.h"
+#include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
 #include "app/TrialViewer.h"
 #include "app/TrialWindow.h"
@@ -24,13 +25,17 @@
 #include "app/WhyPanel.h"
 #include "app/Workbench.h"
 #include "app/hint.h"
+#include "app/scanScenario.h"
 #include "app/statisticUnit.h"
 #include "spectrum/NoiseNormaliser.h"
+#include "widgets/BarPlot.h"
+#include "widgets/CellPicture.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/EventTable.h"
 #include "widgets/ExceedancePlot.h"
 #include "widgets/OverviewStrip.h"
 #include "widgets/ReadOut.h"
+#include "widgets/WalkPlot.h"
 
 #include <QActionGroup>
 #include <QApplication>
@@ -113,6 +118,7 @@ MainWindow::~MainWindow()
     m_controller.disconnect(this); // what is still running ends after the widgets are gone
     m_document.disconnect(this);
     m_experiments.disconnect();
+    m_sequentialTests.disconnect();
     m_trials.reset();
 }
 
@@ -129,6 +135,7 @@ void MainWindow::buildCentre()
 
     auto *centre = new QWidget;
     auto *layout = new QVBoxLayout(centre);
+    layout->setSizeConstraint(QLayout::SetMaximumSize); // while the pages are hidden, a panel gets their room
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(m_messages);
@@ -150,6 +157,7 @@ void MainWindow::buildDocks()
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
     m_reproduction = new ReproductionPanel;
+    m_sequential = new SequentialPanel(m_document, m_sequentialTests);
 
     using Place = Panels::Place;
     m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
@@ -162,6 +170,7 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
     m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
     m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
+    m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
 }
 
 void MainWindow::buildBottom()
@@ -248,6 +257,7 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::openRequested, this, &MainWindow::chooseFile);
     connect(m_welcome, &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
     connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
+    connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
 
     const auto goTo = [this](int id) {
@@ -273,6 +283,12 @@ void MainWindow::connectEvaluation()
     m_trials = std::make_unique<TrialViewer>(m_experiments, this);
     connect(m_evaluate, &EvaluatePanel::trialRequested, m_trials.get(), &TrialViewer::open);
     connect(m_evaluate, &EvaluatePanel::failed, this, &MainWindow::showError);
+    connect(m_sequential, &SequentialPanel::failed, this, &MainWindow::showError);
+    auto *dock = static_cast<QDockWidget *>(m_sequential->parentWidget());
+    connect(dock->toggleViewAction(), &QAction::toggled, this, [this, dock] {
+        if (dock->isHidden() && m_pages->isHidden()) // it was all there was
+            showWelcome();
+    });
     connect(m_trials.get(), &TrialViewer::failed, this, &MainWindow::showError);
     connect(m_trials.get(), &TrialViewer::busyChanged, m_activity, &ActivityBar::setBusy);
     connect(m_trials.get(), &TrialViewer::progressed, m_activity, &ActivityBar::setProgress);
@@ -289,6 +305,13 @@ void MainWindow::connectEvaluation()
 
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
 {
+    if (isScanScenario(path)) {
+        try {
+            return openScans(readScanTest(path));
+        } catch (const Error &error) {
+            return showError(error);
+        }
+    }
     if (!m_saver->mayDiscard())
         return;
     OpenOptions chosen = options;
@@ -332,6 +355,19 @@ void MainWindow::openScenario(ScenarioCard *card)
     m_controller.adopt(card->opened(), card->analysis());
 }
 
+void MainWindow::openScans(const ScanTest &test)
+{
+    m_welcome->stop();
+    m_messages->dismiss();
+    if (m_document.isEmpty()) {
+        m_pages->hide(); // the panel gets its room
+        setWindowTitle(tr("Radar scans — Faintline"));
+        m_hint->setText(tr("Click a walk to follow that test; J and L go from stage to stage."));
+    }
+    m_panels->show(m_sequential);
+    m_sequential->start(test);
+}
+
 void MainWindow::chooseFile()
 {
     const QString folder = m_memory.recent().isEmpty() ? QString() : QFileInfo(m_memory.recent().first()).path();
@@ -367,6 +403,7 @@ void MainWindow::showWelcome()
 {
     saveLayout();
     m_presentAction->setChecked(false);
+    m_pages->show();
     m_pages->setCurrentWidget(m_welcome);
     m_panels->hide();
     for (QToolBar *bar : m_bottomBars)
@@ -380,6 +417,7 @@ void MainWindow::showWelcome()
 
 void MainWindow::showWorkbench()
 {
+    m_pages->show();
     if (m_pages->currentWidget() == m_workbench)
         return;
     m_welcome->stop();
@@ -499,14 +537,32 @@ const QStringList &MainWindow::viewNames()
 {
     static const QStringList names{QStringLiteral("window"),    QStringLiteral("input"),  QStringLiteral("output"),
                                    QStringLiteral("threshold"), QStringLiteral("events"), QStringLiteral("noise"),
-                                   QStringLiteral("noisefit"),  QStringLiteral("pd"),     QStringLiteral("why")};
+                                   QStringLiteral("noisefit"),  QStringLiteral("pd"),     QStringLiteral("sequential"),
+                                   QStringLiteral("walk"),      QStringLiteral("stopping"), QStringLiteral("posterior"),
+                                   QStringLiteral("scan"),      QStringLiteral("asn"),    QStringLiteral("prior"),
+                                   QStringLiteral("sectors"),   QStringLiteral("why")};
     return names;
 }
 
 QWidget *MainWindow::view(const QString &name)
 {
-    const std::array<QWidget *, 9> views{this,     m_workbench->inputPane(), m_workbench->outputPane(), m_threshold,       m_events,
-                                         m_info,   m_noiseFit,               m_evaluate,                m_why};
+    const std::array<QWidget *, 17> views{this,
+                                          m_workbench->inputPane(),
+                                          m_workbench->outputPane(),
+                                          m_threshold,
+                                          m_events,
+                                          m_info,
+                                          m_noiseFit,
+                                          m_evaluate,
+                                          m_sequential,
+                                          &m_sequential->walk(),
+                                          &m_sequential->stopping(),
+                                          &m_sequential->posterior(),
+                                          &m_sequential->scan(),
+                                          m_sequential->curvesPage(),
+                                          m_sequential->priorPage(),
+                                          m_sequential->sectorsPage(),
+                                          m_why};
     const auto index = viewNames().indexOf(name);
     return index < 0 ? nullptr : views[static_cast<std::size_t>(index)];
 }

@@ -3,6 +3,7 @@
 #include "app/AnalysisController.h"
 #include "app/Document.h"
 #include "app/Experiments.h"
+#include "app/SequentialTests.h"
 #include "app/WindowMemory.h"
 #include "widgets/Theme.h"
 
@@ -34,6 +35,7 @@ class ReadOut;
 class Recovery;
 class ReproductionPanel;
 class ScenarioCard;
+class SequentialPanel;
 class SessionSaver;
 class TrialViewer;
 class WelcomePage;
@@ -72,8 +74,13 @@ public:
     Recovery &recovery() { return *m_recovery; }
     TrialViewer &trials() { return *m_trials; }
 
+    /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
+    void openScans(const ScanTest &test);
+    SequentialTests &sequentialTests() { return m_sequentialTests; }
+    SequentialPanel &sequential() { return *m_sequential; }
+
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd", "why".
+    /// "noisefit", "pd", "why", and of sequential tests "sequential", "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
 
@@ -134,6 +141,7 @@ private:
     Document m_document;
     AnalysisController m_controller;
     Experiments m_experiments;
+    SequentialTests m_sequentialTests;
     WindowMemory m_memory;
     bool m_isAsking = true;
 
@@ -154,6 +162,7 @@ private:
     ExperimentsPanel *m_experimentList = nullptr;
     ReproductionPanel *m_reproduction = nullptr;
     NoiseFitPanel *m_noiseFit = nullptr;
+    SequentialPanel *m_sequential = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
     OverviewStrip *m_overview = nullptr;
     ReadOut *m_readOut = nullptr;

@@ -8,9 +8,11 @@
 #include "app/KeysOverlay.h"
 #include "app/Panels.h"
 #include "app/ScenarioCard.h"
+#include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
+#include "app/scanScenario.h"
 #include "widgets/EventTable.h"
 
 #include <QActionGroup>
@@ -154,6 +156,12 @@ void MainWindow::buildEvaluateMenu()
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
     addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
     menu->addSeparator();
+    addViewAction(*menu, tr("&Sequential test"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] { m_panels->show(m_sequential); });
+    addViewAction(*menu, tr("Sequential test on the se&lection"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_T), [this] {
+        m_panels->show(m_sequential);
+        m_sequential->startOnSelection();
+    });
+    menu->addSeparator();
     addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
 }
 
@@ -204,6 +212,7 @@ void MainWindow::buildToolBar()
     auto *scenarioMenu = new QMenu(this);
     for (ScenarioCard *card : m_welcome->cards())
         scenarioMenu->addAction(card->scenario().title, this, [this, card] { openScenario(card); });
+    scenarioMenu->addAction(tr("A radar that looks until it is sure"), this, [this] { open(radarScenarioPath()); });
     auto *scenarioButton = new QToolButton;
     scenarioButton->setText(tr("Scenario"));
     scenarioButton->setToolTip(tr("Open a simulated recording"));

@@ -1,6 +1,7 @@
 #include "app/WelcomePage.h"
 
 #include "analysis/analyse.h"
+#include "app/ScanCard.h"
 #include "app/ScenarioCard.h"
 #include "widgets/Theme.h"
 
@@ -17,7 +18,7 @@ namespace faintline {
 namespace {
 
     constexpr int mostRecent = 5;
-    constexpr int pageWidth = 1120;
+    constexpr int pageWidth = 1380;
 
     QLabel *sentence(const QString &text, const QFont &font)
     {
@@ -38,7 +39,7 @@ namespace {
 
 } // namespace
 
-WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxLayout)
+WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_scanCard(new ScanCard), m_recent(new QVBoxLayout)
 {
     connect(&m_runner, &JobRunner::failed, this, &WelcomePage::failed);
     auto *page = new QWidget;
@@ -57,6 +58,8 @@ WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_recent(new QVBoxL
         cards->addWidget(card, 1);
         connect(card, &ScenarioCard::clicked, this, [this, card] { emit scenarioChosen(card); });
     }
+    cards->addWidget(m_scanCard, 1);
+    connect(m_scanCard, &ScanCard::clicked, this, &WelcomePage::scansChosen);
 
     auto *opening = new QHBoxLayout;
     opening->addWidget(open);
@@ -127,7 +130,7 @@ void WelcomePage::startNext()
     const auto next =
         std::find_if(m_cards.begin(), m_cards.end(), [](const ScenarioCard *card) { return !card->analysis(); });
     if (next == m_cards.end())
-        return emit settled();
+        return m_scanCard->hasResult() ? emit settled() : startScans();
     m_runner.start(
         [this, card = *next, path = (*next)->scenario().path](const RunContext &context) -> JobRunner::Delivery {
             const OpenedSource opened = openSource(sourceOf(path));
@@ -137,6 +140,16 @@ void WelcomePage::startNext()
                 startNext();
             };
         });
+}
+
+void WelcomePage::startScans()
+{
+    m_runner.start([this](const RunContext &context) -> JobRunner::Delivery {
+        return [this, result = ScanCard::compute(context)] {
+            m_scanCard->setResult(result);
+            emit settled();
+        };
+    });
 }
 
 } // namespace faintline

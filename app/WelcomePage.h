@@ -10,6 +10,7 @@ class QVBoxLayout;
 
 namespace faintline {
 
+class ScanCard;
 class ScenarioCard;
 
 /// What there is to see before anything is open: scenarios that are simulated and analysed while one looks, a way to
@@ -24,6 +25,7 @@ public:
     void setRecent(const QStringList &paths);
 
     const std::vector<ScenarioCard *> &cards() const { return m_cards; }
+    ScanCard *scanCard() const { return m_scanCard; }
 
 public slots:
     void start(); ///< goes on with the cards that are not ready yet
@@ -34,13 +36,16 @@ signals:
     void pathChosen(const QString &path);
     /// The card may have its result already.
     void scenarioChosen(faintline::ScenarioCard *card);
+    void scansChosen(); ///< the radar's card
     void settled(); ///< all cards are ready
     void failed(const faintline::Error &error);
 
 private:
     void startNext();
+    void startScans();
 
     std::vector<ScenarioCard *> m_cards;
+    ScanCard *m_scanCard;
     QVBoxLayout *m_recent;
     JobRunner m_runner; ///< last, so that its jobs end first
 };

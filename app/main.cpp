@@ -57,7 +57,8 @@ namespace {
             ->required();
         command
             ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise, noisefit, pd, why; several with commas")
+                         "window, input, output, threshold, events, noise, noisefit, pd, why, sequential, walk, posterior; of a radar's scans "
+                         "also stopping, scan, asn, prior, sectors; several with commas")
             ->delimiter(',')
             ->allow_extra_args(false)
             ->capture_default_str();

@@ -4,8 +4,10 @@
 #include "app/ExperimentForm.h"
 #include "app/MainWindow.h"
 #include "app/NoiseFitPanel.h"
+#include "app/SequentialPanel.h"
 #include "app/WhyPanel.h"
 #include "app/Workbench.h"
+#include "app/scanScenario.h"
 #include "base/AtomicFile.h"
 
 #include <QApplication>
@@ -15,10 +17,13 @@
 #include <QPixmap>
 
 #include <algorithm>
+#include <functional>
 
 namespace faintline {
 
 namespace {
+
+    constexpr const char *sequentialViews[]{"sequential", "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors"};
 
     void adjust(AnalysisSettings &settings, const RenderOptions &options)
     {
@@ -83,6 +88,53 @@ namespace {
             loop.exec();
     }
 
+    /// Calls what starts something in the sequential panel, and waits until nothing is left to do.
+    void testAndSettle(MainWindow &window, const std::function<void()> &start)
+    {
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.sequential(), &SequentialPanel::failed, &loop, [&](const Error &error) {
+            failure = error;
+            loop.quit();
+        });
+        QObject::connect(&window.sequentialTests(), &SequentialTests::settled, &loop, &QEventLoop::quit);
+        start();
+        if (!failure && window.sequentialTests().isBusy())
+            loop.exec();
+        if (failure)
+            throw *failure;
+    }
+
+    void testScans(MainWindow &window, const RenderOptions &options)
+    {
+        ScanTest test = readScanTest(QString::fromStdString(options.source));
+        for (const std::string &assignment : options.settings)
+            setScanTestField(test, assignment);
+        checkScanTest(test);
+        testAndSettle(window, [&] { window.openScans(test); });
+        if (!options.seconds)
+            return;
+        const double before = std::clamp(*options.seconds / test.scene.secondsPerStage, 0.0, static_cast<double>(stageLimit(test)));
+        testAndSettle(window, [&] { window.sequentialTests().setStage(static_cast<Index>(before) + 1); });
+    }
+
+    void checkViewsOfScans(const std::vector<std::string> &views)
+    {
+        for (const std::string &view : views)
+            if (const auto known = std::find(std::begin(sequentialViews), std::end(sequentialViews), view);
+                known == std::end(sequentialViews) && view != "window")
+                throw Error("--view " + view, "is of a recording; a radar's scans have window, sequential, walk, stopping, posterior, "
+                                              "scan, asn, prior, sectors");
+    }
+
+    void testSelection(MainWindow &window, const std::vector<std::string> &views)
+    {
+        for (const char *view : {"stopping", "scan", "asn", "prior", "sectors"})
+            if (std::find(views.begin(), views.end(), view) != views.end())
+                throw Error(std::string("--view ") + view, "is of a radar's scans; the source must be a scenario of kind \"scans\"");
+        testAndSettle(window, [&] { window.sequential().startOnSelection(); });
+    }
+
     void prepare(MainWindow &window, const std::vector<std::string> &views)
     {
         const auto has = [&](const char *name) { return std::find(views.begin(), views.end(), name) != views.end(); };
@@ -92,6 +144,9 @@ namespace {
             explainCursor(window);
         if (has("noisefit"))
             measureNoise(window);
+        for (const char *view : sequentialViews)
+            if (has(view))
+                return testSelection(window, views);
     }
 
     void placeCursor(Viewport &viewport, const RenderOptions &options)
@@ -156,9 +211,14 @@ void render(const RenderOptions &options)
     window.setAsking(false);
     window.resize(options.size);
     window.show();
-    openAndSettle(window, options);
-    placeCursor(window.document().viewport(), options);
-    prepare(window, options.views);
+    if (isScanScenario(QString::fromStdString(options.source))) {
+        checkViewsOfScans(options.views);
+        testScans(window, options);
+    } else {
+        openAndSettle(window, options);
+        placeCursor(window.document().viewport(), options);
+        prepare(window, options.views);
+    }
     for (const std::string &view : options.views)
         write(pictureOf(*window.view(QString::fromStdString(view)), options.size), fileName(options, view));
 }

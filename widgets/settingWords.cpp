@@ -78,6 +78,17 @@ QString settingLabel(const QString &name)
         {"track.confirmNats", "Confirm above"},
         {"track.confirmFrames", "Confirm after"},
         {"track.smoothingFrames", "Smoothing lag"},
+        {"sprt.falseAlarm", "False alarms α"},
+        {"sprt.miss", "Misses β"},
+        {"sprt.cutOffStage", "Cut-off stage"},
+        {"design.snrDb", "Design SNR"},
+        {"design.averagedCells", "Averaged cells"},
+        {"scene.snrDb", "True SNR"},
+        {"scene.moveCells", "Step deviation"},
+        {"runs.walks", "Walks shown"},
+        {"runs.trials", "Tests a point"},
+        {"runs.designFollows", "Design at each SNR"},
+        {"survey.targetSectors", "With a target"},
     };
     const auto found = labels.constFind(name);
     return found != labels.constEnd() ? *found : capitalised(spelled(name.section(QLatin1Char('.'), -1)));
@@ -93,6 +104,11 @@ QString stageLabel(const QString &prefix)
         {"integrator", "Integrator"},  {"blockViterbi", "Fixed-window Viterbi"},
         {"shiryaevRoberts", "Shiryaev–Roberts"},
         {"track", "Tracks"},
+        {"sprt", "How sure"},
+        {"design", "Designed for"},
+        {"scene", "What is there"},
+        {"runs", "How often"},
+        {"survey", "Sectors"},
     };
     const auto found = labels.constFind(prefix);
     return found != labels.constEnd() ? *found : capitalised(spelled(prefix));
@@ -139,7 +155,8 @@ bool isSeldomUsed(const QString &name)
                                      "track.decayNats",        "track.ceilingNats",   "track.smoothingFrames",
                                      "spectrogram.binsPerCell", "model.motion",        "decide.forgetCells",
                                      "decide.resets",         "decide.inhibits",     "pOfN.r2",
-                                     "pOfN.widthCells"};
+                                     "pOfN.widthCells",        "scene.azimuthCells",  "scene.elevationCells",
+                                     "scene.moves",            "scene.moveCells",     "scene.seed"};
     return names.contains(name);
 }
 

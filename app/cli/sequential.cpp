@@ -4,6 +4,7 @@
 #include "base/AtomicFile.h"
 #include "base/json.h"
 #include "detect/Sprt.h"
+#include "detect/averagedStages.h"
 #include "exchange/ModelFile.h"
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@ namespace {
         std::string frames;
         std::string model;
         SprtSettings sprt;
+        Index averagedCells = 0;
         std::string out;
     };
 
@@ -102,7 +104,9 @@ namespace {
         if (!options.frames.empty() && options.model.empty())
             throw Error("sequential", "needs --model for ready-made frames");
         const RunContext context = common.context();
-        const Stages stages = options.frames.empty() ? recorded(options, context.part(0.0, 0.3)) : readyMade(options);
+        Stages stages = options.frames.empty() ? recorded(options, context.part(0.0, 0.3)) : readyMade(options);
+        if (options.averagedCells != 0)
+            stages.source = averagedStages(std::move(stages.source), stages.model, options.averagedCells, "--average");
         const SprtResult result = runSprt(stages.model, options.sprt, stages.count, stages.source, context.part(0.3, 1.0));
         context.checkpoint(1.0, "done");
         writeTextFile(options.out, toJson(result, options.sprt).dump(2) + "\n");
@@ -122,6 +126,10 @@ void addSequential(CLI::App &app, Common &common)
     command->add_option("--alpha", options->sprt.falseAlarm, "Wanted probability of accepting a signal on noise")->capture_default_str();
     command->add_option("--beta", options->sprt.miss, "Wanted probability of accepting noise with a signal")->capture_default_str();
     command->add_option("--cutoff", options->sprt.cutOffStage, "Stage at which a decision is forced; 0 is never")->capture_default_str();
+    command->add_option("--average", options->averagedCells,
+                        "Cells round each one, along the model's last axis, whose mean stands for a noise power that is not known; "
+                        "0: noise has mean 1")
+        ->capture_default_str();
     command->add_option("--out", options->out, "Write decision, ln Λ of every stage and trajectory, .json")->required();
     command->callback([options, &common] { sequential(*options, common); });
 }

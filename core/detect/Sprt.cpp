@@ -103,7 +103,7 @@ namespace {
 } // namespace
 
 SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, Index stages, const StageSource &source,
-                   const RunContext &context)
+                   const RunContext &context, const StageObserver &observer)
 {
     checkSprt(settings, "sprt");
     model.check("model");
@@ -117,6 +117,8 @@ SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, I
         model.reduction.sum(evidence.at(result.stages), folded);
         result.lnLambda.push_back(ratio.update(folded));
         ++result.stages;
+        if (observer)
+            observer(ratio);
         result.decision = decide(settings, result.lnLambda.back(), result.stages);
     }
     if (result.decision == SprtDecision::Undecided)

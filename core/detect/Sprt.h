@@ -91,10 +91,13 @@ struct SprtResult {
     double lnMapScore = 0.0;                  ///< ln of the trajectory's probability times its likelihood ratio
 };
 
+/// Is shown every stage right after it was taken.
+using StageObserver = std::function<void(const LikelihoodRatio &ratio)>;
+
 /// Takes stage after stage until a boundary is reached, the cut-off stage, or the last of `stages`; then, where H1 was
 /// accepted, estimates the trajectory (MapTrajectory). Throws Error, Cancelled.
 SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, Index stages, const StageSource &source,
-                   const RunContext &context = {});
+                   const RunContext &context = {}, const StageObserver &observer = {});
 
 /// Ready-made or recorded frames as stages, from a frame on; on a frequency axis a range of its cells.
 StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index firstCell, Index cellCount);

@@ -40,6 +40,16 @@ namespace {
             sum[i] += ratio[i];
     }
 
+    /// Of a trial's frame: Σ p1/p0 of the cells folded into one, in the first stateCells places of `ratio`, which is as long as the frame.
+    void foldedRatios(const SequentialModel &model, std::span<const float> y, std::span<float> ratio)
+    {
+        const double snr = model.markov.likelihood.snr();
+        likelihoodRatios(y.data(), y.size(), static_cast<float>(snr / (1.0 + snr)), static_cast<float>(-std::log1p(snr)), ratio.data());
+        const auto cells = static_cast<std::size_t>(model.reduction.stateCells());
+        for (std::size_t other = cells; other < ratio.size(); other += cells)
+            addFolded(ratio.data(), ratio.data() + other, cells);
+    }
+
     /// weights = predicted · ratio; total(lane) = Σ weights
     FAINTLINE_MULTIVERSION
     void weigh(const double *predicted, const double *ratio, Index cells, Index lanes, double *weights, double *total)
@@ -146,13 +156,8 @@ namespace {
 
         void takeFrame(std::size_t lane)
         {
-            const std::span<const float> y = m_slot[lane].trial->next();
-            const double snr = m_study.model.markov.likelihood.snr();
-            likelihoodRatios(y.data(), y.size(), static_cast<float>(snr / (1.0 + snr)), static_cast<float>(-std::log1p(snr)),
-                             m_cellRatio.data());
+            foldedRatios(m_study.model, m_slot[lane].trial->next(), m_cellRatio);
             const auto cells = static_cast<std::size_t>(m_cells);
-            for (std::size_t other = cells; other < m_cellRatio.size(); other += cells)
-                addFolded(m_cellRatio.data(), m_cellRatio.data() + other, cells);
             const double share = static_cast<double>(m_cells) / static_cast<double>(m_cellRatio.size());
             for (std::size_t cell = 0; cell < cells; ++cell)
                 m_ratio[cell * m_slot.size() + lane] = share * static_cast<double>(m_cellRatio[cell]);
@@ -380,41 +385,62 @@ SequentialOutcome simulate(const SequentialStudy &study, const RunContext &conte
     return summarise(study, outcomes);
 }
 
+namespace {
+
+    /// ln Λ of every trial after every one of `largest` stages, stage by stage.
+    std::vector<double> lnRatios(const SequentialStudy &study, Index largest, const RunContext &context)
+    {
+        const TrajectorySampler sampler(study.model);
+        const auto trials = static_cast<std::size_t>(study.trials);
+        std::vector<double> lnLambda(trials * static_cast<std::size_t>(largest));
+        parallelFor(study.trials, context, "fixed-size tests", [&]() -> std::function<void(Index)> {
+            return [&](Index trial) {
+                SequentialTrial run(study, sampler, trial);
+                LikelihoodRatio ratio(study.model);
+                std::vector<float> cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells()));
+                std::vector<double> lambda(static_cast<std::size_t>(study.model.reduction.stateCells()));
+                const double lnFolded = std::log(static_cast<double>(study.model.reduction.foldedCells()));
+                for (Index stage = 0; stage < largest; ++stage) {
+                    foldedRatios(study.model, run.next(), cellRatio);
+                    for (std::size_t cell = 0; cell < lambda.size(); ++cell)
+                        lambda[cell] = std::log(static_cast<double>(cellRatio[cell])) - lnFolded;
+                    lnLambda[static_cast<std::size_t>(stage) * trials + static_cast<std::size_t>(trial)] = ratio.update(lambda);
+                }
+            };
+        });
+        return lnLambda;
+    }
+
+    /// Whether a threshold exists that misses no more than β of these runs with a target and accepts no more than α of noise, by
+    /// change of measure. Sorts them.
+    bool suffices(std::span<double> lnLambda, const SprtSettings &sprt)
+    {
+        std::sort(lnLambda.begin(), lnLambda.end());
+        const auto missed = static_cast<std::size_t>(sprt.miss * static_cast<double>(lnLambda.size()));
+        double falseAlarm = 0.0;
+        for (std::size_t i = lnLambda.size(); i-- > missed;)
+            falseAlarm += std::exp(-lnLambda[i]) / static_cast<double>(lnLambda.size());
+        return falseAlarm <= sprt.falseAlarm;
+    }
+
+} // namespace
+
 std::optional<Index> simulatedFixedSampleSize(const SequentialStudy &study, Index largest, const RunContext &context)
 {
     check(study);
     SequentialStudy own = study;
     own.actualSnr = study.model.markov.likelihood.snr();
-    const TrajectorySampler sampler(own.model);
-    const auto trials = static_cast<std::size_t>(own.trials);
-    std::vector<double> lnLambda(trials * static_cast<std::size_t>(largest));
-    parallelFor(own.trials, context, "fixed-size tests", [&]() -> std::function<void(Index)> {
-        return [&](Index trial) {
-            SequentialTrial run(own, sampler, trial);
-            LikelihoodRatio ratio(own.model);
-            const auto cells = static_cast<std::size_t>(own.model.reduction.stateCells());
-            std::vector<double> lambda(cells);
-            for (Index stage = 0; stage < largest; ++stage) {
-                const std::span<const float> y = run.next();
-                std::fill(lambda.begin(), lambda.end(), 0.0);
-                for (std::size_t i = 0; i < y.size(); ++i)
-                    lambda[i % cells] += std::exp(own.model.markov.likelihood.at(static_cast<double>(y[i])));
-                for (double &value : lambda)
-                    value = std::log(value * static_cast<double>(cells) / static_cast<double>(y.size()));
-                lnLambda[static_cast<std::size_t>(stage) * trials + static_cast<std::size_t>(trial)] = ratio.update(lambda);
-            }
-        };
-    });
-    for (Index n = 1; n <= largest; ++n) {
-        const auto begin = lnLambda.begin() + (n - 1) * own.trials;
-        std::sort(begin, begin + own.trials);
-        // The threshold that misses no more than β of the runs; what it accepts of noise, by change of measure.
-        const auto missed = static_cast<Index>(own.sprt.miss * static_cast<double>(own.trials));
-        double falseAlarm = 0.0;
-        for (Index i = own.trials - 1; i >= missed; --i)
-            falseAlarm += std::exp(-begin[i]) / static_cast<double>(own.trials);
-        if (falseAlarm <= own.sprt.falseAlarm)
-            return n;
+    // Few stages first: most of the work lies in those beyond the answer.
+    Index known = 0;
+    for (Index count = std::min<Index>(largest, 8); known < largest; count = std::min(largest, 2 * count)) {
+        const double done = static_cast<double>(known) / static_cast<double>(largest);
+        std::vector<double> lnLambda =
+            lnRatios(own, count, context.part(done, static_cast<double>(count) / static_cast<double>(largest)));
+        for (Index stage = known; stage < count; ++stage)
+            if (suffices(std::span(lnLambda).subspan(static_cast<std::size_t>(stage * own.trials), static_cast<std::size_t>(own.trials)),
+                         own.sprt))
+                return stage + 1;
+        known = count;
     }
     return std::nullopt;
 }

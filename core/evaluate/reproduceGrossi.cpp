@@ -3,12 +3,12 @@
 #include "base/logmath.h"
 #include "evaluate/SequentialStudy.h"
 #include "evaluate/waldTheory.h"
+#include "evaluate/walkOnLine.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 namespace faintline {
@@ -28,52 +28,6 @@ namespace {
         char buffer[64];
         std::snprintf(buffer, sizeof buffer, format, value);
         return buffer;
-    }
-
-    /// The line of the general problem: a discretised Gaussian walk, its first step taken from the middle. Of the uniform end
-    /// nothing is known at any stage, so it needs no state.
-    SequentialModel lineModel(Index cells, double deviation, double snr)
-    {
-        KinematicAxis axis;
-        axis.name = "cell";
-        axis.cells = cells;
-        const Likelihood likelihood(LikelihoodKind::Exponential, snr);
-        if (std::isinf(deviation))
-            return makeSequentialModel({axis}, {true}, likelihood);
-        axis.step = gaussianStep(deviation, cells);
-        axis.renormalised = true;
-        std::vector<double> initial(static_cast<std::size_t>(cells), 0.0);
-        const Index centre = cells / 2;
-        for (Index cell = 0; cell < cells; ++cell)
-            if (const Index d = std::abs(cell - centre); d < std::ssize(axis.step))
-                initial[static_cast<std::size_t>(cell)] = axis.step[static_cast<std::size_t>(d)] * std::exp(axis.lnDeparture(centre));
-        return makeSequentialModel({axis}, {false}, likelihood, std::move(initial));
-    }
-
-    /// Entropy rate of the walk over ln M: 0 where the trajectory is known, 1 where nothing is. The stationary law of a
-    /// symmetric step law renormalised row by row is proportional to the rows' sums.
-    double relativeEntropyRate(Index cells, double deviation)
-    {
-        if (std::isinf(deviation))
-            return 1.0;
-        KinematicAxis axis;
-        axis.cells = cells;
-        axis.step = gaussianStep(deviation, cells);
-        axis.renormalised = true;
-        double rate = 0.0;
-        double mass = 0.0;
-        for (Index from = 0; from < cells; ++from) {
-            const double rowSum = std::exp(-axis.lnDeparture(from));
-            double entropy = 0.0;
-            for (Index to = 0; to < cells; ++to)
-                if (const Index d = std::abs(to - from); d < std::ssize(axis.step)) {
-                    const double p = axis.step[static_cast<std::size_t>(d)] / rowSum;
-                    entropy -= p > 0.0 ? p * std::log(p) : 0.0;
-                }
-            rate += rowSum * entropy;
-            mass += rowSum;
-        }
-        return rate / mass / std::log(static_cast<double>(cells));
     }
 
     double within(double referenceError, double ourError, double rounding)
@@ -273,7 +227,7 @@ namespace {
                 study.actualSnr = isTarget ? std::optional(1.0) : std::nullopt;
                 study.trials = trialsOf(reference.trials, options);
                 for (std::size_t i = 0; i < deviations.size(); ++i) {
-                    study.model = lineModel(reference.cells, deviations[i], 1.0);
+                    study.model = walkOnLine(reference.cells, deviations[i], 1.0);
                     study.seed = options.seed * 1000 + static_cast<std::uint64_t>(reference.cells * 10 + (isTarget ? 5 : 0)) + i;
                     const SequentialOutcome outcome = simulate(study, context.part(done, done + 0.025));
                     done += 0.025;
@@ -341,7 +295,7 @@ namespace {
             Index misses = 0;
             study.actualSnr = snr;
             for (std::size_t i = 0; i < deviations.size(); ++i) {
-                study.model = lineModel(100, deviations[i], snr);
+                study.model = walkOnLine(100, deviations[i], snr);
                 study.seed = options.seed * 1000 + static_cast<std::uint64_t>(500.0 + 10.0 * reference.snrDb) + i;
                 const SequentialOutcome outcome = simulate(study, context.part(done, done + 0.05));
                 done += 0.05;

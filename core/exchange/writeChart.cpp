@@ -1,6 +1,7 @@
 #include "exchange/writeChart.h"
 
 #include "base/Field.h"
+#include "exchange/csvText.h"
 
 #include <algorithm>
 #include <array>
@@ -220,6 +221,20 @@ std::string chartSvg(const Chart &chart)
     for (std::size_t i = 0; i < chart.curves.size(); ++i)
         svg += drawCurve(chart.curves[i], std::string(colours[i % colours.size()]), x, y);
     return svg + "</g>\n" + drawLegend(chart, x, y) + "</svg>\n";
+}
+
+std::string chartCsv(const Chart &chart)
+{
+    constexpr std::array<std::string_view, 3> kinds{"measured", "theory", "paper"};
+    std::string csv = "curve,kind,x,y,low,high\n";
+    for (const Curve &curve : chart.curves)
+        for (const Curve::Point &point : curve.points) {
+            const bool hasInterval = point.interval.low < point.interval.high;
+            csv += csvText(curve.name) + "," + std::string(kinds[static_cast<std::size_t>(curve.kind)]) + ","
+                + formatNumber(point.x) + "," + formatNumber(point.y) + "," + (hasInterval ? formatNumber(point.interval.low) : "") + ","
+                + (hasInterval ? formatNumber(point.interval.high) : "") + "\n";
+        }
+    return csv;
 }
 
 } // namespace faintline

@@ -3,6 +3,7 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/json.h"
+#include "exchange/csvText.h"
 #include "exchange/writeChart.h"
 
 #include <cstdio>
@@ -41,14 +42,6 @@ namespace {
         if (!cell.isJudged())
             return "not judged";
         return cell.isInside() ? "inside" : "OUTSIDE";
-    }
-
-    std::string csvText(const std::string &text)
-    {
-        std::string quoted = "\"";
-        for (const char c : text)
-            quoted += c == '"' ? "\"\"" : std::string(1, c);
-        return quoted + "\"";
     }
 
     std::string csvNumber(const std::optional<double> &value)

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-CellReduction::CellReduction(std::vector<Index> cells, const std::vector<bool> &isFolded) : m_cells(std::move(cells))
+CellReduction::CellReduction(std::vector<Index> cells, const std::vector<bool> &isFolded) : m_cells(std::move(cells)), m_isFolded(isFolded)
 {
     for (std::size_t axis = 0; axis < m_cells.size(); ++axis) {
         m_frameCells *= m_cells[axis];

@@ -24,6 +24,7 @@ public:
     CellReduction(std::vector<Index> cells, const std::vector<bool> &isFolded);
 
     const std::vector<Index> &axisCells() const { return m_cells; } ///< of the frame, folded axes included
+    bool isFolded(std::size_t axis) const { return m_isFolded[axis]; }
     Index frameCells() const { return m_frameCells; }
     Index stateCells() const { return m_stateCells; }
     Index foldedCells() const { return m_frameCells / m_stateCells; } ///< N_d
@@ -37,6 +38,7 @@ public:
 
 private:
     std::vector<Index> m_cells;
+    std::vector<bool> m_isFolded;
     std::vector<Index> m_stateCell; ///< of every frame cell
     Index m_frameCells = 1;
     Index m_stateCells = 1;

@@ -44,6 +44,7 @@ private slots:
     void lnLambdaByEye();
     void sequentialByEye();
     void sequentialInRadarScans();
+    void sequentialInUnknownNoise();
     void sequentialInARecording();
     void sequentialMistakes_data();
     void sequentialMistakes();
@@ -553,6 +554,33 @@ void tst_cli::sequentialInRadarScans()
     QVERIFY(samples.err.contains("must end in .npy"));
 }
 
+void tst_cli::sequentialInUnknownNoise()
+{
+    // A target that stays in cell 3 of 9, then all of it 1000 times louder: to the average it is the same, to known noise it is not.
+    std::vector<float> y(3 * 9, 1.0f);
+    for (const std::size_t stage : {0, 1, 2})
+        y[stage * 9 + 3] = 12.0f;
+    writeArray(pathOf("quiet.npy"), {3, 9}, y);
+    for (float &value : y)
+        value *= 1024.0f;
+    writeArray(pathOf("loud.npy"), {3, 9}, y);
+    writeBytes(pathOf("nine.json"), R"({"axes": [{"cells": 9}], "likelihood": {"kind": "exponential", "snr": 10}})");
+    const auto lnLambda = [this](const char *frames, const char *cells) {
+        const QStringList options{"--model", "nine.json", "--alpha", "1e-9", "--beta", "1e-9", "--out", "nine.out"};
+        const Outcome outcome = run(m_folder, QStringList{"sequential", "--frames", frames, "--average", cells} + options);
+        return outcome.code == 0 ? readJsonFile(pathOf("nine.out"))["lnLambda"].dump() : std::string(outcome.err.constData());
+    };
+    QCOMPARE(lnLambda("loud.npy", "4"), lnLambda("quiet.npy", "4"));
+    QVERIFY(lnLambda("loud.npy", "0") != lnLambda("quiet.npy", "0"));
+    // One stage by hand: the target's cell has t = 12, its neighbours 1/(1 + 11/4) or 1.
+    const auto ratio = [](double t) { return std::pow((1.0 + t / 4.0) / (1.0 + t / 44.0), 5.0) / 11.0; };
+    const double near = ratio(1.0 / (1.0 + 11.0 / 4.0));
+    // Rows end: the four nearest of cells 0 and 1 are those within 0 … 4, which has the target.
+    const double first = std::log((ratio(12.0) + 5.0 * near + 3.0 * ratio(1.0)) / 9.0);
+    const Json quiet = parseJson(lnLambda("quiet.npy", "4"), "quiet");
+    QVERIFY2(std::abs(quiet[0].get<double>() - first) < 1e-4, qPrintable(QString::number(quiet[0].get<double>() - first)));
+}
+
 void tst_cli::sequentialInARecording()
 {
     // The line of the scene stands from 8 s to 23 s at 210 Hz: noise before it, a signal from it on.
@@ -574,6 +602,7 @@ void tst_cli::sequentialMistakes_data()
     QTest::newRow("α of 0") << frames + model + QStringList{"--alpha", "0"} << "sequential.falseAlarm = 0: must lie in";
     QTest::newRow("a coin") << frames + model + QStringList{"--alpha", "0.5", "--beta", "0.5"} << "must stay below 1";
     QTest::newRow("negative cut-off") << frames + model + QStringList{"--cutoff", "-1"} << "sequential.cutOffStage = -1";
+    QTest::newRow("nothing to average") << frames + model + QStringList{"--average", "1"} << "--average: needs an exponential likelihood";
     QTest::newRow("other cells") << frames + QStringList{"--model", "scans.model"} << "has 2 × 2 × 20 × 4 cells, but the frames of eye3.npy have 2";
 }
 

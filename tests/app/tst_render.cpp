@@ -49,6 +49,9 @@ private slots:
         QVERIFY(file.open(QIODevice::WriteOnly));
         file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 40,
                        "lines": [{"snrDb": 8, "frequencyHz": 200, "driftHzPerSecond": 1}]})");
+        QFile scans(path("scans.json"));
+        QVERIFY(scans.open(QIODevice::WriteOnly));
+        scans.write(R"({"kind": "scans", "azimuthCells": 1, "elevationCells": 1, "rangeCells": 20, "dopplerCells": 4, "stages": 12})");
         QFile text(path("text.wav"));
         QVERIFY(text.open(QIODevice::WriteOnly));
         text.write("This is no sound.");
@@ -83,6 +86,33 @@ private slots:
         QVERIFY(bytesOf(path("light-output.png")) != bytesOf(path("dark-output.png")));
     }
 
+    void radarScans()
+    {
+        const QStringList views{"sequential", "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors"};
+        const QStringList quick{"--size", "700x420", "--set", "runs.trials=20", "--set", "runs.walks=10"};
+        for (const QString &name : {QString("s1.png"), QString("s2.png")}) {
+            const Outcome outcome =
+                run(QStringList{"render", path("scans.json"), "--out", path(name), "--view", views.join(',')} + quick);
+            QCOMPARE(outcome.error, QByteArray());
+        }
+        for (const QString &view : views) {
+            QCOMPARE(QImage(path("s1-" + view + ".png")).size(), QSize(700, 420));
+            QVERIFY2(bytesOf(path("s1-" + view + ".png")) == bytesOf(path("s2-" + view + ".png")), qPrintable(view));
+        }
+        const QStringList again{"render", path("scans.json"), "--out", path("s4.png"), "--view", "walk", "--time", "1e300"};
+        const Outcome other = run(again + quick + QStringList{"--set", "sprt.miss=0.1"});
+        QCOMPARE(other.error, QByteArray());
+        QVERIFY(bytesOf(path("s4.png")) != bytesOf(path("s1-walk.png")));
+    }
+
+    void aRecordingsSequentialTest()
+    {
+        const Outcome outcome =
+            run({"render", path("scene.json"), "--out", path("r.png"), "--view", "walk,posterior", "--size", "700x420"});
+        QCOMPARE(outcome.error, QByteArray());
+        QCOMPARE(QImage(path("r-posterior.png")).size(), QSize(700, 420));
+    }
+
     void settingsCount()
     {
         const QStringList common{"render", path("scene.json"), "--view", "threshold", "--size", "600x400"};
@@ -110,6 +140,11 @@ private slots:
         QTest::newRow("setting") << QStringList{"render", scene, "--out", out, "--set", "model.snr=-3"} << "model.snr";
         QTest::newRow("no setting") << QStringList{"render", scene, "--out", out, "--set", "moon=1"} << "moon";
         QTest::newRow("preset") << QStringList{"render", scene, "--out", out, "--preset", "moon"} << "moon";
+        QTest::newRow("scans of a recording") << QStringList{"render", scene, "--out", out, "--view", "sectors"} << "sectors";
+        const QString scans = path("scans.json");
+        QTest::newRow("waterfall of scans") << QStringList{"render", scans, "--out", out, "--view", "input"} << "input";
+        QTest::newRow("setting of scans") << QStringList{"render", scans, "--out", out, "--set", "moon=1"} << "moon";
+        QTest::newRow("range of scans") << QStringList{"render", scans, "--out", out, "--set", "sprt.miss=7"} << "sprt.miss";
         QTest::newRow("option") << QStringList{"render", scene, "--out", out, "--moon"} << "--moon";
         QTest::newRow("folder") << QStringList{"render", scene,     "--out", path("no/such/folder.png"),
                                                "--size", "1200x700"}

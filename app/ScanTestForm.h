@@ -1,0 +1,40 @@
+#pragma once
+
+#include "evaluate/ScanTest.h"
+
+#include <QMap>
+#include <QString>
+#include <QWidget>
+
+class QLabel;
+
+namespace faintline {
+
+class SettingRow;
+
+/// A form made from ScanTest::fields(), as SettingsForm is from the analysis's.
+class ScanTestForm : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit ScanTestForm(QWidget *parent = nullptr);
+
+    const ScanTest &test() const { return m_test; }
+    void setTest(const ScanTest &test); ///< emits nothing
+    /// Under the field that the error names, or under the form.
+    void showError(const Error &error);
+    QWidget *editor(const QString &name) const;
+
+signals:
+    void edited();
+
+private:
+    void showValues();
+
+    ScanTest m_test;
+    QMap<QString, SettingRow *> m_rows;
+    QLabel *m_error;
+};
+
+} // namespace faintline

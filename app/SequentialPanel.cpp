@@ -1,0 +1,735 @@
+#include "app/SequentialPanel.h"
+
+#include "app/Document.h"
+#include "app/ScanTestForm.h"
+#include "app/saveView.h"
+#include "exchange/sequentialCsv.h"
+#include "exchange/writeChart.h"
+#include "spectrum/NoiseNormaliser.h"
+#include "widgets/BarPlot.h"
+#include "widgets/CellPicture.h"
+#include "widgets/ChartPlot.h"
+#include "widgets/Theme.h"
+#include "widgets/WalkPlot.h"
+#include "widgets/quantities.h"
+
+#include <QComboBox>
+#include <QFileDialog>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QMenu>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    QLabel *sentenceLabel()
+    {
+        auto *label = new QLabel;
+        label->setTextFormat(Qt::PlainText);
+        label->setWordWrap(true);
+        label->setContentsMargins(8, 2, 8, 4);
+        label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+        return label;
+    }
+
+    QSplitter *sideBySide(QWidget *left, QWidget *right, int leftShare, int rightShare)
+    {
+        auto *splitter = new QSplitter(Qt::Horizontal);
+        splitter->setChildrenCollapsible(false);
+        splitter->addWidget(left);
+        splitter->addWidget(right);
+        splitter->setStretchFactor(0, leftShare);
+        splitter->setStretchFactor(1, rightShare);
+        return splitter;
+    }
+
+    /// Views above one another, close together.
+    QWidget *column(std::initializer_list<QWidget *> widgets)
+    {
+        auto *page = new QWidget;
+        auto *layout = new QVBoxLayout(page);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setSpacing(0);
+        for (QWidget *widget : widgets)
+            layout->addWidget(widget, qobject_cast<QLabel *>(widget) ? 0 : 1);
+        return page;
+    }
+
+    QString percent(double share)
+    {
+        return numberText(100.0 * share, std::abs(share) < 0.1 ? 1 : 0) + QStringLiteral(" %");
+    }
+
+    QString decisionText(const SprtResult &result)
+    {
+        switch (result.decision) {
+        case SprtDecision::H1:
+            return result.isForced ? QObject::tr("the cut-off decides for a target") : QObject::tr("a target accepted");
+        case SprtDecision::H0:
+            return result.isForced ? QObject::tr("the cut-off decides for noise") : QObject::tr("noise only accepted");
+        case SprtDecision::Undecided:
+            break;
+        }
+        return QObject::tr("undecided");
+    }
+
+} // namespace
+
+SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
+    : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm), m_start(new QPushButton(tr("Run"))),
+      m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the recording’s view"))),
+      m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_posterior(new CellPicture),
+      m_scan(new CellPicture), m_axis(new QComboBox), m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()),
+      m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()),
+      m_runText(new QLabel), m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
+{
+    m_tabs->setDocumentMode(true);
+    m_tabs->setMinimumWidth(280); // the window must not grow for charts that are not looked at
+    m_tabs->addTab(buildWalks(), tr("Walks"));
+    m_tabs->addTab(buildTrajectory(), tr("Trajectory and scan"));
+    m_tabs->addTab(buildCurves(), tr("Stages against SNR"));
+    m_tabs->addTab(buildPrior(), tr("Against the prior"));
+    m_tabs->addTab(buildSectors(), tr("Sectors"));
+    auto *saveMenu = new QMenu(this);
+    for (const View &view : m_views)
+        saveMenu->addAction(tr("%1…").arg(view.title), this, [this, view] { save(view); });
+    auto *saveButton = new QToolButton;
+    saveButton->setText(tr("Save"));
+    saveButton->setToolTip(tr("Save a view as PNG, SVG or PDF, or its numbers as CSV"));
+    saveButton->setMenu(saveMenu);
+    saveButton->setPopupMode(QToolButton::InstantPopup);
+    saveButton->setAutoRaise(true);
+    m_tabs->setCornerWidget(saveButton);
+
+    auto *right = new QVBoxLayout;
+    right->setSpacing(0);
+    right->addWidget(m_tabs, 1);
+    right->addWidget(buildRunRow());
+    auto *layout = new QHBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(buildLeft());
+    layout->addLayout(right, 1);
+    connectTests();
+    connect(&document, &Document::analysisChanged, this, &SequentialPanel::followDocument);
+    connect(&document, &Document::opened, this, &SequentialPanel::followDocument);
+    followDocument();
+    restart();
+}
+
+// ---- building -------------------------------------------------------------------------------------------------------
+
+QWidget *SequentialPanel::buildLeft()
+{
+    auto *area = new QScrollArea;
+    area->setWidget(m_form);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_progress->setRange(0, 1000);
+    m_progress->setTextVisible(false);
+    m_progress->setFixedHeight(8);
+    m_progress->setAccessibleName(tr("Progress of the sequential tests"));
+    m_state->setTextFormat(Qt::PlainText);
+    m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_start->setToolTip(tr("Run tests on simulated radar scans with these settings; the window stays free meanwhile"));
+    m_onSelection->setToolTip(tr("One test on the recording's frames and frequencies in view, with α and β from above and the signal "
+                                 "model of the pipeline; without a cut-off"));
+    connect(m_start, &QPushButton::clicked, this, &SequentialPanel::run);
+    connect(m_cancel, &QPushButton::clicked, &m_tests, &SequentialTests::cancel);
+    connect(m_onSelection, &QPushButton::clicked, this, &SequentialPanel::startOnSelection);
+
+    auto *left = new QWidget;
+    left->setFixedWidth(290);
+    auto *buttons = new QHBoxLayout;
+    buttons->setSpacing(6);
+    buttons->addWidget(m_start, 1);
+    buttons->addWidget(m_cancel, 1);
+    auto *below = new QVBoxLayout;
+    below->setContentsMargins(8, 2, 8, 4);
+    below->setSpacing(3);
+    below->addLayout(buttons);
+    below->addWidget(m_onSelection);
+    below->addWidget(m_progress);
+    below->addWidget(m_state);
+    auto *layout = new QVBoxLayout(left);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(area, 1);
+    layout->addLayout(below);
+    return left;
+}
+
+void SequentialPanel::addView(QWidget *widget, const QString &title, std::function<std::string()> csv)
+{
+    m_views.push_back({widget, title, std::move(csv)});
+    widget->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(widget, &QWidget::customContextMenuRequested, this, [this, view = m_views.back()](const QPoint &at) {
+        QMenu menu;
+        menu.addAction(tr("Save picture or numbers…"), this, [this, view] { save(view); });
+        menu.exec(view.widget->mapToGlobal(at));
+    });
+}
+
+QWidget *SequentialPanel::buildWalks()
+{
+    m_walk->setEmptySentence(tr("Press Run: tests of noise and of targets walk here until they are sure."));
+    m_stopping->setEmptySentence(tr("When the tests stop is counted here."));
+    m_stopping->setTitles(tr("stages taken"), tr("tests"));
+    m_stopping->setAccessibleName(tr("How many tests stopped after each stage"));
+    addView(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    addView(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    connect(m_walk, &WalkPlot::walkActivated, &m_tests, &SequentialTests::select);
+    connect(m_walk, &MarkedPlot::activated, this, [this](double x) { m_tests.setStage(std::lround(x)); });
+    connect(m_stopping, &BarPlot::barActivated, this, &SequentialPanel::selectStoppedAt);
+    return sideBySide(m_walk, m_stopping, 3, 2);
+}
+
+QWidget *SequentialPanel::buildTrajectory()
+{
+    m_posterior->setEmptySentence(tr("What the selected run thought of its target's place, stage by stage."));
+    m_posterior->setAccessibleName(tr("Posterior probability of the target's cell, stage by stage"));
+    m_scan->setAccessibleName(tr("Range-Doppler map of the stage"));
+    m_axis->setAccessibleName(tr("Axis of the posterior"));
+    addView(m_posterior, tr("Posterior and trajectory"), [this] {
+        const PosteriorPicture *picture = shownPosterior();
+        return picture ? posteriorCsv(*picture) : std::string();
+    });
+    addView(m_scan, tr("Scan"), [this] {
+        std::string csv = "range,doppler,db\n";
+        const Index rows = m_scan->yAxis().count;
+        for (std::size_t i = 0; i < m_scan->values().size(); ++i)
+            csv += std::to_string(static_cast<Index>(i) % rows) + "," + std::to_string(static_cast<Index>(i) / rows) + ","
+                + formatNumber(static_cast<double>(m_scan->values()[i])) + "\n";
+        return csv;
+    });
+    connect(m_axis, &QComboBox::activated, this, &SequentialPanel::showInspection);
+    connect(m_posterior, &MarkedPlot::activated, this, [this](double x) { m_tests.setStage(std::lround(x)); });
+    auto *axisRow = new QHBoxLayout;
+    axisRow->setContentsMargins(8, 3, 8, 0);
+    axisRow->addWidget(new QLabel(tr("Where along")));
+    axisRow->addWidget(m_axis);
+    axisRow->addStretch(1);
+    auto *left = new QWidget;
+    auto *layout = new QVBoxLayout(left);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addLayout(axisRow);
+    layout->addWidget(m_posterior, 1);
+    return sideBySide(left, m_scan, 3, 2);
+}
+
+QWidget *SequentialPanel::buildCurves()
+{
+    for (ChartPlot *plot : {m_asn, m_variation, m_prior})
+        plot->setEmptySentence(tr("Press Run: the curve grows here."));
+    addView(m_asn, tr("Stages against SNR"), [this] { return chartCsv(m_asn->chart()); });
+    addView(m_variation, tr("Coefficient of variation"), [this] { return chartCsv(m_variation->chart()); });
+    return m_curvesPage = column({sideBySide(m_asn, m_variation, 3, 2), m_curvesText});
+}
+
+QWidget *SequentialPanel::buildPrior()
+{
+    addView(m_prior, tr("Stages against the prior"), [this] { return chartCsv(m_prior->chart()); });
+    return m_priorPage = column({m_prior, m_priorText});
+}
+
+QWidget *SequentialPanel::buildSectors()
+{
+    m_sectors->setEmptySentence(tr("How long the beam dwells on each sector appears here."));
+    m_sectors->setTitles(tr("sector"), tr("dwell, mean stages a look"));
+    m_sectors->setAccessibleName(tr("Dwell time on each sector"));
+    addView(m_sectors, tr("Sectors"),
+            [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
+    return m_sectorsPage = column({m_sectors, m_sectorsText});
+}
+
+QWidget *SequentialPanel::buildRunRow()
+{
+    m_runText->setTextFormat(Qt::PlainText);
+    m_runText->setWordWrap(true);
+    m_runText->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_slider->setFixedWidth(150);
+    m_slider->setAccessibleName(tr("Stage"));
+    m_slider->setToolTip(tr("Stage that is looked at (J, L)"));
+    connect(m_slider, &QSlider::valueChanged, this, [this](int stage) { m_tests.setStage(stage); });
+    auto *row = new QWidget;
+    auto *layout = new QHBoxLayout(row);
+    layout->setContentsMargins(8, 3, 8, 4);
+    layout->addWidget(m_runText, 1);
+    layout->addWidget(m_stageText);
+    layout->addWidget(m_slider);
+    return row;
+}
+
+void SequentialPanel::connectTests()
+{
+    connect(&m_tests, &SequentialTests::restarted, this, &SequentialPanel::restart);
+    connect(&m_tests, &SequentialTests::busyChanged, this, &SequentialPanel::showBusy);
+    connect(&m_tests, &SequentialTests::progressed, this, [this](double fraction, const QString &what) {
+        m_progress->setValue(static_cast<int>(1000.0 * fraction));
+        m_state->setText(what);
+    });
+    connect(&m_tests, &SequentialTests::walksChanged, this, &SequentialPanel::showWalks);
+    connect(&m_tests, &SequentialTests::fixedSizeChanged, this, &SequentialPanel::showWalks);
+    connect(&m_tests, &SequentialTests::selectionChanged, this, &SequentialPanel::showSelection);
+    connect(&m_tests, &SequentialTests::stageChanged, this, &SequentialPanel::showStage);
+    connect(&m_tests, &SequentialTests::inspectionChanged, this, &SequentialPanel::showInspection);
+    connect(&m_tests, &SequentialTests::scanChanged, this, &SequentialPanel::showScan);
+    connect(&m_tests, &SequentialTests::curvesChanged, this, &SequentialPanel::showCurves);
+    connect(&m_tests, &SequentialTests::surveyChanged, this, &SequentialPanel::showSectors);
+    connect(&m_tests, &SequentialTests::failed, this, &SequentialPanel::failed);
+}
+
+// ---- starting -------------------------------------------------------------------------------------------------------
+
+void SequentialPanel::run()
+{
+    start(m_form->test());
+}
+
+void SequentialPanel::start(const ScanTest &test)
+{
+    m_form->setTest(test);
+    try {
+        m_tests.start(test);
+    } catch (const Error &error) {
+        m_form->showError(error);
+        emit failed(error);
+    }
+}
+
+void SequentialPanel::startOnSelection()
+{
+    const auto &analysis = m_document.analysis();
+    if (!analysis)
+        return;
+    const Viewport::Box &visible = m_document.viewport().visible();
+    const Axis &time = analysis->time();
+    const Axis &frequency = analysis->grid().axes.back();
+    SequentialTests::Selection selection;
+    selection.name = m_document.source().name();
+    selection.frames = analysis->frames;
+    selection.model = analysis->settings.model;
+    selection.firstFrame = time.nearest(visible.time.low + 0.5 * time.step);
+    selection.frameCount = time.nearest(visible.time.high - 0.5 * time.step) - selection.firstFrame + 1;
+    selection.firstCell = frequency.nearest(visible.frequency.low + 0.5 * frequency.step);
+    selection.cellCount = frequency.nearest(visible.frequency.high - 0.5 * frequency.step) - selection.firstCell + 1;
+    SprtSettings sprt = m_form->test().sprt;
+    sprt.cutOffStage = 0;
+    try {
+        m_tests.start(selection, sprt);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void SequentialPanel::restart()
+{
+    showBusy(m_tests.isRunning());
+    m_axis->clear();
+    m_posterior->clear();
+    m_scan->clear();
+    m_scan->setEmptySentence(m_tests.isOfScans() ? tr("The scan of the stage that is looked at.")
+                                                 : tr("A recording's frames have no range and no Doppler."));
+    const QString none = tr("Curves and sectors are simulated: press Run.");
+    for (ChartPlot *plot : {m_asn, m_variation, m_prior})
+        plot->setEmptySentence(m_tests.isOfScans() ? tr("Press Run: the curve grows here.") : none);
+    m_sectors->setEmptySentence(m_tests.isOfScans() ? tr("How long the beam dwells on each sector appears here.") : none);
+    showWalks();
+    showSelection();
+    showStage();
+    showCurves();
+    showSectors();
+}
+
+void SequentialPanel::showBusy(bool isBusy)
+{
+    m_cancel->setEnabled(isBusy);
+    if (isBusy) {
+        m_state->setText(tr("starting"));
+        return m_progress->setValue(0);
+    }
+    m_progress->setValue(m_tests.isFixedSizeKnown() || (!m_tests.isOfScans() && !m_tests.isEmpty()) ? 1000 : 0);
+    m_state->setText(m_tests.isEmpty() ? QString() : m_progress->value() == 1000 ? tr("done") : tr("stopped; the rest is not there"));
+}
+
+void SequentialPanel::followDocument()
+{
+    const auto &analysis = m_document.analysis();
+    m_onSelection->setEnabled(analysis && analysis->grid().axes.size() == 1 && analysis->settings.model.motion == Motion::Slopes);
+}
+
+// ---- showing --------------------------------------------------------------------------------------------------------
+
+void SequentialPanel::showWalks()
+{
+    std::vector<WalkPlot::Walk> walks;
+    for (const auto &[run, result] : m_tests.walks())
+        walks.push_back({result.lnLambda, result.decision, m_tests.isOfScans() ? std::optional(run.hasTarget) : std::nullopt,
+                         result.isForced});
+    m_walk->setWalks(std::move(walks));
+    m_walk->setTest(m_tests.test().sprt, m_tests.fixedSize());
+    m_walk->setSelected(m_tests.selected());
+    showStopping();
+}
+
+void SequentialPanel::showStopping()
+{
+    std::vector<BarPlot::Series> series{{tr("H0, noise only"), 0, {}}, {tr("H1, a target"), 1, {}}};
+    Index longest = 0;
+    for (const auto &[run, result] : m_tests.walks())
+        longest = std::max(longest, result.stages);
+    if (!m_tests.isOfScans())
+        longest = 0; // one test alone is no histogram
+    for (BarPlot::Series &one : series)
+        one.values.assign(static_cast<std::size_t>(longest), 0.0);
+    if (longest > 0)
+        for (const auto &[run, result] : m_tests.walks())
+            series[run.hasTarget ? 1 : 0].values[static_cast<std::size_t>(result.stages - 1)] += 1.0;
+    m_stopping->setBars(std::move(series), 1);
+    std::vector<MarkedPlot::Mark> marks;
+    if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
+        marks.push_back({static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
+    m_stopping->setMarks(std::move(marks));
+    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("When the tests stop is counted here.") : recordingNote());
+}
+
+void SequentialPanel::selectStoppedAt(int stage)
+{
+    const auto count = static_cast<int>(m_tests.walks().size());
+    for (int step = 1; step <= count; ++step) {
+        const int walk = (std::max(0, m_tests.selected()) + step) % count;
+        if (m_tests.walks()[static_cast<std::size_t>(walk)].second.stages == stage)
+            return m_tests.select(walk);
+    }
+}
+
+void SequentialPanel::showSelection()
+{
+    m_walk->setSelected(m_tests.selected());
+    const bool hasRun = m_tests.selected() >= 0;
+    const Index stages = hasRun ? m_tests.walks()[static_cast<std::size_t>(m_tests.selected())].second.stages : 1;
+    m_stopping->setSelected(hasRun ? static_cast<int>(stages) : -1);
+    const QSignalBlocker blocker(m_slider);
+    m_slider->setRange(1, static_cast<int>(stages));
+    m_slider->setEnabled(hasRun && stages > 1);
+    m_runText->setText(runSentence());
+}
+
+void SequentialPanel::showStage()
+{
+    const bool hasRun = m_tests.selected() >= 0;
+    const auto stage = static_cast<double>(m_tests.stage());
+    m_walk->setCursor(hasRun ? std::optional(stage) : std::nullopt);
+    m_posterior->setCursor(hasRun ? std::optional(stage) : std::nullopt);
+    const QSignalBlocker blocker(m_slider);
+    m_slider->setValue(static_cast<int>(m_tests.stage()));
+    m_stageText->setText(hasRun ? tr("stage %1 of %2").arg(m_tests.stage()).arg(m_slider->maximum()) : QString());
+}
+
+const PosteriorPicture *SequentialPanel::shownPosterior() const
+{
+    const auto &inspection = m_tests.inspection();
+    const auto index = static_cast<std::size_t>(std::max(0, m_axis->currentIndex()));
+    return inspection && index < inspection->test.posterior.size() ? &inspection->test.posterior[index] : nullptr;
+}
+
+Axis SequentialPanel::cellAxis(const PosteriorPicture &picture) const
+{
+    if (m_tests.isOfScans())
+        return {picture.name, "cell", 0.0, 1.0, picture.cells, false};
+    Axis axis = m_tests.selection().frames->grid().axes[0];
+    axis.first = axis.value(static_cast<double>(m_tests.selection().firstCell));
+    axis.count = picture.cells;
+    return axis;
+}
+
+void SequentialPanel::showInspection()
+{
+    const auto &inspection = m_tests.inspection();
+    if (!inspection)
+        return;
+    if (m_axis->count() != static_cast<int>(inspection->test.posterior.size())) {
+        m_axis->clear();
+        std::size_t finest = 0;
+        for (std::size_t i = 0; i < inspection->test.posterior.size(); ++i) {
+            m_axis->addItem(QString::fromStdString(inspection->test.posterior[i].name));
+            if (inspection->test.posterior[i].cells > inspection->test.posterior[finest].cells)
+                finest = i;
+        }
+        m_axis->setCurrentIndex(static_cast<int>(finest));
+    }
+    const PosteriorPicture &picture = *shownPosterior();
+    constexpr double leastLg = -4.0;
+    std::vector<float> lg;
+    for (const float p : picture.probability)
+        lg.push_back(static_cast<float>(std::log10(std::max(static_cast<double>(p), 1e-9))));
+    const Axis cells = cellAxis(picture);
+    m_posterior->setPicture({"stage", "", 1.0, static_cast<double>(picture.stride), picture.rows(), false}, cells, std::move(lg),
+                            {leastLg, 0.0}, tr("log₁₀ P"));
+
+    const Theme::Colours &colours = Theme::colours(*this);
+    CellPicture::Path truth{tr("truth"), CellPicture::Path::Kind::Dashes, colours.truth, {}};
+    CellPicture::Path map{tr("MAP trajectory"), CellPicture::Path::Kind::Line, colours.track, {}};
+    const auto point = [&](Index stage, Index cell) {
+        return QPointF(static_cast<double>(stage + 1), cells.value(static_cast<double>(cell)));
+    };
+    for (Index stage = 0; stage < inspection->test.result.stages; ++stage) {
+        const auto at = static_cast<std::size_t>(stage);
+        if (at < inspection->truth.size())
+            truth.points.push_back(point(stage, inspection->truth[at][picture.frameAxis]));
+        if (at < inspection->test.result.trajectory.size())
+            map.points.push_back(point(stage, inspection->test.result.trajectory[at][picture.frameAxis]));
+    }
+    m_posterior->setPaths({map, truth});
+    m_runText->setText(runSentence());
+    showScan(); // its marks
+}
+
+void SequentialPanel::showScan()
+{
+    const auto &scan = m_tests.scan();
+    if (!scan)
+        return;
+    const ScanScene &scene = m_tests.test().scene;
+    const auto ranges = static_cast<std::size_t>(scene.rangeCells);
+    const auto dopplers = static_cast<std::size_t>(scene.dopplerCells);
+    std::vector<float> values(ranges * dopplers);
+    for (std::size_t r = 0; r < ranges; ++r)
+        for (std::size_t d = 0; d < dopplers; ++d)
+            values[d * ranges + r] = scan->db[r * dopplers + d];
+    m_scan->setPicture({"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false}, {"range", "cell", 0.0, 1.0, scene.rangeCells, false},
+                       std::move(values), {0.0, std::max(15.0, scene.snrDb + 6.0)}, tr("strongest beam (dB)"));
+    const auto &inspection = m_tests.inspection();
+    std::vector<CellPicture::Path> marks;
+    const auto at = static_cast<std::size_t>(scan->stage - 1);
+    const Theme::Colours &colours = Theme::colours(*this);
+    if (inspection && at < inspection->truth.size()) {
+        const ScanCell &cell = inspection->truth[at];
+        marks.push_back({tr("truth"), CellPicture::Path::Kind::Rings, colours.truth,
+                         {QPointF(static_cast<double>(cell[3]), static_cast<double>(cell[2]))}});
+    }
+    if (inspection && at < inspection->test.result.trajectory.size()) {
+        const std::vector<Index> &cell = inspection->test.result.trajectory[at];
+        marks.push_back({tr("MAP"), CellPicture::Path::Kind::Crosses, colours.track,
+                         {QPointF(static_cast<double>(cell[3]), static_cast<double>(cell[2]))}});
+    }
+    m_scan->setPaths(std::move(marks));
+}
+
+void SequentialPanel::showCurves()
+{
+    m_asn->setChart(stagesChart(m_tests.points()));
+    m_variation->setChart(variationChart(m_tests.points()));
+    m_prior->setChart(m_tests.prior() ? priorChart(*m_tests.prior()) : Chart());
+    m_curvesText->setText(curvesSentence());
+    m_priorText->setText(priorSentence());
+}
+
+void SequentialPanel::showSectors()
+{
+    const ScanTest &test = m_tests.test();
+    std::vector<BarPlot::Series> series{{tr("empty"), 0, {}}, {tr("with a target"), 1, {}}};
+    if (m_tests.survey()) {
+        for (BarPlot::Series &one : series)
+            one.values.assign(static_cast<std::size_t>(test.sectors), 0.0);
+        for (const SectorVisit &visit : m_tests.survey()->visits)
+            series[holdsTarget(test, visit.sector) ? 1 : 0].values[static_cast<std::size_t>(visit.sector)] +=
+                static_cast<double>(visit.result.stages) / test.rounds;
+    }
+    m_sectors->setBars(std::move(series), 1, true);
+    std::vector<MarkedPlot::Mark> marks;
+    if (m_tests.fixedSize()) {
+        marks.push_back({static_cast<double>(*m_tests.fixedSize()), false,
+                         tr("a test of fixed size: about %1").arg(*m_tests.fixedSize()), true});
+        m_sectors->setLeastHeight(static_cast<double>(*m_tests.fixedSize()));
+    } else {
+        m_sectors->setLeastHeight(0.0);
+    }
+    m_sectors->setMarks(std::move(marks));
+    m_sectorsText->setText(sectorsSentence());
+}
+
+// ---- sentences ------------------------------------------------------------------------------------------------------
+
+QString SequentialPanel::runSentence() const
+{
+    if (m_tests.selected() < 0)
+        return {};
+    if (!m_tests.isOfScans())
+        return recordingSentence();
+    const auto &[run, result] = m_tests.walks()[static_cast<std::size_t>(m_tests.selected())];
+    return tr("Run %1 %2: %3 after %4, ln Λ = %5.")
+               .arg(run.number + 1)
+               .arg(run.hasTarget ? tr("with a target") : tr("of noise only"), decisionText(result),
+                    result.stages == 1 ? tr("one stage") : tr("%1 stages").arg(result.stages), numberText(result.lnLambda.back(), 1))
+        + trajectorySentence();
+}
+
+QString SequentialPanel::trajectorySentence() const
+{
+    const auto &inspection = m_tests.inspection();
+    if (!inspection || inspection->truth.empty() || inspection->test.result.trajectory.empty())
+        return {};
+    Index worst = 0;
+    Index last = 0;
+    for (std::size_t stage = 0; stage < inspection->test.result.trajectory.size(); ++stage) {
+        last = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            last = std::max(last, std::abs(inspection->test.result.trajectory[stage][axis] - inspection->truth[stage][axis]));
+        worst = std::max(worst, last);
+    }
+    if (worst == 0)
+        return tr(" Its trajectory is right at every stage.");
+    return tr(" Its trajectory is off by %1 at last and by %2 cells at most.").arg(last).arg(worst);
+}
+
+QString SequentialPanel::recordingSentence() const
+{
+    const SequentialTests::Selection &selection = m_tests.selection();
+    const SprtResult &result = m_tests.walks().front().second;
+    const Axis &time = selection.frames->time();
+    return tr("A line since the first frame in view, in %1 bins: %2 after %3 of %4 frames (%5), ln Λ = %6.")
+                       .arg(selection.cellCount)
+                       .arg(decisionText(result))
+                       .arg(result.stages)
+                       .arg(selection.frameCount)
+                       .arg(secondsText(static_cast<double>(result.stages) * time.step, time.step),
+                            numberText(result.lnLambda.empty() ? 0.0 : result.lnLambda.back(), 1));
+}
+
+QString SequentialPanel::recordingNote() const
+{
+    QString text = tr("One test stops once: there is nothing to count.");
+    const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(m_tests.selection().frames.get());
+    if (frames && frames->spectrogram().settings().stepsPerWindow > 1)
+        text += tr(" This recording's frames overlap, so evidence counts more than once, and errors exceed α and β.");
+    return text;
+}
+
+QString SequentialPanel::curvesSentence() const
+{
+    const auto &points = m_tests.points();
+    const auto atDesign = std::find_if(points.begin(), points.end(), [](const ScanPoint &p) { return p.snrDb == p.designSnrDb; });
+    if (atDesign == points.end())
+        return {};
+    const ScanPoint &p = m_tests.test().designFollows ? points.back() : *atDesign;
+    const auto range = [](double low, double high) { return tr("%1 … %2").arg(numberText(low, 1), numberText(high, 1)); };
+    QString text = tr("At %1 dB: %2 stages on noise, bounds (8b) %3; %4 with a target, bounds (8a) %5. The bounds neglect by how far ln Λ "
+                      "overshoots its boundary")
+                       .arg(numberText(p.snrDb, 0), numberText(p.h0.stages.value, 1), range(p.bounds.h0Low, p.bounds.h0High),
+                            numberText(p.h1.stages.value, 1), range(p.bounds.h1Low, p.bounds.h1High));
+    QStringList above;
+    if (p.h0.stages.value > p.bounds.h0High)
+        above << tr("%1 on noise").arg(percent(p.h0.stages.value / p.bounds.h0High - 1.0));
+    if (p.h1.stages.value > p.bounds.h1High)
+        above << tr("%1 with a target").arg(percent(p.h1.stages.value / p.bounds.h1High - 1.0));
+    text += above.isEmpty() ? tr("; the simulated tests stay below the upper ones.")
+                            : tr(": the simulated tests exceed the upper ones by %1.").arg(above.join(tr(", ")));
+    if (m_tests.test().sprt.cutOffStage > 0)
+        text += tr(" Nor do they know of the cut-off.");
+    return text;
+}
+
+QString SequentialPanel::priorSentence() const
+{
+    if (!m_tests.prior())
+        return {};
+    const PriorCurve &curve = *m_tests.prior();
+    const QString what = tr("A line of %1 cells at %2 dB, from a known trajectory (left) to one of which nothing is known (right), "
+                            "without a cut-off.")
+                             .arg(curve.cells)
+                             .arg(numberText(m_tests.test().designSnrDb, 0));
+    const std::optional<Overshoot> over = overshoot(curve);
+    if (!over)
+        return what;
+    const QString how = over->h0 >= 0.0 && over->h1 >= 0.0
+                            ? tr(" At the right end the stages exceed the “upper bounds” by %1 on noise and %2 with a target")
+                            : tr(" At the right end the stages differ from the upper bounds by %1 on noise and %2 with a target");
+    return what + how.arg(percent(over->h0), percent(over->h1)) + tr(": the bounds neglect by how far ln Λ overshoots its boundary.");
+}
+
+QString SequentialPanel::sectorsSentence() const
+{
+    if (!m_tests.survey())
+        return {};
+    const Survey &survey = *m_tests.survey();
+    int looksAtTargets = 0;
+    int found = 0;
+    int falseAlarms = 0;
+    for (const SectorVisit &visit : survey.visits) {
+        const bool isAccepted = visit.result.decision == SprtDecision::H1;
+        const bool isTarget = holdsTarget(m_tests.test(), visit.sector);
+        looksAtTargets += isTarget ? 1 : 0;
+        found += isTarget && isAccepted ? 1 : 0;
+        falseAlarms += !isTarget && isAccepted ? 1 : 0;
+    }
+    const int looks = static_cast<int>(survey.visits.size());
+    const QString seen = tr(" A target is found in %1 of %2 looks at one; %3 of %4 looks at empty sectors end in a false alarm.")
+                             .arg(found)
+                             .arg(looksAtTargets)
+                             .arg(falseAlarms)
+                             .arg(looks - looksAtTargets);
+    if (!m_tests.isFixedSizeKnown())
+        return tr("%1 looks take %2 stages.").arg(looks).arg(survey.stages) + seen;
+    if (!m_tests.fixedSize())
+        return tr("%1 looks take %2 stages; a test of fixed size would need more than 40 for each.").arg(looks).arg(survey.stages) + seen;
+    return tr("%1 looks take %2 stages; tests of fixed size with the same errors, of about %3 stages each, would take %4: %5.")
+               .arg(looks)
+               .arg(survey.stages)
+               .arg(*m_tests.fixedSize())
+               .arg(survey.fixedStages)
+               .arg(survey.saving() >= 0.0 ? tr("%1 saved").arg(percent(survey.saving())) : tr("%1 lost").arg(percent(-survey.saving())))
+        + seen;
+}
+
+// ---- keys and files -------------------------------------------------------------------------------------------------
+
+/// Within the panel J and L step stages, not the recording's frames.
+bool SequentialPanel::event(QEvent *event)
+{
+    if (event->type() == QEvent::ShortcutOverride) {
+        const auto *key = static_cast<QKeyEvent *>(event);
+        if (key->modifiers() == Qt::NoModifier && (key->key() == Qt::Key_J || key->key() == Qt::Key_L)) {
+            event->accept();
+            return true;
+        }
+    }
+    return QWidget::event(event);
+}
+
+void SequentialPanel::keyPressEvent(QKeyEvent *event)
+{
+    if (event->modifiers() == Qt::NoModifier && (event->key() == Qt::Key_J || event->key() == Qt::Key_L))
+        return m_tests.setStage(m_tests.stage() + (event->key() == Qt::Key_L ? 1 : -1));
+    QWidget::keyPressEvent(event);
+}
+
+void SequentialPanel::save(const View &view)
+{
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title), QStringLiteral("sequential.png"),
+                                                      saveViewFilter());
+    if (path.isEmpty())
+        return;
+    try {
+        saveView(*view.widget, view.csv(), path);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+} // namespace faintline

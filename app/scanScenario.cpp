@@ -1,0 +1,56 @@
+#include "app/scanScenario.h"
+
+#include "base/Error.h"
+#include "base/json.h"
+
+#include <QFile>
+
+namespace faintline {
+
+namespace {
+
+    constexpr qint64 largestScenario = 1 << 20;
+
+    Json read(const QString &path)
+    {
+        const std::string where = path.toStdString();
+        QFile file(path);
+        if (!file.open(QIODevice::ReadOnly))
+            throw Error(where, "cannot be read: " + file.errorString().toStdString());
+        return parseJson(file.read(largestScenario).toStdString(), where);
+    }
+
+} // namespace
+
+QString radarScenarioPath()
+{
+    return QStringLiteral(":/scenarios/radar-surveillance.json");
+}
+
+bool isScanScenario(const QString &path)
+{
+    if (!path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive))
+        return false;
+    try {
+        const Json json = read(path);
+        const auto kind = json.is_object() ? json.find("kind") : json.end();
+        return kind != json.end() && *kind == "scans";
+    } catch (const Error &) {
+        return false; // whoever opens it says why
+    }
+}
+
+ScanTest readScanTest(const QString &path)
+{
+    const std::string where = path.toStdString();
+    const Json json = read(path);
+    try {
+        const ScanTest test = scanTestOf(scanSceneFromJson(json));
+        checkScanTest(test);
+        return test;
+    } catch (const Error &error) {
+        throw Error(where + ": " + error.where(), error.why());
+    }
+}
+
+} // namespace faintline

@@ -1,0 +1,58 @@
+#include "detect/averagedStages.h"
+
+#include "base/Error.h"
+#include "spectrum/cellAveraging.h"
+
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    /// The last axis with a state: how many cells it has, and how far apart they lie on a frame.
+    struct Row {
+        Index cells = 0;
+        Index stride = 1;
+    };
+
+    Row rowOf(const CellReduction &reduction)
+    {
+        Index stride = 1;
+        for (std::size_t axis = reduction.axisCells().size(); axis-- > 0;) {
+            if (!reduction.isFolded(axis))
+                return {reduction.axisCells()[axis], stride};
+            stride *= reduction.axisCells()[axis];
+        }
+        return {};
+    }
+
+} // namespace
+
+StageSource averagedStages(StageSource source, const SequentialModel &model, Index N, const std::string &where)
+{
+    const Likelihood likelihood = model.markov.likelihood;
+    if (likelihood.kind() != LikelihoodKind::Exponential)
+        throw Error(where, "needs an exponential likelihood; that of the average is known for no other");
+    const Row row = rowOf(model.reduction);
+    if (N < 1 || N >= row.cells)
+        throw Error(where + " = " + std::to_string(N), row.cells < 2 ? "has no neighbours to average"
+                                                                     : "must lie in 1 … " + std::to_string(row.cells - 1)
+                                                                           + ", the other cells of the row");
+    return [source = std::move(source), row, N, snr = likelihood.snr(),
+            line = std::vector<float>(static_cast<std::size_t>(row.cells))](Index stage, std::span<double> y) mutable {
+        source(stage, y);
+        const Index block = row.cells * row.stride;
+        for (Index first = 0; first < std::ssize(y); ++first) {
+            if (first % block >= row.stride) // not the first cell of a row
+                continue;
+            for (Index i = 0; i < row.cells; ++i)
+                line[static_cast<std::size_t>(i)] = static_cast<float>(y[static_cast<std::size_t>(first + i * row.stride)]);
+            averageCells(line, row.cells, N);
+            correctAveraged(line, N, snr);
+            for (Index i = 0; i < row.cells; ++i)
+                y[static_cast<std::size_t>(first + i * row.stride)] = static_cast<double>(line[static_cast<std::size_t>(i)]);
+        }
+    };
+}
+
+} // namespace faintline
