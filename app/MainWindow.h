@@ -18,6 +18,7 @@ class QToolBar;
 namespace faintline {
 
 class ActivityBar;
+class Bench;
 class CommandPalette;
 class EvaluatePanel;
 class EventTable;
@@ -25,16 +26,19 @@ class ExceedancePlot;
 class ExperimentsPanel;
 class InfoPanel;
 class KeysOverlay;
+class LatencyPanel;
 class MessageBar;
 class NoiseFitPanel;
 class OverviewStrip;
 class Panels;
+class PingBench;
 class PipelinePanel;
 class ReadOut;
 class Recovery;
 class ReproductionPanel;
 class ScenarioCard;
 class SessionSaver;
+class StateSlicePanel;
 class TrialViewer;
 class WelcomePage;
 class WhyPanel;
@@ -59,6 +63,7 @@ public:
     Document &document() { return m_document; }
     AnalysisController &controller() { return m_controller; }
     Workbench &workbench() { return *m_workbench; }
+    PingBench &pingBench() { return *m_pings; }
     WelcomePage &welcome() { return *m_welcome; }
     MessageBar &messages() { return *m_messages; }
     ExceedancePlot &thresholdPlot() { return *m_threshold; }
@@ -70,14 +75,18 @@ public:
     NoiseFitPanel &noiseFit() { return *m_noiseFit; }
     WhyPanel &why() { return *m_why; }
     Recovery &recovery() { return *m_recovery; }
+    StateSlicePanel &states() { return *m_states; }
+    LatencyPanel &latency() { return *m_latency; }
     TrialViewer &trials() { return *m_trials; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd".
+    /// "noisefit", "pd"; of a sonar's pings also "map", "polar", "histories", "slice", "latency".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
 
     void showNoiseFit();
+    void showStates();
+    void showLatency();
 
     /// Off: nobody is there to answer a dialog.
     void setAsking(bool isAsking);
@@ -109,6 +118,7 @@ private:
     /// An action that makes sense only while a recording is shown.
     QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
 
+    Bench &bench(); ///< the one for what is open
     void showWorkbench();
     void showAnalysis();
     void showEvents();
@@ -144,6 +154,7 @@ private:
     QStackedWidget *m_pages = nullptr;
     WelcomePage *m_welcome = nullptr;
     Workbench *m_workbench = nullptr;
+    PingBench *m_pings = nullptr;
     PipelinePanel *m_pipeline = nullptr;
     ExceedancePlot *m_threshold = nullptr;
     EventTable *m_events = nullptr;
@@ -153,6 +164,8 @@ private:
     ExperimentsPanel *m_experimentList = nullptr;
     ReproductionPanel *m_reproduction = nullptr;
     NoiseFitPanel *m_noiseFit = nullptr;
+    StateSlicePanel *m_states = nullptr;
+    LatencyPanel *m_latency = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
     OverviewStrip *m_overview = nullptr;
     ReadOut *m_readOut = nullptr;

@@ -57,13 +57,15 @@ namespace {
             ->required();
         command
             ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise; several with commas")
+                         "window, input, output, threshold, events, noise, noisefit, pd; of a sonar's pings also map, polar, histories, slice, latency; several with commas")
             ->delimiter(',')
             ->allow_extra_args(false)
             ->capture_default_str();
         command->add_option("--size", size, "Pixels")->capture_default_str();
         command->add_option("--time", options.seconds, "Where the cursor goes, s");
         command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
+        command->add_option("--range", options.range, "Where the cursor goes in pings, in the range axis's unit");
+        command->add_option("--bearing", options.bearing, "Where the cursor goes in pings, degrees");
         command->add_option("--theme", options.theme, "light or dark")
             ->check(CLI::IsMember({"light", "dark"}))
             ->capture_default_str();

@@ -2,8 +2,11 @@
 
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
+#include "app/LatencyPanel.h"
 #include "app/MainWindow.h"
 #include "app/NoiseFitPanel.h"
+#include "app/PingBench.h"
+#include "app/StateSlicePanel.h"
 #include "app/Workbench.h"
 #include "base/AtomicFile.h"
 
@@ -74,17 +77,55 @@ namespace {
             loop.exec();
     }
 
+    void cutStates(MainWindow &window)
+    {
+        QEventLoop loop;
+        QObject::connect(&window.states(), &StateSlicePanel::settled, &loop, &QEventLoop::quit);
+        window.showStates();
+        if (window.states().isBusy())
+            loop.exec();
+    }
+
+    void measureLatency(MainWindow &window)
+    {
+        constexpr int runs = 4;
+        if (const QString why = window.latency().obstacle(); !why.isEmpty())
+            throw Error("--view latency", why.toStdString());
+        QEventLoop loop;
+        QObject::connect(&window.latency(), &LatencyPanel::settled, &loop, &QEventLoop::quit);
+        window.showLatency();
+        window.latency().start(runs);
+        loop.exec();
+    }
+
     void prepare(MainWindow &window, const std::vector<std::string> &views)
     {
         const auto has = [&](const char *name) { return std::find(views.begin(), views.end(), name) != views.end(); };
         if (has("pd"))
             measureCurves(window);
+        for (const char *view : {"map", "polar", "histories", "slice", "latency"})
+            if (has(view) && !window.document().hasPings())
+                throw Error(std::string("--view ") + view, "is a picture of pings on range and bearing; these are no such frames");
+        if (has("latency"))
+            measureLatency(window);
+        if (has("slice"))
+            cutStates(window);
         if (has("noisefit"))
             measureNoise(window);
     }
 
-    void placeCursor(Viewport &viewport, const RenderOptions &options)
+    void placeCursor(MainWindow &window, const RenderOptions &options)
     {
+        Viewport &viewport = window.document().viewport();
+        if (window.document().hasPings()) {
+            PingViewports &viewports = window.pingBench().viewports();
+            PingViewports::Place place = viewports.place();
+            place.seconds = options.seconds.value_or(place.seconds);
+            place.range = options.range.value_or(place.range);
+            place.bearing = options.bearing.value_or(place.bearing);
+            viewports.setPlace(place);
+            return;
+        }
         Viewport::Point point = viewport.cursor().value_or(Viewport::Point());
         point.seconds = options.seconds.value_or(point.seconds);
         point.hz = options.hz.value_or(point.hz);
@@ -146,10 +187,13 @@ void render(const RenderOptions &options)
     window.resize(options.size);
     window.show();
     openAndSettle(window, options);
-    placeCursor(window.document().viewport(), options);
+    placeCursor(window, options);
     prepare(window, options.views);
-    for (const std::string &view : options.views)
+    for (const std::string &view : options.views) {
+        if (view == "map" || view == "polar")
+            window.pingBench().setPolar(view == "polar");
         write(pictureOf(*window.view(QString::fromStdString(view)), options.size), fileName(options, view));
+    }
 }
 
 } // namespace faintline
