@@ -14,7 +14,7 @@ namespace faintline {
 
 /// What is open: the one mutable object of the program, everything else is values and views.
 ///
-/// It holds the recording, or the ready-made frames, and where it came from, the settings with their undo stack, what is looked at, and the latest
+/// It holds the recording or the frames, where they came from, the settings with their undo stack, what is looked at, and the latest
 /// analysis, which may lag behind the settings while a new one is computed. The *shown threshold* is the analysis's, or
 /// the one under the user's finger while it is dragged.
 class Document : public QObject

@@ -166,7 +166,8 @@ void LatencyPanel::show(const std::vector<TrackScore> &scores, Index longest)
     m_histogram->setChart({"Latency", "pings since the target appeared", "targets", false, false,
                            {histogramCurve("detected", all.detection, shown), histogramCurve("confirmed", all.confirmation, shown)}});
     const auto never = std::count_if(all.detection.begin(), all.detection.end(), [](Index latency) { return latency < 0; });
-    m_sentence->setText(tr("%1 targets in %2 runs at %3 nat, noise settled for 200 pings: %4 never found, %5 false tracks, %6 of them confirmed.")
+    m_sentence->setText(tr("%1 targets in %2 runs at %3 nat, noise settled for 200 pings: %4 never found, %5 false "
+                           "tracks, %6 of them confirmed.")
                             .arg(all.detection.size())
                             .arg(scores.size())
                             .arg(m_document.analysis()->threshold, 0, 'f', 1)

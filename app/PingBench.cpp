@@ -51,11 +51,14 @@ namespace {
 } // namespace
 
 PingBench::PingBench(Document &document, QWidget *parent)
-    : Bench(parent), m_document(document), m_viewports(document.viewport()), m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
+    : Bench(parent), m_document(document), m_viewports(document.viewport()),
+      m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
       m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())),
-      m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))), m_bearingHistory(new WaterfallView(tr("D over bearing, best range"))),
-      m_regulation(new StripPlot(tr("ln K (nat)"))), m_dragged(new QLabel), m_slider(new QSlider(Qt::Horizontal)), m_reading(new QLabel),
-      m_maps(new QSplitter(Qt::Horizontal)), m_histories(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
+      m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
+      m_bearingHistory(new WaterfallView(tr("D over bearing, best range"))),
+      m_regulation(new StripPlot(tr("ln K (nat)"))), m_dragged(new QLabel), m_slider(new QSlider(Qt::Horizontal)),
+      m_reading(new QLabel), m_maps(new QSplitter(Qt::Horizontal)), m_histories(new QSplitter(Qt::Horizontal)),
+      m_rows(new QSplitter(Qt::Vertical))
 {
     setObjectName(QStringLiteral("pingBench"));
     m_input->setObjectName(QStringLiteral("pingInput"));
@@ -153,7 +156,8 @@ QWidget *PingBench::buildBar()
     connect(inhibition, &QCheckBox::toggled, m_input, &PingMap::setInhibitionShown);
     connect(inhibition, &QCheckBox::toggled, m_output, &PingMap::setInhibitionShown);
     auto *conventional = new QCheckBox(tr("Conventional"));
-    conventional->setToolTip(tr("What thresholding each ping by itself finds: M hits in N pings, in a gate that admits the largest speed (settings conventional.…)"));
+    conventional->setToolTip(tr("What thresholding each ping by itself finds: M hits in N pings, in a gate that admits "
+                                "the largest speed (settings conventional.…)"));
     conventional->setFocusPolicy(Qt::TabFocus);
     connect(conventional, &QCheckBox::toggled, m_input, &PingMap::setConventionalShown);
     connect(conventional, &QCheckBox::toggled, m_output, &PingMap::setConventionalShown);
@@ -274,7 +278,8 @@ void PingBench::showRegulation()
     const std::vector<Index> dragged = draggedFrames(analysis);
     m_dragged->setVisible(!dragged.empty());
     if (!dragged.empty())
-        m_dragged->setText(tr("⚠ ln K lies below its band on noise in %1 of %2 pings, the first one ping %3: signals that no track has taken over drag it "
+        m_dragged->setText(tr("⚠ ln K lies below its band on noise in %1 of %2 pings, the first one ping %3: signals "
+                              "that no track has taken over drag it "
                               "down, and every other statistic with it.")
                                .arg(dragged.size())
                                .arg(analysis.lnK.size())
@@ -324,10 +329,12 @@ void PingBench::placeCursor()
     const Analysis &analysis = *m_document.analysis();
     if (track && !track->points.empty()) {
         const Index middle = (track->detectFrame + track->endFrame) / 2;
-        const auto at = std::find_if(track->points.begin(), track->points.end(), [&](const TrackPoint &point) { return point.frame >= middle; });
+        const auto at = std::find_if(track->points.begin(), track->points.end(),
+                                     [&](const TrackPoint &point) { return point.frame >= middle; });
         const TrackPoint &point = at == track->points.end() ? track->points.back() : *at;
         const std::vector<Index> c = analysis.grid().coordinates(point.cell);
-        m_viewports.setPlace({analysis.time().value(static_cast<double>(point.frame)), analysis.grid().axes[0].value(static_cast<double>(c[0])),
+        m_viewports.setPlace({analysis.time().value(static_cast<double>(point.frame)),
+                              analysis.grid().axes[0].value(static_cast<double>(c[0])),
                               analysis.grid().axes[1].value(static_cast<double>(c[1]))});
     } else
         m_viewports.setPlace({m_viewports.rangeTime().full().time.middle(), map.time.middle(), map.frequency.middle()});
@@ -487,12 +494,11 @@ void PingBench::setAutomaticRange()
 
 ViewState PingBench::viewState() const
 {
-    auto &viewports = const_cast<PingViewports &>(m_viewports);
     ViewState view;
-    if (!viewports.map().isEmpty()) {
-        if (!viewports.rangeTime().showsAll() || !viewports.bearingTime().showsAll()) {
-            view.visible = viewports.rangeTime().visible();
-            view.bearing = viewports.map().frequency();
+    if (!m_viewports.map().isEmpty()) {
+        if (!m_viewports.rangeTime().showsAll() || !m_viewports.bearingTime().showsAll()) {
+            view.visible = m_viewports.rangeTime().visible();
+            view.bearing = m_viewports.map().frequency();
         }
         view.cursor = Viewport::Point{m_viewports.place().seconds, m_viewports.place().range};
         view.cursorBearing = m_viewports.place().bearing;

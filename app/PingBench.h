@@ -8,7 +8,6 @@
 
 #include <QTimer>
 
-class QCheckBox;
 class QLabel;
 class QSlider;
 class QSplitter;

@@ -42,7 +42,8 @@ namespace {
     Json toJson(const Source &source, const std::string &hash, const QDir &folder)
     {
         if (source.isSimulated()) {
-            Json scene = {{"name", source.name().toStdString()}, {"scenario", source.pings ? toJson(*source.pings) : toJson(*source.scene)}};
+            Json scene = {{"name", source.name().toStdString()},
+                          {"scenario", source.pings ? toJson(*source.pings) : toJson(*source.scene)}};
             if (!source.injections.empty())
                 scene["injected"] = toJson(source.injections);
             return scene;

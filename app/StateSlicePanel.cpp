@@ -44,8 +44,9 @@ namespace {
 } // namespace
 
 StateSlicePanel::StateSlicePanel(const Document &document, PingViewports &viewports, QWidget *parent)
-    : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox), m_others(new QComboBox),
-      m_model(new QComboBox), m_sentence(new QLabel), m_view(new WaterfallView(tr("States (nat)")))
+    : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
+      m_others(new QComboBox), m_model(new QComboBox), m_sentence(new QLabel),
+      m_view(new WaterfallView(tr("States (nat)")))
 {
     m_others->addItems({tr("others at the cursor"), tr("best of the others")});
     m_others->setToolTip(tr("The axes that are not shown: at the cursor's cell with its best rates, or the maximum over all of them"));

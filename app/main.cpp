@@ -57,7 +57,8 @@ namespace {
             ->required();
         command
             ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise, noisefit, pd; of a sonar's pings also map, polar, histories, slice, latency; several with commas")
+                         "window, input, output, threshold, events, noise, noisefit, pd; of a sonar's pings also map, "
+                         "polar, histories, slice, latency; several with commas")
             ->delimiter(',')
             ->allow_extra_args(false)
             ->capture_default_str();

@@ -71,7 +71,9 @@ QString EventModel::text(const Event &event, int column) const
     case End:
         return secondsText(event.endSeconds, 0.1);
     case Frequency:
-        return event.position.empty() ? QStringLiteral("–") : numberText(event.position.front(), hasBearing() ? decimalsFor(m_axes.front().step) : 2);
+        return event.position.empty()
+                   ? QStringLiteral("–")
+                   : numberText(event.position.front(), hasBearing() ? decimalsFor(m_axes.front().step) : 2);
     case Bearing:
         return event.position.empty() ? QStringLiteral("–") : numberText(event.position.back(), 1);
     case Drift:

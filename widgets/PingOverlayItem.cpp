@@ -38,7 +38,8 @@ struct PingOverlayItem::Canvas {
     {
         painter.setFont(Theme::font(11));
         const QFontMetricsF metrics(painter.font());
-        QRectF box(beside + QPointF(7.0, -7.0 - metrics.height()), QSizeF(std::ceil(metrics.horizontalAdvance(text)) + 8.0, std::ceil(metrics.height()) + 1.0));
+        QRectF box(beside + QPointF(7.0, -7.0 - metrics.height()),
+                   QSizeF(std::ceil(metrics.horizontalAdvance(text)) + 8.0, std::ceil(metrics.height()) + 1.0));
         box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
         box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
         painter.setPen(Qt::NoPen);
@@ -123,7 +124,8 @@ void PingOverlayItem::drawTrail(const Canvas &canvas, const PingMarks::Trail &tr
         else if (head == Head::Square)
             painter.drawRect(QRectF(at - QPointF(4.0, 4.0), QSizeF(8.0, 8.0)));
         else
-            painter.drawPolygon(QPolygonF{at + QPointF(0.0, -7.0), at + QPointF(7.0, 0.0), at + QPointF(0.0, 7.0), at + QPointF(-7.0, 0.0)});
+            painter.drawPolygon(QPolygonF{at + QPointF(0.0, -7.0), at + QPointF(7.0, 0.0), at + QPointF(0.0, 7.0),
+                                          at + QPointF(-7.0, 0.0)});
     }
     if (head == Head::Square)
         canvas.label(at, QString::number(trail.id) + (trail.isConfirmed ? QString() : QStringLiteral("?")), colour);

@@ -27,6 +27,9 @@ public:
     Viewport &map() { return m_map; } ///< range × bearing
     Viewport &rangeTime() { return m_rangeTime; }
     Viewport &bearingTime() { return m_bearingTime; }
+    const Viewport &map() const { return m_map; }
+    const Viewport &rangeTime() const { return m_rangeTime; }
+    const Viewport &bearingTime() const { return m_bearingTime; }
 
     /// Another recording: shows all of it. The smallest spans bound zooming in, as in a Viewport.
     void setExtents(const Span &time, const Span &range, const Span &bearing, const Place &smallest);

@@ -480,7 +480,9 @@ QString WaterfallView::selectionText(const Viewport::Box &box) const
     else
         words << QStringLiteral("Δ ") + valueText(m_frequency, hz, 0.01 * hz);
     if (seconds > 0.0 && hasTime())
-        words << tr("%1 %2/s").arg(powerText(hz / seconds, 3), m_frequency.unit.empty() ? QStringLiteral("Hz") : QString::fromStdString(m_frequency.unit));
+        words << tr("%1 %2/s").arg(powerText(hz / seconds, 3), m_frequency.unit.empty()
+                                                                   ? QStringLiteral("Hz")
+                                                                   : QString::fromStdString(m_frequency.unit));
     const auto cellsOf = [](const Axis &axis, Index count, const Span &span) {
         const auto clamped = [count](double index) { return std::clamp<Index>(std::lround(index), 0, count - 1); };
         return std::pair(clamped(axis.position(span.low)), clamped(axis.position(span.high)) + 1);

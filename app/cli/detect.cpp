@@ -38,7 +38,9 @@ namespace {
     Analysis conventionally(const Analysis &analysis)
     {
         if (analysis.grid().axes.size() < 2)
-            throw Error("--conventional", "is for frames on several axes, a sonar's pings; for lines choose detector.kind = energy or pOfN");
+            throw Error(
+                "--conventional",
+                "is for frames on several axes, a sonar's pings; for lines choose detector.kind = energy or pOfN");
         Analysis other = analysis;
         other.tracks = analysis.conventional;
         return other;
@@ -116,7 +118,8 @@ namespace {
 
     void detect(const DetectOptions &options, const Common &common)
     {
-        if (options.events.empty() && options.tracks.empty() && options.statistic.empty() && options.conventional.empty() && !options.summary)
+        if (options.events.empty() && options.tracks.empty() && options.statistic.empty()
+            && options.conventional.empty() && !options.summary)
             throw Error("detect", "says nothing without at least one of --events, --tracks, --statistic, --summary, --conventional");
         if (!options.events.empty())
             checkEventsPath(options.events);
@@ -306,7 +309,8 @@ void addDetect(CLI::App &app, Common &common)
     command->add_option("--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
     command->add_option("--tracks", options->tracks, "Write the tracks: .csv or .json");
     command->add_option("--conventional", options->conventional,
-                        "Of pings: write the events of the conventional detector beside it (one ping's threshold, then M of N in a gate), like --events");
+                        "Of pings: write the events of the conventional detector beside it (one ping's threshold, then "
+                        "M of N in a gate), like --events");
     command->add_option("--statistic", options->statistic, "Write the statistic: .npy, float32, shape (frames, cells…)");
     command->add_flag("--summary", options->summary, "Say in numbers what was found");
     command->callback([options, &common] { detect(*options, common); });

@@ -26,7 +26,8 @@ StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t b
 std::shared_ptr<const StateScores> StateReplay::at(Index frame, std::size_t model, const RunContext &context)
 {
     frame = std::clamp<Index>(frame, 0, m_analysis->time().count - 1);
-    const auto kept = std::find_if(m_kept.begin(), m_kept.end(), [&](const auto &one) { return one->frame == frame && one->model == model; });
+    const auto kept = std::find_if(m_kept.begin(), m_kept.end(),
+                                   [&](const auto &one) { return one->frame == frame && one->model == model; });
     if (kept != m_kept.end())
         return *kept;
     if (!m_chain || m_next > frame) {
@@ -125,7 +126,8 @@ std::vector<Index> bestRates(const StateSpace &space, std::span<const float> sco
 {
     Index best = 0;
     for (Index plane = 1; plane < space.planeCount(); ++plane)
-        if (scores[static_cast<std::size_t>(plane * space.cellCount() + cell)] > scores[static_cast<std::size_t>(best * space.cellCount() + cell)])
+        if (scores[static_cast<std::size_t>(plane * space.cellCount() + cell)]
+            > scores[static_cast<std::size_t>(best * space.cellCount() + cell)])
             best = plane;
     const StateSpace::Coordinates coordinates = space.coordinates(best * space.cellCount() + cell);
     return {coordinates.rates.begin(), coordinates.rates.end()};

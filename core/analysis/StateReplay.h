@@ -50,7 +50,7 @@ std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model = 0);
 struct StateSlice {
     std::size_t rows = 0;
     std::size_t columns = 1;
-    std::vector<std::optional<Index>> places; ///< one per axis of the state; nothing: the maximum over it. Those of rows and columns do not count
+    std::vector<std::optional<Index>> places; ///< one per axis; nothing: the maximum over it. Of rows and columns they do not count
 };
 
 /// rows × columns values; -∞ where no state can be reached.

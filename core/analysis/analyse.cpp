@@ -271,8 +271,9 @@ namespace {
         run(analysis, context.part(0.1, 1.0), sink);
     }
 
-    std::shared_ptr<const Analysis> analyseOneModel(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,
-                                                    const RunContext &context, const Analysis *previous, const StatisticSink &sink)
+    std::shared_ptr<const Analysis> analyseOneModel(NormalisedFramesPointer frames, const MarkovModel &model,
+                                                    const AnalysisSettings &settings, const RunContext &context,
+                                                    const Analysis *previous, const StatisticSink &sink)
     {
         const auto analysis = analysisOf(std::move(frames), model, settings);
         analysis->calibration = calibrateOnIndependentCells(model, settings, context.part(0.0, 0.5));

@@ -47,7 +47,8 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
         if (std::isnan(position[axis]))
             throw Error(analysis.grid().axes[axis].name + " nan", "must be a number");
         const Axis &along = analysis.grid().axes[axis];
-        if (const double at = along.position(position[axis]); !along.cyclic && !(at >= -0.5 && at <= static_cast<double>(along.count) - 0.5))
+        if (const double at = along.position(position[axis]);
+            !along.cyclic && !(at >= -0.5 && at <= static_cast<double>(along.count) - 0.5))
             throw Error(along.name + " " + formatNumber(position[axis]) + " " + along.unit,
                         "must lie in " + formatNumber(along.first) + " … " + formatNumber(along.last()) + " " + along.unit);
         coordinates.push_back(along.nearest(position[axis]));

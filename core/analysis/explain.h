@@ -12,7 +12,7 @@ struct Explanation {
     double seconds = 0.0;
     std::vector<double> position;  ///< of the cell, one per axis
     std::vector<PathStep> steps;   ///< from the last reset on
-    double offset = 0.0;           ///< added to all scores alike where the path was the detector's: K(t) under the mean law, less a bank's o_i
+    double offset = 0.0;           ///< added to all of the detector's scores: K(t) under the mean law, less a bank's o_i
     double statistic = 0.0;        ///< the sum of all terms and the offset, nat above background
     double displayed = 0.0;        ///< what the analysis shows there: the same, in single precision
     double threshold = 0.0;

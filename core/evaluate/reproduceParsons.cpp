@@ -86,8 +86,9 @@ namespace {
     }
 
     /// What one field of noise adds to the blocks from `firstBlock` on.
-    void countField(const FalseAlarmFigure &figure, std::uint64_t seed, int pings, std::size_t firstBlock, std::size_t fieldBlocks, NoiseRun &run,
-                    std::vector<double> &lnK, std::vector<double> &reset, const RunContext &context)
+    void countField(const FalseAlarmFigure &figure, std::uint64_t seed, int pings, std::size_t firstBlock,
+                    std::size_t fieldBlocks, NoiseRun &run, std::vector<double> &lnK, std::vector<double> &reset,
+                    const RunContext &context)
     {
         const SimulatedPings noise(noiseScene(seed, figure.settling + pings));
         Smd detector(sonarModel(noise.grid(), sonarMotion(figure.motion)), {ResetLaw::Mean});
@@ -124,7 +125,8 @@ namespace {
         std::vector<double> reset(fields * fieldBlocks, 0.0);
         for (std::size_t field = 0; field < fields; ++field) // of another seed, all others
             countField(figure, options.seed * fields + field, pings, field * fieldBlocks, fieldBlocks, run, lnK, reset,
-                       context.part(static_cast<double>(field) / static_cast<double>(fields), static_cast<double>(field + 1) / static_cast<double>(fields)));
+                       context.part(static_cast<double>(field) / static_cast<double>(fields),
+                                    static_cast<double>(field + 1) / static_cast<double>(fields)));
         for (std::vector<float> &block : run.blockLargest) {
             std::sort(block.begin(), block.end(), std::greater<>());
             run.largest.insert(run.largest.end(), block.begin(), block.end());
@@ -307,14 +309,19 @@ namespace {
     Reproduction reproduceFigure3(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made = reproduceFalseAlarms(figure3(), options, context);
-        made.notes = {"Eight fields of noise with a seed each, 100 pings to settle, then 100 of which every 2nd is counted, all counted cells taken together: "
-                      "as much as 30 CPU-seconds allow. The tolerance of 0.8 nat supposes eight fields of 800 pings; on these shorter ones "
+        made.notes = {"Eight fields of noise with a seed each, 100 pings to settle, then 100 of which every 2nd is "
+                      "counted, all counted cells taken together: "
+                      "as much as 30 CPU-seconds allow. The tolerance of 0.8 nat supposes eight fields of 800 pings; "
+                      "on these shorter ones "
                       "the threshold's own standard error is about 0.5 nat, so it misses now and then.",
-                      "Single fields of 800 pings, seeds 1 to 4, had K -1.507, -1.484, -1.493, -1.497 and thresholds 22.15, 19.63, 21.58, 22.31. "
+                      "Single fields of 800 pings, seeds 1 to 4, had K -1.507, -1.484, -1.493, -1.497 and thresholds "
+                      "22.15, 19.63, 21.58, 22.31. "
                       "The number of fields and pings here was fixed before their result was seen.",
-                      "The paper counted 20 pings: its 18.7 is one draw from a wide law, thresholds of such blocks have their 5th to 95th "
+                      "The paper counted 20 pings: its 18.7 is one draw from a wide law, thresholds of such blocks "
+                      "have their 5th to 95th "
                       "percentile at 17.8 to 22.1.",
-                      "Crossings come in avalanches that last tens of pings; the intervals are from the scatter of the eight fields."};
+                      "Crossings come in avalanches that last tens of pings; the intervals are from the scatter of the "
+                      "eight fields."};
         return made;
     }
 

@@ -42,7 +42,8 @@ std::shared_ptr<const PeakPyramid> pictureAlong(const PeakPyramid &picture, cons
 std::shared_ptr<const PeakPyramid> pictureOfFrame(const PeakPyramid &picture, const Grid &grid, Index frame)
 {
     const Index columns = grid.axes[1].count;
-    const std::span<const std::uint8_t> row = picture.row(0, std::clamp<Index>(frame / picture.framesPerRow(0), 0, picture.rowCount(0) - 1));
+    const std::span<const std::uint8_t> row =
+        picture.row(0, std::clamp<Index>(frame / picture.framesPerRow(0), 0, picture.rowCount(0) - 1));
     auto result = std::make_shared<PeakPyramid>(grid.axes[0], columns, picture.scale());
     for (Index i = 0; i < grid.axes[0].count; ++i)
         result->appendBytes(row.subspan(static_cast<std::size_t>(i * columns), static_cast<std::size_t>(columns)));

@@ -352,7 +352,8 @@ void HmmTracker::paintStates(std::span<float> scores) const
             continue;
         for (Index plane = 0; plane < model.window.planeCount(); ++plane) {
             float &value = scores[static_cast<std::size_t>(plane * model.space.cellCount() + global)];
-            value = std::max(value, slice.scores[static_cast<std::size_t>(plane * model.window.cellCount() + cell)] + static_cast<float>(slice.offset));
+            value = std::max(value, slice.scores[static_cast<std::size_t>(plane * model.window.cellCount() + cell)]
+                                        + static_cast<float>(slice.offset));
         }
     }
 }

@@ -54,7 +54,8 @@ const Run &run()
         const auto cells = static_cast<std::size_t>(frames->grid().size());
         made.analysis = analyse(frames, settings(), {}, nullptr, [&](Index, std::span<const float> values) {
             for (std::size_t i = 0; i < values.size(); i += cells)
-                made.statistic.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(i), values.begin() + static_cast<std::ptrdiff_t>(i + cells));
+                made.statistic.emplace_back(values.begin() + static_cast<std::ptrdiff_t>(i),
+                                            values.begin() + static_cast<std::ptrdiff_t>(i + cells));
         });
         return made;
     }();

@@ -59,7 +59,12 @@ void check(const Analysis &analysis, Index ping, Index range, Index beam, bool i
     for (const PathStep &step : why.steps)
         sum += step.logLikelihoodRatio + step.lnTransition + step.lnK;
     QVERIFY(std::abs(sum - why.statistic) < 1e-6);
-    QVERIFY2(std::abs(why.displayed - why.statistic) < 1e-3, qPrintable(QString("shown %1, explained %2, of which %3 offset, model %4").arg(why.displayed).arg(why.statistic).arg(why.offset).arg(why.model)));
+    QVERIFY2(std::abs(why.displayed - why.statistic) < 1e-3,
+             qPrintable(QString("shown %1, explained %2, of which %3 offset, model %4")
+                            .arg(why.displayed)
+                            .arg(why.statistic)
+                            .arg(why.offset)
+                            .arg(why.model)));
     QCOMPARE(why.steps.back().frame, ping);
     const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[why.model].model.space;
     QCOMPARE(space.cellOf(why.steps.back().state), grid.cell({range, beam}));

@@ -1,12 +1,15 @@
 // A sonar's pings in the window: opened, stepped through, saved and reopened.
 
 #include "app/MainWindow.h"
+#include "app/LatencyPanel.h"
 #include "app/PingBench.h"
+#include "app/StateSlicePanel.h"
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "spectrum/SimulatedPings.h"
+#include "widgets/ChartPlot.h"
 #include "widgets/EventTable.h"
 #include "widgets/PingMap.h"
 
@@ -19,6 +22,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace faintline;
@@ -180,7 +184,8 @@ private slots:
         QCOMPARE(w->pingBench().viewports().place().seconds, event.detectSeconds);
         QCOMPARE(w->pingBench().viewports().place().bearing, event.position[1]);
         // The cell it was found in is now kept from the detector for it.
-        QVERIFY2(w->pingBench().reading().contains(QStringLiteral("inhibited: track %1").arg(event.id)), qPrintable(w->pingBench().reading()));
+        QVERIFY2(w->pingBench().reading().contains(QStringLiteral("inhibited: track %1").arg(event.id)),
+                 qPrintable(w->pingBench().reading()));
     }
 
     void inhibitionCanBeHidden()
@@ -194,6 +199,72 @@ private slots:
             if (box->text() == "Inhibited")
                 QTest::mouseClick(box, Qt::LeftButton, {}, {8, box->height() / 2});
         QVERIFY(map.grab().toImage() != with);
+    }
+
+    void theConventionalDetectorCanBeShownBeside()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        PingBench &bench = w->pingBench();
+        const std::vector<Track> &found = w->document().analysis()->conventional;
+        QVERIFY(!found.empty()); // 11 dB show in a ping by themselves
+        bench.showPing(found.front().detectFrame);
+        const QImage without = bench.output()->grab().toImage();
+        for (QCheckBox *box : bench.findChildren<QCheckBox *>())
+            if (box->text() == "Conventional")
+                QTest::mouseClick(box, Qt::LeftButton, {}, {8, box->height() / 2});
+        QVERIFY(bench.output()->grab().toImage() != without);
+    }
+
+    void theBestStatesAreTheStatistic()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        StateSlicePanel &states = w->states();
+        QSignalSpy settled(&states, &StateSlicePanel::settled);
+        const auto wait = [&] { return !states.isBusy() || settled.wait(patience); };
+        w->pingBench().showPing(18);
+        w->showStates();
+        QVERIFY(wait());
+        QVERIFY(states.view()->picture());
+        QCOMPARE(states.view()->picture()->cells(), Index(3)); // range × its three rates
+        QVERIFY2(states.sentence().startsWith("Ping 19:"), qPrintable(states.sentence()));
+
+        states.setAxes(0, 1);
+        states.setMaximised(true);
+        QVERIFY(wait());
+        const PeakPyramid &slice = *states.view()->picture();
+        const PeakPyramid &map = *w->pingBench().output()->plane()->picture();
+        QCOMPARE(slice.rowCount(0), map.rowCount(0));
+        for (Index row = 0; row < map.rowCount(0); ++row)
+            QVERIFY(std::ranges::equal(slice.row(0, row), map.row(0, row)));
+
+        // Backwards, too.
+        w->pingBench().showPing(5);
+        QVERIFY(wait());
+        QVERIFY(std::ranges::equal(states.view()->picture()->row(0, 40), w->pingBench().output()->plane()->picture()->row(0, 40)));
+    }
+
+    void latencyOfTheScene()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("stack.npy")));
+        QVERIFY(w->latency().obstacle().contains("scene"));
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY2(w->latency().obstacle().isEmpty(), qPrintable(w->latency().obstacle()));
+        QSignalSpy settled(&w->latency(), &LatencyPanel::settled);
+        w->latency().start(3);
+        QVERIFY(settled.wait(patience));
+        const Chart &pd = w->latency().pdPlot()->chart();
+        QCOMPARE(pd.curves.size(), std::size_t(2));
+        for (std::size_t i = 1; i < pd.curves[0].points.size(); ++i)
+            QVERIFY(pd.curves[0].points[i].y >= pd.curves[0].points[i - 1].y);
+        QVERIFY(pd.curves[0].points.back().y >= pd.curves[1].points.back().y); // what is confirmed is detected
+        double counted = 0.0;
+        for (const Curve::Point &point : w->latency().histogramPlot()->chart().curves[0].points)
+            counted += point.y;
+        QCOMPARE(counted, 6.0 * pd.curves[0].points.back().y); // two targets, three runs
+        QVERIFY(w->latency().sentence().contains("6 targets in 3 runs"));
     }
 
     void aSessionComesBackAsItWas()

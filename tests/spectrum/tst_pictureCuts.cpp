@@ -73,7 +73,8 @@ private slots:
 
     void rowsAndColumnsAsAPicture()
     {
-        const auto picture = pictureOf(grid().axes[0], grid().axes[1], std::vector<float>{0, 1, 2, 3, 4, 5}, ByteScale(ByteScale::Kind::ScoreNats));
+        const auto picture = pictureOf(grid().axes[0], grid().axes[1], std::vector<float>{0, 1, 2, 3, 4, 5},
+                                       ByteScale(ByteScale::Kind::ScoreNats));
         QCOMPARE(picture->rowCount(0), Index(3));
         QCOMPARE(valuesOf(*picture), (std::vector<double>{0, 1, 2, 3, 4, 5}));
     }
