@@ -146,11 +146,12 @@ void LatencyPanel::start(int runs)
     std::get<SmdSettings>(experiment.settings.detector).lnK = analysis.calibration->lnK;
     m_runner.start([this, experiment](const RunContext &context) -> JobRunner::Delivery {
         const std::vector<TrackScore> scores = runPings(experiment, context);
-        return [this, scores, longest = static_cast<Index>(experiment.scene.pings)] { show(scores, longest); };
+        return [this, scores, longest = static_cast<Index>(experiment.scene.pings),
+                threshold = experiment.settings.decide.thresholdNats] { show(scores, longest, threshold); };
     });
 }
 
-void LatencyPanel::show(const std::vector<TrackScore> &scores, Index longest)
+void LatencyPanel::show(const std::vector<TrackScore> &scores, Index longest, double threshold)
 {
     const Latencies all = latenciesOf(scores);
     int falseTracks = 0;
@@ -170,7 +171,7 @@ void LatencyPanel::show(const std::vector<TrackScore> &scores, Index longest)
                            "tracks, %6 of them confirmed.")
                             .arg(all.detection.size())
                             .arg(scores.size())
-                            .arg(m_document.analysis()->threshold, 0, 'f', 1)
+                            .arg(threshold, 0, 'f', 1)
                             .arg(never)
                             .arg(falseTracks)
                             .arg(falseConfirmed));

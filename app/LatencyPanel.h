@@ -38,7 +38,7 @@ signals:
 
 private:
     void follow();
-    void show(const std::vector<TrackScore> &scores, Index longest);
+    void show(const std::vector<TrackScore> &scores, Index longest, double threshold);
 
     const Document &m_document;
     QSpinBox *m_runs;

@@ -59,6 +59,11 @@ StateSlicePanel::StateSlicePanel(const Document &document, PingViewports &viewpo
     m_view->setViewport(&m_viewport);
     m_view->setObjectName(QStringLiteral("slice"));
     m_view->setEmptySentence(tr("States are shown of a sonar's pings."));
+    m_view->setMinimumSize(130, 120); // a panel in a dock must not widen the window
+    for (QComboBox *box : {m_rows, m_columns, m_others, m_model}) {
+        box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        box->setMinimumContentsLength(5);
+    }
     auto *bar = new ColourBar;
     bar->attach(m_view);
 
@@ -195,7 +200,10 @@ void StateSlicePanel::update()
         const std::vector<float> values = cutStates(space, states->values, cut.slice);
         cut.best = static_cast<double>(*std::max_element(values.begin(), values.end()));
         cut.picture = pictureOf(cut.axes[slice.rows], cut.axes[slice.columns], values, ByteScale(ByteScale::Kind::ScoreNats));
-        return [this, cut] { show(cut); };
+        return [this, analysis, cut] {
+            if (m_document.analysis() == analysis) // something else may be open by now
+                show(cut);
+        };
     });
 }
 

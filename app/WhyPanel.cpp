@@ -153,7 +153,10 @@ void WhyPanel::explainCursor()
     }
     m_runner.start([this, analysis, point = *cursor](const RunContext &context) -> JobRunner::Delivery {
         auto explanation = explain(*analysis, point.seconds, {point.hz}, context);
-        return [this, explanation = std::move(explanation)] { show(explanation); };
+        return [this, analysis, explanation = std::move(explanation)] {
+            if (m_document.analysis() == analysis) // something else may be open by now
+                show(explanation);
+        };
     });
 }
 

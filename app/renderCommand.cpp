@@ -9,6 +9,7 @@
 #include "app/StateSlicePanel.h"
 #include "app/Workbench.h"
 #include "base/AtomicFile.h"
+#include "widgets/PingMap.h"
 
 #include <QApplication>
 #include <QBuffer>
@@ -154,6 +155,14 @@ namespace {
         writeTextFile(path, bytes.toStdString());
     }
 
+    /// A view is taken out of what it is a part of, so the window comes before its parts, and the maps before each of them.
+    std::vector<std::string> wholesFirst(std::vector<std::string> views)
+    {
+        const auto rank = [](const std::string &view) { return view == "window" ? 0 : view == "map" || view == "polar" ? 1 : 2; };
+        std::stable_sort(views.begin(), views.end(), [&](const auto &a, const auto &b) { return rank(a) < rank(b); });
+        return views;
+    }
+
     std::string sizeText(QSize size)
     {
         return std::to_string(size.width()) + "x" + std::to_string(size.height());
@@ -189,9 +198,9 @@ void render(const RenderOptions &options)
     openAndSettle(window, options);
     placeCursor(window, options);
     prepare(window, options.views);
-    for (const std::string &view : options.views) {
-        if (view == "map" || view == "polar")
-            window.pingBench().setPolar(view == "polar");
+    const bool wasPolar = window.pingBench().output()->isPolar();
+    for (const std::string &view : wholesFirst(options.views)) {
+        window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         write(pictureOf(*window.view(QString::fromStdString(view)), options.size), fileName(options, view));
     }
 }
