@@ -104,6 +104,7 @@ void PipelinePanel::showSettings()
     m_form->setSettings(m_document.settings());
     for (const char *stage : {"selection", "spectrogram", "noise"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
+    m_form->setSectionShown(QStringLiteral("conventional"), m_document.hasPings());
     const auto isTaken = [this](const Preset &preset) {
         return withSelection(preset.settings) == m_document.settings();
     };
