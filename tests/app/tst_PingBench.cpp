@@ -275,7 +275,10 @@ private slots:
         bench.viewports().setPlace({400.0, 3600.0, 90.0});
         bench.viewports().map().zoomTo({3400.0, 3800.0}, {0.0, 225.0});
         bench.setPolar(true);
-        const Session session{w->document().source(), {}, w->document().settings(), bench.viewState()};
+        Session session;
+        session.source = w->document().source();
+        session.settings = w->document().settings();
+        session.view = bench.viewState();
         writeSession(path("s.faintline"), session);
 
         const Session back = readSession(path("s.faintline"));
