@@ -93,7 +93,7 @@ void AnalysisController::setSettings(const AnalysisSettings &settings, const QSt
 
 void AnalysisController::inject(const LineSettings &line)
 {
-    if (m_document.isEmpty() || m_isOpening)
+    if (!m_document.recording() || m_isOpening)
         return;
     const OpenedSource opened = m_document.openedSource();
     m_runner.start([this, opened, line, settings = m_document.settings()](const RunContext &context) -> JobRunner::Delivery {
@@ -121,9 +121,9 @@ void AnalysisController::run()
 
 void AnalysisController::startAnalysis()
 {
-    m_runner.start([this, recording = m_document.recording(), settings = m_document.settings(),
+    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.settings(),
                     previous = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
-        auto analysis = analyse(recording, settings, context, previous.get());
+        auto analysis = analyse(opened, settings, context, previous.get());
         std::vector<Event> found = events(*analysis);
         return [this, analysis = std::move(analysis), found = std::move(found)] {
             m_document.setAnalysis(analysis, found);
@@ -173,8 +173,11 @@ void AnalysisController::recover(const QString &path)
 
 AnalysisController::Opening AnalysisController::openNow(const QString &path, const OpenOptions &options)
 {
-    if (!isSessionPath(path))
-        return {openSource(sourceOf(path, options)), {}, {}, {}, {}};
+    if (!isSessionPath(path)) {
+        OpenedSource opened = openSource(sourceOf(path, options));
+        const AnalysisSettings settings = firstSettings(opened);
+        return {std::move(opened), settings, {}, {}, {}};
+    }
     const Session session = readSession(path);
     return {openSource(session.source), session.settings, session.view, path, recordingMismatch(session)};
 }

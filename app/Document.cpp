@@ -97,6 +97,12 @@ void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector
     emit shownEventsChanged();
 }
 
+bool Document::isCurrent() const
+{
+    return m_analysis && m_analysis->settings == m_settings && m_analysis->recording == m_opened.recording
+        && (!m_opened.frames || m_analysis->frames == m_opened.frames);
+}
+
 void Document::setShownThreshold(double nats)
 {
     if (!m_analysis || nats == m_shownThreshold)

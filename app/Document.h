@@ -14,7 +14,7 @@ namespace faintline {
 
 /// What is open: the one mutable object of the program, everything else is values and views.
 ///
-/// It holds the recording and where it came from, the settings with their undo stack, what is looked at, and the latest
+/// It holds the recording or the frames, where they came from, the settings with their undo stack, what is looked at, and the latest
 /// analysis, which may lag behind the settings while a new one is computed. The *shown threshold* is the analysis's, or
 /// the one under the user's finger while it is dragged.
 class Document : public QObject
@@ -27,9 +27,13 @@ public:
     /// Something else is open from now on; forgets undo history, session and analysis.
     void setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath = {});
 
-    bool isEmpty() const { return !m_opened.recording; }
+    bool isEmpty() const { return !m_opened.recording && !m_opened.frames; }
     const Source &source() const { return m_opened.source; }
-    const RecordingPointer &recording() const { return m_opened.recording; }
+    const RecordingPointer &recording() const { return m_opened.recording; } ///< null where ready-made frames are open
+    const NormalisedFramesPointer &frames() const { return m_opened.frames; } ///< null where a recording is open
+    /// Frames on range and bearing, to be looked at ping by ping.
+    bool hasPings() const { return m_opened.frames && m_opened.frames->grid().axes.size() == 2; }
+    const PingTruth &pingTruth() const { return m_opened.pingTruth; }
     const Truth &truth() const { return m_opened.truth; }
     const OpenedSource &openedSource() const { return m_opened; }
 
@@ -59,7 +63,7 @@ public:
     /// `events`: those of the analysis.
     void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events);
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
-    bool isCurrent() const { return m_analysis && m_analysis->settings == m_settings && m_analysis->recording == m_opened.recording; }
+    bool isCurrent() const;
 
     void setShownThreshold(double nats);
     double shownThreshold() const { return m_shownThreshold; }

@@ -152,6 +152,8 @@ void EvaluatePanel::start()
     if (const QString why = m_form->obstacle(); !why.isEmpty())
         return emit failed(Error("experiment", why.toStdString()));
     const bool isInRecording = m_form->isInRecording();
+    if (isInRecording && !m_document.recording())
+        return emit failed(Error("experiment", "needs a recording to add lines to, and none is open"));
     const QString source = m_document.source().name();
     show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()),
                                              m_form->injection(m_document.source().path), m_document.recording())

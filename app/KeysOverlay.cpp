@@ -55,6 +55,11 @@ namespace {
                {"J  L", "one frame back, forward; of a sequential test, a stage"},
                {"Ctrl + R", "run again"},
                {"Escape", "stop, or clear what is marked"}}},
+             {QT_TRANSLATE_NOOP("KeysOverlay", "Sonar pings"),
+              {{"P", "from above, or range over bearing"},
+               {"J  L", "one ping back, forward"},
+               {"Space   Shift + Space", "play, play backwards"},
+               {"Ctrl + T", "state space under the cursor"}}},
              {QT_TRANSLATE_NOOP("KeysOverlay", "File"),
               {{"Ctrl + O", "open; or drop a file on the window"},
                {"Ctrl + S", "save the session"},
@@ -69,7 +74,7 @@ namespace {
 
     constexpr int rowHeight = 23;
     constexpr int titleHeight = 34;
-    constexpr int keyWidth = 150;
+    constexpr int keyWidth = 165;
     constexpr int columnWidth = 440;
     constexpr int margin = 28;
 

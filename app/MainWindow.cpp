@@ -9,16 +9,19 @@
 #include "app/InfoPanel.h"
 #include "app/InjectDialog.h"
 #include "app/KeysOverlay.h"
+#include "app/LatencyPanel.h"
 #include "app/MessageBar.h"
 #include "app/NoiseFitPanel.h"
 #include "app/OpenOptionsDialog.h"
 #include "app/Panels.h"
+#include "app/PingBench.h"
 #include "app/PipelinePanel.h"
 #include "app/Recovery.h"
 #include "app/ReproductionPanel.h"
 #include "app/ScenarioCard.h"
 #include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
+#include "app/StateSlicePanel.h"
 #include "app/TrialViewer.h"
 #include "app/TrialWindow.h"
 #include "app/WelcomePage.h"
@@ -34,6 +37,7 @@
 #include "widgets/EventTable.h"
 #include "widgets/ExceedancePlot.h"
 #include "widgets/OverviewStrip.h"
+#include "widgets/PingMap.h"
 #include "widgets/ReadOut.h"
 #include "widgets/WalkPlot.h"
 
@@ -44,6 +48,7 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QHash>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -52,8 +57,6 @@
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
-
-#include <array>
 
 namespace faintline {
 
@@ -132,6 +135,8 @@ void MainWindow::buildCentre()
     m_pages = new QStackedWidget;
     m_pages->addWidget(m_welcome);
     m_pages->addWidget(m_workbench);
+    m_pings = new PingBench(m_document);
+    m_pages->addWidget(m_pings);
 
     auto *centre = new QWidget;
     auto *layout = new QVBoxLayout(centre);
@@ -154,6 +159,8 @@ void MainWindow::buildDocks()
     m_why = new WhyPanel(m_document);
     m_info = new InfoPanel(m_document);
     m_noiseFit = new NoiseFitPanel(m_document);
+    m_states = new StateSlicePanel(m_document, m_pings->viewports());
+    m_latency = new LatencyPanel(m_document);
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
     m_reproduction = new ReproductionPanel;
@@ -167,10 +174,12 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseDock"), tr("Noise · calibration"), m_info, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
+    m_panels->add(QStringLiteral("statesDock"), tr("State space"), m_states, Place::RightBottom);
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
     m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
     m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
     m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
+    m_panels->add(QStringLiteral("latencyDock"), tr("Latency"), m_latency, Place::Bottom);
 }
 
 void MainWindow::buildBottom()
@@ -210,11 +219,13 @@ void MainWindow::buildStatusBar()
 void MainWindow::connectDocument()
 {
     connect(&m_document, &Document::opened, this, [this] {
-        const RecordingInfo &info = m_document.recording()->info();
         m_messages->dismiss();
-        m_readOut->setStartUnixSeconds(info.startUnixSeconds);
+        if (m_document.recording())
+            m_readOut->setStartUnixSeconds(m_document.recording()->info().startUnixSeconds);
+        m_overview->setPicture(nullptr, {});
         m_iqAction->setChecked(m_document.source().options.iq);
         m_workbench->setPlaying(false);
+        m_pings->setPlaying(false);
         const QString path = m_document.sessionPath().isEmpty() ? m_document.source().path : m_document.sessionPath();
         if (!path.startsWith(QLatin1Char(':')))
             m_memory.addRecent(path);
@@ -239,11 +250,11 @@ void MainWindow::connectController()
     connect(&m_controller, &AnalysisController::warned, this, [this](const QString &where, const QString &why) {
         m_messages->showMessage(MessageBar::Kind::Notice, where, why);
     });
-    connect(&m_controller, &AnalysisController::viewRestored, m_workbench, &Workbench::restore);
+    connect(&m_controller, &AnalysisController::viewRestored, this, [this](const ViewState &view) { bench().restore(view); });
     m_saver = new SessionSaver(
-        m_document, [this] { return m_workbench->viewState(); }, this);
+        m_document, [this] { return bench().viewState(); }, this);
     m_recovery = new Recovery(
-        m_document, [this] { return m_workbench->viewState(); }, m_recoveryFolder, this);
+        m_document, [this] { return bench().viewState(); }, m_recoveryFolder, this);
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::closable, this, &QWidget::close);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
@@ -261,12 +272,14 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
 
     const auto goTo = [this](int id) {
-        m_workbench->selectEvent(id);
+        bench().selectEvent(id);
         m_events->setSelectedEvent(id);
     };
-    connect(m_workbench, &Workbench::eventActivated, this, goTo);
+    for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings}) {
+        connect(one, &Bench::eventActivated, this, goTo);
+        connect(one, &Bench::thresholdStepRequested, &m_controller, &AnalysisController::stepThreshold);
+    }
     connect(m_events, &EventTable::eventActivated, this, goTo);
-    connect(m_workbench, &Workbench::thresholdStepRequested, &m_controller, &AnalysisController::stepThreshold);
     connect(m_workbench, &Workbench::readingChanged, m_readOut, &ReadOut::setReading);
     connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
             [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });
@@ -323,7 +336,8 @@ void MainWindow::open(const QString &path, const OpenOptions &options, const Ana
     }
     m_welcome->stop();
     if (!isVisible()) {
-        m_workbench->setEmptySentence(tr("Reading %1 …").arg(QFileInfo(path).fileName()));
+        for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
+            one->setEmptySentence(tr("Reading %1 …").arg(QFileInfo(path).fileName()));
         showWorkbench();
     }
     m_controller.open(path, chosen, adjust);
@@ -389,8 +403,10 @@ void MainWindow::chooseRawFile()
 
 void MainWindow::offerIq()
 {
-    const RecordingInfo &info = m_document.recording()->info();
     const OpenOptions options = m_document.source().options;
+    if (!m_document.recording())
+        return m_iqAction->setVisible(false);
+    const RecordingInfo &info = m_document.recording()->info();
     const bool isPossible = !m_document.source().scene && !info.isComplex && info.channelCount % 2 == 0;
     m_iqAction->setVisible(isPossible || options.iq);
     if (isPossible && info.channelCount == 2)
@@ -415,27 +431,36 @@ void MainWindow::showWelcome()
     m_welcome->start();
 }
 
+Bench &MainWindow::bench()
+{
+    if (m_document.hasPings())
+        return *m_pings;
+    return *m_workbench;
+}
+
 void MainWindow::showWorkbench()
 {
+    const bool hasPings = m_document.hasPings();
     m_pages->show();
-    if (m_pages->currentWidget() == m_workbench)
+    if (m_pages->currentWidget() == &bench())
         return;
     m_welcome->stop();
-    m_pages->setCurrentWidget(m_workbench);
+    m_pages->setCurrentWidget(&bench());
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
         m_panels->takeDefault();
+    // A bench of pings has a read-out and a history of its own.
     for (QToolBar *bar : m_bottomBars)
-        bar->show();
+        bar->setVisible(!hasPings);
     for (QAction *action : m_viewActions)
         action->setEnabled(true);
     m_panelsMenu->setEnabled(true);
-    m_workbench->output()->setFocus();
+    hasPings ? m_pings->output()->plane()->setFocus() : m_workbench->output()->setFocus();
 }
 
 void MainWindow::showAnalysis()
 {
     const Analysis &analysis = *m_document.analysis();
-    const Axis &frequency = analysis.grid().axes.back();
+    const Axis &frequency = analysis.grid().axes.front(); // of pings: the range
     m_readOut->setResolution(analysis.time().step, frequency.step);
     const QString unit = statisticUnit(analysis.settings);
     m_threshold->setStatisticUnit(unit);
@@ -444,7 +469,8 @@ void MainWindow::showAnalysis()
     m_threshold->setCalibration(analysis.calibration, analysis.cellFramesPerHour);
     m_threshold->setHistogram(analysis.statisticCounts);
     m_threshold->setUnit(unitOf(analysis.settings.decide.by));
-    m_overview->setPicture(analysis.input, frequency);
+    m_events->setAxes(analysis.grid().axes);
+    m_overview->setPicture(m_document.hasPings() ? analysis.inputAlong[0] : analysis.input, frequency);
     showWorkbench();
 }
 
@@ -452,7 +478,7 @@ void MainWindow::showEvents()
 {
     const std::vector<Event> events = m_document.shownEvents();
     m_events->setEvents(events);
-    m_overview->setEvents(events);
+    m_overview->setEvents(m_document.hasPings() ? eventsAlong(events, 0) : events);
     showHint();
 }
 
@@ -483,7 +509,7 @@ void MainWindow::showFailure(const Error &error)
     if (m_document.analysis())
         return;
     // Opened, but it could not be analysed: whoever changes the settings needs the form.
-    m_workbench->setEmptySentence(tr("No analysis with these settings."));
+    bench().setEmptySentence(tr("No analysis with these settings."));
     m_threshold->setCalibration({}, 0.0);
     m_events->setEvents({});
     showWorkbench();
@@ -510,7 +536,7 @@ void MainWindow::fillRecentMenu()
 
 void MainWindow::saveLayout()
 {
-    if (m_pages->currentWidget() != m_workbench || m_presentAction->isChecked())
+    if (m_pages->currentWidget() == m_welcome || m_presentAction->isChecked())
         return;
     const ViewState view = m_workbench->viewState();
     m_memory.setLayout({saveGeometry(), saveState(), m_workbench->saveSplitters(), view.colourMap, view.orientation});
@@ -535,36 +561,39 @@ void MainWindow::setAsking(bool isAsking)
 
 const QStringList &MainWindow::viewNames()
 {
-    static const QStringList names{QStringLiteral("window"),    QStringLiteral("input"),  QStringLiteral("output"),
-                                   QStringLiteral("threshold"), QStringLiteral("events"), QStringLiteral("noise"),
-                                   QStringLiteral("noisefit"),  QStringLiteral("pd"),     QStringLiteral("sequential"),
-                                   QStringLiteral("walk"),      QStringLiteral("stopping"), QStringLiteral("posterior"),
-                                   QStringLiteral("scan"),      QStringLiteral("asn"),    QStringLiteral("prior"),
-                                   QStringLiteral("sectors"),   QStringLiteral("why")};
+    static const QStringList names{"window", "input",     "output",     "threshold", "events", "noise",    "noisefit",  "pd",   "why", "map", "polar",
+                                   "slice",  "histories", "latency",    "sequential", "walk",  "stopping", "posterior", "scan", "asn", "prior", "sectors"};
     return names;
 }
 
 QWidget *MainWindow::view(const QString &name)
 {
-    const std::array<QWidget *, 17> views{this,
-                                          m_workbench->inputPane(),
-                                          m_workbench->outputPane(),
-                                          m_threshold,
-                                          m_events,
-                                          m_info,
-                                          m_noiseFit,
-                                          m_evaluate,
-                                          m_sequential,
-                                          &m_sequential->walk(),
-                                          &m_sequential->stopping(),
-                                          &m_sequential->posterior(),
-                                          &m_sequential->scan(),
-                                          m_sequential->curvesPage(),
-                                          m_sequential->priorPage(),
-                                          m_sequential->sectorsPage(),
-                                          m_why};
-    const auto index = viewNames().indexOf(name);
-    return index < 0 ? nullptr : views[static_cast<std::size_t>(index)];
+    const bool hasPings = m_document.hasPings();
+    const QHash<QString, QWidget *> views{
+        {"window", this},
+        {"input", hasPings ? static_cast<QWidget *>(m_pings->input()) : m_workbench->inputPane()},
+        {"output", hasPings ? static_cast<QWidget *>(m_pings->output()) : m_workbench->outputPane()},
+        {"threshold", m_threshold},
+        {"events", m_events},
+        {"noise", m_info},
+        {"noisefit", m_noiseFit},
+        {"pd", m_evaluate},
+        {"why", m_why},
+        {"map", m_pings->maps()},
+        {"polar", m_pings->maps()},
+        {"slice", m_states},
+        {"histories", m_pings->histories()},
+        {"latency", m_latency},
+        {"sequential", m_sequential},
+        {"walk", &m_sequential->walk()},
+        {"stopping", &m_sequential->stopping()},
+        {"posterior", &m_sequential->posterior()},
+        {"scan", &m_sequential->scan()},
+        {"asn", m_sequential->curvesPage()},
+        {"prior", m_sequential->priorPage()},
+        {"sectors", m_sequential->sectorsPage()},
+    };
+    return views.value(name);
 }
 
 void MainWindow::injectLine()
@@ -614,6 +643,16 @@ void MainWindow::showWhy()
 void MainWindow::showNoiseFit()
 {
     m_panels->show(m_noiseFit);
+}
+
+void MainWindow::showStates()
+{
+    m_panels->show(m_states);
+}
+
+void MainWindow::showLatency()
+{
+    m_panels->show(m_latency);
 }
 
 void MainWindow::setTheme(Theme::Kind kind)

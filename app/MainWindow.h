@@ -19,6 +19,7 @@ class QToolBar;
 namespace faintline {
 
 class ActivityBar;
+class Bench;
 class CommandPalette;
 class EvaluatePanel;
 class EventTable;
@@ -26,10 +27,12 @@ class ExceedancePlot;
 class ExperimentsPanel;
 class InfoPanel;
 class KeysOverlay;
+class LatencyPanel;
 class MessageBar;
 class NoiseFitPanel;
 class OverviewStrip;
 class Panels;
+class PingBench;
 class PipelinePanel;
 class ReadOut;
 class Recovery;
@@ -37,6 +40,7 @@ class ReproductionPanel;
 class ScenarioCard;
 class SequentialPanel;
 class SessionSaver;
+class StateSlicePanel;
 class TrialViewer;
 class WelcomePage;
 class WhyPanel;
@@ -61,6 +65,7 @@ public:
     Document &document() { return m_document; }
     AnalysisController &controller() { return m_controller; }
     Workbench &workbench() { return *m_workbench; }
+    PingBench &pingBench() { return *m_pings; }
     WelcomePage &welcome() { return *m_welcome; }
     MessageBar &messages() { return *m_messages; }
     ExceedancePlot &thresholdPlot() { return *m_threshold; }
@@ -72,6 +77,8 @@ public:
     NoiseFitPanel &noiseFit() { return *m_noiseFit; }
     WhyPanel &why() { return *m_why; }
     Recovery &recovery() { return *m_recovery; }
+    StateSlicePanel &states() { return *m_states; }
+    LatencyPanel &latency() { return *m_latency; }
     TrialViewer &trials() { return *m_trials; }
 
     /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
@@ -80,12 +87,15 @@ public:
     SequentialPanel &sequential() { return *m_sequential; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd", "why", and of sequential tests "sequential", "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors".
+    /// "noisefit", "pd", "why"; of a sonar's pings "map", "polar", "histories", "slice", "latency"; of sequential tests "sequential",
+    /// "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
 
     void showNoiseFit();
     void showWhy();
+    void showStates();
+    void showLatency();
 
     /// Off: nobody is there to answer a dialog.
     void setAsking(bool isAsking);
@@ -117,6 +127,7 @@ private:
     /// An action that makes sense only while a recording is shown.
     QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
 
+    Bench &bench(); ///< the one for what is open
     void showWorkbench();
     void showAnalysis();
     void showEvents();
@@ -153,6 +164,7 @@ private:
     QStackedWidget *m_pages = nullptr;
     WelcomePage *m_welcome = nullptr;
     Workbench *m_workbench = nullptr;
+    PingBench *m_pings = nullptr;
     PipelinePanel *m_pipeline = nullptr;
     ExceedancePlot *m_threshold = nullptr;
     EventTable *m_events = nullptr;
@@ -163,6 +175,8 @@ private:
     ReproductionPanel *m_reproduction = nullptr;
     NoiseFitPanel *m_noiseFit = nullptr;
     SequentialPanel *m_sequential = nullptr;
+    StateSlicePanel *m_states = nullptr;
+    LatencyPanel *m_latency = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
     OverviewStrip *m_overview = nullptr;
     ReadOut *m_readOut = nullptr;

@@ -7,6 +7,7 @@
 #include "app/ExperimentsPanel.h"
 #include "app/KeysOverlay.h"
 #include "app/Panels.h"
+#include "app/PingBench.h"
 #include "app/ScenarioCard.h"
 #include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
@@ -71,7 +72,7 @@ void MainWindow::buildEditMenu()
     menu->addActions({undo, redo});
     menu->addSeparator();
     addViewAction(*menu, tr("Reset all &settings"), {},
-                  [this] { m_controller.setSettings({}, tr("Reset all settings")); });
+                  [this] { m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings")); });
 }
 
 void MainWindow::buildViewMenu()
@@ -83,12 +84,9 @@ void MainWindow::buildViewMenu()
     addViewAction(*menu, tr("Show &all"), Qt::Key_0, [viewport] { viewport->showAll(); });
     addViewAction(*menu, tr("Zoom &back"), Qt::Key_Backspace, [viewport] { viewport->zoomBack(); });
     menu->addSeparator();
-    addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [output] { output->cycleOrientation(); });
-    addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [output] { output->cycleColourMap(); });
-    addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [input, output] {
-        input->setAutomaticRange();
-        output->setAutomaticRange();
-    });
+    addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [this] { bench().cycleOrientation(); });
+    addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });
+    addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [this] { bench().setAutomaticRange(); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Measure a box"), Qt::Key_M, [output] { output->setMeasuring(!output->isMeasuring()); });
     QAction *harmonics = addViewAction(*menu, tr("&Harmonics"), Qt::Key_H, {});
@@ -140,13 +138,17 @@ void MainWindow::buildDetectMenu()
     menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);
-    connect(m_playAction, &QAction::toggled, m_workbench, &Workbench::setPlaying);
-    connect(m_workbench, &Workbench::playingChanged, m_playAction, &QAction::setChecked);
+    connect(m_playAction, &QAction::toggled, this, [this](bool isPlaying) { bench().setPlaying(isPlaying); });
+    for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
+        connect(one, &Bench::playingChanged, m_playAction, &QAction::setChecked);
     // Space also presses the button that has the focus: only over the pictures does it play.
     m_playAction->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     m_workbench->addAction(m_playAction);
-    addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { m_workbench->stepFrames(-1); });
-    addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { m_workbench->stepFrames(1); });
+    m_pings->addAction(m_playAction);
+    addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { bench().stepFrames(-1); });
+    addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { bench().stepFrames(1); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&State space of pings"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] { showStates(); });
 }
 
 void MainWindow::buildEvaluateMenu()
@@ -155,6 +157,7 @@ void MainWindow::buildEvaluateMenu()
     addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
     addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
+    addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showLatency(); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Sequential test"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] { m_panels->show(m_sequential); });
     addViewAction(*menu, tr("Sequential test on the se&lection"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_T), [this] {
@@ -230,13 +233,13 @@ void MainWindow::buildToolBar()
     bar->addAction(m_stopAction);
     bar->addSeparator();
     add(tr("Orientation"), tr("Newest on top, oldest on top, left to right (O)"),
-        [this] { m_workbench->output()->cycleOrientation(); });
-    add(tr("Colours"), tr("Next colour map (C)"), [this] { m_workbench->output()->cycleColourMap(); });
+        [this] { bench().cycleOrientation(); });
+    add(tr("Colours"), tr("Next colour map (C)"), [this] { bench().cycleColourMap(); });
     add(tr("Show all"), tr("The whole recording (0)"), [this] { m_document.viewport().showAll(); });
     bar->addSeparator();
-    add(tr("Frame back"), tr("One frame back (J)"), [this] { m_workbench->stepFrames(-1); });
+    add(tr("Frame back"), tr("One frame back (J)"), [this] { bench().stepFrames(-1); });
     bar->addAction(m_playAction);
-    add(tr("Frame forward"), tr("One frame forward (L)"), [this] { m_workbench->stepFrames(1); });
+    add(tr("Frame forward"), tr("One frame forward (L)"), [this] { bench().stepFrames(1); });
     add(tr("Next event"), tr("Go to the next event (N)"), [this] { m_events->selectNext(); });
 }
 

@@ -35,6 +35,7 @@ namespace {
     {
         static const std::vector<Layout> all{
             {QT_TRANSLATE_NOOP("faintline::Panels", "Lines"), {}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Active sonar"), {"thresholdDock", "eventsDock", "statesDock"}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Sequential test"), {"sequentialDock"}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Evaluate"), {"experimentsDock", "reproductionDock", "evaluateDock"}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Teach"), {"eventsDock", "thresholdDock"}},

@@ -29,6 +29,20 @@ namespace {
         return parts.join(QStringLiteral(" · "));
     }
 
+    /// "60 pings, every 40 s · 2500 range × 20 bearing"
+    QString summary(const NormalisedFrames &frames)
+    {
+        QStringList axes;
+        for (const Axis &axis : frames.grid().axes)
+            axes << QStringLiteral("%1 %2").arg(axis.count).arg(QString::fromStdString(axis.name));
+        const QString kind = axes.size() > 1 ? QObject::tr("pings") : QObject::tr("frames");
+        return QObject::tr("%1 %2, every %3 s · %4")
+            .arg(frames.time().count)
+            .arg(kind)
+            .arg(frames.time().step, 0, 'g', 4)
+            .arg(axes.join(QStringLiteral(" × ")));
+    }
+
     double windowSeconds(const Spectrogram &spectrogram)
     {
         return spectrogram.windowSamples() / spectrogram.recording().info().sampleRateHz;
@@ -66,7 +80,7 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
         m_controller.edit(name, value, tr("Change “%1”").arg(SettingsForm::label(name)));
     });
     connect(m_form, &SettingsForm::resetRequested, this,
-            [this] { m_controller.setSettings({}, tr("Reset all settings")); });
+            [this] { m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings")); });
     connect(&document, &Document::opened, this, &PipelinePanel::showRecording);
     connect(&document, &Document::opened, this, &PipelinePanel::showSettings);
     connect(&document, &Document::settingsChanged, this, &PipelinePanel::showSettings);
@@ -80,14 +94,17 @@ void PipelinePanel::showRecording()
 {
     if (m_document.isEmpty())
         return m_recording->setText(tr("Nothing is open."));
+    const QString words = m_document.frames() ? summary(*m_document.frames()) : summary(m_document.recording()->info());
     m_recording->setText(
-        QStringLiteral("<b>%1</b><br>%2")
-            .arg(m_document.source().name().toHtmlEscaped(), summary(m_document.recording()->info()).toHtmlEscaped()));
+        QStringLiteral("<b>%1</b><br>%2").arg(m_document.source().name().toHtmlEscaped(), words.toHtmlEscaped()));
 }
 
 void PipelinePanel::showSettings()
 {
     m_form->setSettings(m_document.settings());
+    for (const char *stage : {"selection", "spectrogram", "noise"})
+        m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
+    m_form->setSectionShown(QStringLiteral("conventional"), m_document.hasPings());
     const auto isTaken = [this](const Preset &preset) {
         return withSelection(preset.settings) == m_document.settings();
     };

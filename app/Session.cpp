@@ -41,8 +41,9 @@ namespace {
 
     Json toJson(const Source &source, const std::string &hash, const QDir &folder)
     {
-        if (source.scene) {
-            Json scene = {{"name", source.name().toStdString()}, {"scenario", toJson(*source.scene)}};
+        if (source.isSimulated()) {
+            Json scene = {{"name", source.name().toStdString()},
+                          {"scenario", source.pings ? toJson(*source.pings) : toJson(*source.scene)}};
             if (!source.injections.empty())
                 scene["injected"] = toJson(source.injections);
             return scene;
@@ -76,7 +77,10 @@ namespace {
                     injectionFromJson(one, "recording.injected[" + std::to_string(source.injections.size()) + "]"));
         if (json.contains("scenario")) {
             source.path = QString::fromStdString(json.value("name", std::string("scenario")));
-            source.scene = lineSceneFromJson(json["scenario"]);
+            if (isPingScene(json["scenario"]))
+                source.pings = pingSceneFromJson(json["scenario"]);
+            else
+                source.scene = lineSceneFromJson(json["scenario"]);
             return source;
         }
         source.path =
@@ -108,6 +112,12 @@ namespace {
         }
         if (view.cursor)
             json["cursor"] = {view.cursor->seconds, view.cursor->hz};
+        if (view.bearing)
+            json["bearing"] = toJson(*view.bearing);
+        if (view.cursorBearing)
+            json["cursorBearing"] = *view.cursorBearing;
+        if (view.isPolar)
+            json["polar"] = true;
         json["orientation"] = view.orientation.toStdString();
         json["colourMap"] = view.colourMap.toStdString();
         return json;
@@ -115,12 +125,17 @@ namespace {
 
     ViewState viewFromJson(const Json &json)
     {
-        checkKeys(json, "view", {"seconds", "hz", "cursor", "orientation", "colourMap"});
+        checkKeys(json, "view", {"seconds", "hz", "cursor", "orientation", "colourMap", "bearing", "cursorBearing", "polar"});
         ViewState view;
         if (json.contains("seconds") && json.contains("hz"))
             view.visible = {spanFromJson(json["seconds"]), spanFromJson(json["hz"])};
         if (json.contains("cursor"))
             view.cursor = {json["cursor"].at(0).get<double>(), json["cursor"].at(1).get<double>()};
+        if (json.contains("bearing"))
+            view.bearing = spanFromJson(json["bearing"]);
+        if (json.contains("cursorBearing"))
+            view.cursorBearing = json["cursorBearing"].get<double>();
+        view.isPolar = json.value("polar", false);
         view.orientation = QString::fromStdString(json.value("orientation", std::string()));
         view.colourMap = QString::fromStdString(json.value("colourMap", std::string()));
         return view;
@@ -171,7 +186,7 @@ Session readSession(const QString &path)
 
 void writeSession(const QString &path, Session session)
 {
-    if (!session.source.scene && session.recordingHash.empty())
+    if (!session.source.isSimulated() && session.recordingHash.empty())
         session.recordingHash = recordingHash(session.source.path.toStdString());
     const Json json = {{"faintline", formatVersion},
                        {"recording", toJson(session.source, session.recordingHash, folderOf(path))},

@@ -16,6 +16,11 @@ struct ViewState {
     std::optional<Viewport::Point> cursor;
     QString orientation; ///< "newestOnTop", "oldestOnTop", "leftToRight"; empty: as it is
     QString colourMap;
+
+    // Of a sonar's pings, where the frequency above is the range.
+    std::optional<Span> bearing{};          ///< visible
+    std::optional<double> cursorBearing{};
+    bool isPolar = false;
 };
 
 /// A session file: the recipe, never the results. The recording is named relative to the session and known by its

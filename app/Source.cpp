@@ -1,9 +1,11 @@
 #include "app/Source.h"
 
 #include "base/json.h"
+#include "exchange/ModelFile.h"
 #include "recording/AudioRecording.h"
 #include "recording/RawRecording.h"
 #include "recording/SimulatedRecording.h"
+#include "spectrum/SimulatedPings.h"
 
 #include <QFile>
 #include <QFileInfo>
@@ -14,7 +16,7 @@ namespace {
 
     constexpr qint64 largestScenario = 1 << 20;
 
-    LineScene readScene(const QString &path)
+    void readScene(const QString &path, Source &source)
     {
         const std::string where = path.toStdString();
         QFile file(path);
@@ -22,20 +24,46 @@ namespace {
             throw Error(where, "cannot be read: " + file.errorString().toStdString());
         const QByteArray text = file.read(largestScenario);
         try {
-            return lineSceneFromJson(parseJson(text.toStdString(), where));
+            const Json json = parseJson(text.toStdString(), where);
+            if (isPingScene(json))
+                source.pings = pingSceneFromJson(json);
+            else
+                source.scene = lineSceneFromJson(json);
         } catch (const Error &error) {
             throw error.where() == where ? error : Error(where + ": " + error.where(), error.why());
         }
+    }
+
+    NormalisedFramesPointer readStack(const QString &path)
+    {
+        const QString grid = gridPathOf(path);
+        auto frames = readFrames(path.toStdString(), QFileInfo::exists(grid) ? grid.toStdString() : std::string());
+        if (frames->grid().axes.size() > 2)
+            throw Error(path.toStdString(), "has frames on " + std::to_string(frames->grid().axes.size())
+                                                + " axes; one or two can be shown (faintline-cli sequential takes more)");
+        return frames;
     }
 
     /// Without the lines that were added.
     OpenedSource openBase(Source source)
     {
         source.injections.clear();
-        if (!source.scene)
-            return {source, openRecording(source.path.toStdString(), source.options), {}};
-        const auto recording = std::make_shared<SimulatedRecording>(*source.scene);
-        return {source, recording, recording->truth()};
+        OpenedSource opened;
+        if (source.pings) {
+            const auto pings = std::make_shared<SimulatedPings>(*source.pings);
+            opened.pingTruth = pings->truth();
+            opened.frames = pings;
+        } else if (source.scene) {
+            const auto recording = std::make_shared<SimulatedRecording>(*source.scene);
+            opened.truth = recording->truth();
+            opened.recording = recording;
+        } else if (source.isStack()) {
+            opened.frames = readStack(source.path);
+        } else {
+            opened.recording = openRecording(source.path.toStdString(), source.options);
+        }
+        opened.source = std::move(source);
+        return opened;
     }
 
 } // namespace
@@ -45,11 +73,23 @@ QString Source::name() const
     return QFileInfo(path).fileName();
 }
 
+bool Source::isStack() const
+{
+    return !isSimulated() && path.endsWith(QLatin1String(".npy"), Qt::CaseInsensitive);
+}
+
+QString gridPathOf(const QString &stackPath)
+{
+    return stackPath.chopped(4) + QStringLiteral(".grid.json");
+}
+
 Source sourceOf(const QString &path, const OpenOptions &options)
 {
-    Source source{path, options, {}, {}};
+    Source source;
+    source.path = path;
+    source.options = options;
     if (path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive))
-        source.scene = readScene(path);
+        readScene(path, source);
     return source;
 }
 
@@ -59,6 +99,18 @@ OpenedSource openSource(const Source &source)
     for (const Source::Injection &injection : source.injections)
         opened = withInjection(opened, injection);
     return opened;
+}
+
+AnalysisSettings firstSettings(const OpenedSource &opened)
+{
+    const bool isPings = opened.frames && opened.frames->grid().axes.size() > 1;
+    return isPings ? preset("sonar").settings : AnalysisSettings();
+}
+
+std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context,
+                                        const Analysis *previous)
+{
+    return opened.frames ? analyse(opened.frames, settings, context, previous) : analyse(opened.recording, settings, context, previous);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)

@@ -1,10 +1,14 @@
 #pragma once
 
+#include "analysis/analyse.h"
 #include "recording/InjectedRecording.h"
 #include "recording/LineScene.h"
+#include "recording/PingScene.h"
+#include "recording/PingTruth.h"
 #include "recording/Recording.h"
 #include "recording/Truth.h"
 #include "recording/openRecording.h"
+#include "spectrum/NormalisedFrames.h"
 
 #include <QString>
 
@@ -14,11 +18,12 @@
 
 namespace faintline {
 
-/// Where samples come from: a file and how to read it, or a scene to simulate.
+/// Where samples or frames come from: a file and how to read it, or a scene to simulate.
 struct Source {
-    QString path;                   ///< of the recording or the scenario
+    QString path;                   ///< of the recording, the stack of frames (.npy) or the scenario
     OpenOptions options;            ///< of a recording
     std::optional<LineScene> scene; ///< set: simulated
+    std::optional<PingScene> pings{}; ///< set: a sonar's pings, simulated
 
     /// Lines added to it, one after the other, each with a seed of its own.
     struct Injection {
@@ -26,24 +31,39 @@ struct Source {
         int channel = 0;
         std::uint64_t seed = 1;
     };
-    std::vector<Injection> injections;
+    std::vector<Injection> injections{};
 
     /// What a window title says.
     QString name() const;
+    bool isSimulated() const { return scene || pings; }
+    /// Whether it is a stack of ready-made frames, a NumPy file.
+    bool isStack() const;
 };
 
-/// A source that has been opened.
+/// A source that has been opened: a recording, or frames that are ready for the detector.
 struct OpenedSource {
     Source source;
     RecordingPointer recording;
     Truth truth; ///< of a simulated one, and of injected lines
+    NormalisedFramesPointer frames{};
+    PingTruth pingTruth{}; ///< of simulated pings
 };
 
-/// The source a path stands for: a scenario where it names a JSON file, otherwise a recording. Throws Error.
+/// Where the grid of a stack of frames is described: beside it, NAME.grid.json for NAME.npy.
+QString gridPathOf(const QString &stackPath);
+
+/// The source a path stands for: a scenario where it names a JSON file, frames where a NumPy file, otherwise a recording. Throws Error.
 Source sourceOf(const QString &path, const OpenOptions &options = {});
 
 /// Opens or simulates. Throws Error.
 OpenedSource openSource(const Source &source);
+
+/// What one looks at a source with before having chosen anything.
+AnalysisSettings firstSettings(const OpenedSource &opened);
+
+/// The pipeline on whatever was opened.
+std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context = {},
+                                        const Analysis *previous = nullptr);
 
 /// What is open with one more line in it. Throws Error.
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection);

@@ -95,7 +95,7 @@ namespace {
 } // namespace
 
 Workbench::Workbench(Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
+    : Bench(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
       m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
       m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
@@ -163,8 +163,16 @@ void Workbench::setEmptySentence(const QString &sentence)
     m_regulation->setEmptySentence(sentence);
 }
 
+void Workbench::setAutomaticRange()
+{
+    m_input->setAutomaticRange();
+    m_output->setAutomaticRange();
+}
+
 void Workbench::showAnalysis()
 {
+    if (m_document.hasPings())
+        return;
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.back();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
@@ -192,12 +200,16 @@ void Workbench::showAnalysis()
 
 void Workbench::showThreshold()
 {
+    if (m_document.hasPings())
+        return;
     m_output->setThreshold(m_document.shownThreshold());
     m_statistic->setLevel(m_document.shownThreshold(), tr("threshold"));
 }
 
 void Workbench::showEvents()
 {
+    if (m_document.hasPings())
+        return;
     const std::vector<Event> events = m_document.shownEvents();
     const std::vector<Track> tracks = m_document.shownTracks();
     for (WaterfallView *view : {m_input, m_output}) {
@@ -245,6 +257,8 @@ void Workbench::read(const Viewport::Point &point)
 
 void Workbench::readCursor()
 {
+    if (m_document.hasPings())
+        return;
     if (const auto &cursor = m_document.viewport().cursor())
         read(*cursor);
     else

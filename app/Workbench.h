@@ -1,12 +1,11 @@
 #pragma once
 
+#include "app/Bench.h"
 #include "app/Document.h"
-#include "app/Session.h"
 #include "widgets/ReadOut.h"
 #include "widgets/WaterfallView.h"
 
 #include <QTimer>
-#include <QWidget>
 
 class QSplitter;
 
@@ -15,7 +14,7 @@ namespace faintline {
 class StripPlot;
 
 /// The pictures: input and statistic side by side on one viewport, each with its colour bar; curves along time below.
-class Workbench : public QWidget
+class Workbench : public Bench
 {
     Q_OBJECT
 
@@ -27,29 +26,27 @@ public:
     QWidget *inputPane() const { return m_inputPane; } ///< with its colour bar
     QWidget *outputPane() const { return m_outputPane; }
 
-    /// What the panes say while there is nothing to see.
-    void setEmptySentence(const QString &sentence);
-
-    ViewState viewState() const;
-    void restore(const ViewState &view);
+    void setEmptySentence(const QString &sentence) override;
+    ViewState viewState() const override;
+    void restore(const ViewState &view) override;
+    void cycleOrientation() override { m_output->cycleOrientation(); }
+    void cycleColourMap() override { m_output->cycleColourMap(); }
+    void setAutomaticRange() override;
 
     QByteArray saveSplitters() const;
     void restoreSplitters(const QByteArray &state);
 
 public slots:
-    void selectEvent(int id); ///< marks it, puts the cursor on it and brings it into view
-    void stepFrames(int frames);
-    void setPlaying(bool isPlaying);
+    void selectEvent(int id) override;
+    void stepFrames(int frames) override;
+    void setPlaying(bool isPlaying) override;
 
 protected:
     /// The curves give way where there is little height: the pictures come first.
     void resizeEvent(QResizeEvent *event) override;
 
 signals:
-    void eventActivated(int id);
-    void thresholdStepRequested(int quarterNats);
     void readingChanged(const faintline::ReadOut::Reading &reading);
-    void playingChanged(bool isPlaying);
 
 private:
     void linkViews();

@@ -57,14 +57,16 @@ namespace {
             ->required();
         command
             ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise, noisefit, pd, why, sequential, walk, posterior; of a radar's scans "
-                         "also stopping, scan, asn, prior, sectors; several with commas")
+                         "window, input, output, threshold, events, noise, noisefit, pd, why, sequential, walk, posterior; of a sonar's pings "
+                         "also map, polar, histories, slice, latency; of a radar's scans stopping, scan, asn, prior, sectors; several with commas")
             ->delimiter(',')
             ->allow_extra_args(false)
             ->capture_default_str();
         command->add_option("--size", size, "Pixels")->capture_default_str();
         command->add_option("--time", options.seconds, "Where the cursor goes, s");
         command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
+        command->add_option("--range", options.range, "Where the cursor goes in pings, in the range axis's unit");
+        command->add_option("--bearing", options.bearing, "Where the cursor goes in pings, degrees");
         command->add_option("--theme", options.theme, "light, dark or contrast")
             ->check(CLI::IsMember({"light", "dark", "contrast"}))
             ->capture_default_str();

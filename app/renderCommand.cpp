@@ -2,13 +2,17 @@
 
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
+#include "app/LatencyPanel.h"
 #include "app/MainWindow.h"
 #include "app/NoiseFitPanel.h"
+#include "app/PingBench.h"
 #include "app/SequentialPanel.h"
+#include "app/StateSlicePanel.h"
 #include "app/WhyPanel.h"
 #include "app/Workbench.h"
 #include "app/scanScenario.h"
 #include "base/AtomicFile.h"
+#include "widgets/PingMap.h"
 
 #include <QApplication>
 #include <QBuffer>
@@ -135,6 +139,27 @@ namespace {
         testAndSettle(window, [&] { window.sequential().startOnSelection(); });
     }
 
+    void cutStates(MainWindow &window)
+    {
+        QEventLoop loop;
+        QObject::connect(&window.states(), &StateSlicePanel::settled, &loop, &QEventLoop::quit);
+        window.showStates();
+        if (window.states().isBusy())
+            loop.exec();
+    }
+
+    void measureLatency(MainWindow &window)
+    {
+        constexpr int runs = 4;
+        if (const QString why = window.latency().obstacle(); !why.isEmpty())
+            throw Error("--view latency", why.toStdString());
+        QEventLoop loop;
+        QObject::connect(&window.latency(), &LatencyPanel::settled, &loop, &QEventLoop::quit);
+        window.showLatency();
+        window.latency().start(runs);
+        loop.exec();
+    }
+
     void prepare(MainWindow &window, const std::vector<std::string> &views)
     {
         const auto has = [&](const char *name) { return std::find(views.begin(), views.end(), name) != views.end(); };
@@ -142,6 +167,13 @@ namespace {
             measureCurves(window);
         if (has("why"))
             explainCursor(window);
+        for (const char *view : {"map", "polar", "histories", "slice", "latency"})
+            if (has(view) && !window.document().hasPings())
+                throw Error(std::string("--view ") + view, "is a picture of pings on range and bearing; these are no such frames");
+        if (has("latency"))
+            measureLatency(window);
+        if (has("slice"))
+            cutStates(window);
         if (has("noisefit"))
             measureNoise(window);
         for (const char *view : sequentialViews)
@@ -149,8 +181,18 @@ namespace {
                 return testSelection(window, views);
     }
 
-    void placeCursor(Viewport &viewport, const RenderOptions &options)
+    void placeCursor(MainWindow &window, const RenderOptions &options)
     {
+        Viewport &viewport = window.document().viewport();
+        if (window.document().hasPings()) {
+            PingViewports &viewports = window.pingBench().viewports();
+            PingViewports::Place place = viewports.place();
+            place.seconds = options.seconds.value_or(place.seconds);
+            place.range = options.range.value_or(place.range);
+            place.bearing = options.bearing.value_or(place.bearing);
+            viewports.setPlace(place);
+            return;
+        }
         Viewport::Point point = viewport.cursor().value_or(Viewport::Point());
         point.seconds = options.seconds.value_or(point.seconds);
         point.hz = options.hz.value_or(point.hz);
@@ -177,6 +219,14 @@ namespace {
         if (!image.save(&buffer, "PNG"))
             throw Error(path, "cannot be written as PNG", Error::Kind::Failure);
         writeTextFile(path, bytes.toStdString());
+    }
+
+    /// A view is taken out of what it is a part of, so the window comes before its parts, and the maps before each of them.
+    std::vector<std::string> wholesFirst(std::vector<std::string> views)
+    {
+        const auto rank = [](const std::string &view) { return view == "window" ? 0 : view == "map" || view == "polar" || view == "sequential" ? 1 : 2; };
+        std::stable_sort(views.begin(), views.end(), [&](const auto &a, const auto &b) { return rank(a) < rank(b); });
+        return views;
     }
 
     std::string sizeText(QSize size)
@@ -216,11 +266,14 @@ void render(const RenderOptions &options)
         testScans(window, options);
     } else {
         openAndSettle(window, options);
-        placeCursor(window.document().viewport(), options);
+        placeCursor(window, options);
         prepare(window, options.views);
     }
-    for (const std::string &view : options.views)
+    const bool wasPolar = window.pingBench().output()->isPolar();
+    for (const std::string &view : wholesFirst(options.views)) {
+        window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         write(pictureOf(*window.view(QString::fromStdString(view)), options.size), fileName(options, view));
+    }
 }
 
 } // namespace faintline

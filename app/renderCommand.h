@@ -20,6 +20,8 @@ struct RenderOptions {
     QSize size{1600, 1000};
     std::optional<double> seconds; ///< where the cursor goes
     std::optional<double> hz;
+    std::optional<double> range;   ///< of pings
+    std::optional<double> bearing;
     std::string theme = "light";
     std::string preset;
     std::vector<std::string> settings; ///< "name=value"

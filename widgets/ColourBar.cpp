@@ -115,7 +115,7 @@ void ColourBar::chooseScale()
 QRectF ColourBar::barRect() const
 {
     double top = topMargin, bottom = height() - bottomMargin;
-    if (m_view && m_view->window() == window()) {
+    if (m_view && m_view->window() == window() && !m_view->isHidden()) {
         const QPoint canvas = m_view->canvas()->mapTo(window(), QPoint()) - mapTo(window(), QPoint());
         top = std::max<double>(top, canvas.y());
         bottom = std::min<double>(bottom, canvas.y() + m_view->canvas()->height());

@@ -22,6 +22,8 @@ namespace {
             {"end", [](const Event &e) { return e.endSeconds; }},
             {"dur", [](const Event &e) { return e.endSeconds - e.onsetSeconds; }},
             {"f", [](const Event &e) { return e.position.empty() ? 0.0 : e.position.back(); }},
+            {"range", [](const Event &e) { return e.position.empty() ? 0.0 : e.position.front(); }},
+            {"bearing", [](const Event &e) { return e.position.empty() ? 0.0 : e.position.back(); }},
             {"drift", [](const Event &e) { return e.driftPerSecond; }},
             {"stat", [](const Event &e) { return e.statistic; }},
             {"d", [](const Event &e) { return e.statistic; }},

@@ -4,31 +4,29 @@
 
 namespace faintline {
 
-namespace {
-
-    double sortValue(const Event &event, int column)
-    {
-        switch (column) {
-        case EventModel::Id:
-            return event.id;
-        case EventModel::Onset:
-            return event.onsetSeconds;
-        case EventModel::Detection:
-            return event.detectSeconds;
-        case EventModel::End:
-            return event.endSeconds;
-        case EventModel::Frequency:
-            return event.position.empty() ? 0.0 : event.position.back();
-        case EventModel::Drift:
-            return event.driftPerSecond;
-        case EventModel::Statistic:
-            return event.statistic;
-        default:
-            return (event.isConfirmed ? 0.0 : 2.0) + (event.isOpen ? 1.0 : 0.0);
-        }
+double EventModel::sortValue(const Event &event, int column) const
+{
+    switch (column) {
+    case Id:
+        return event.id;
+    case Onset:
+        return event.onsetSeconds;
+    case Detection:
+        return event.detectSeconds;
+    case End:
+        return event.endSeconds;
+    case Frequency:
+        return event.position.empty() ? 0.0 : event.position.front();
+    case Bearing:
+        return event.position.empty() ? 0.0 : event.position.back();
+    case Drift:
+        return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
+    case Statistic:
+        return event.statistic;
+    default:
+        return (event.isConfirmed ? 0.0 : 2.0) + (event.isOpen ? 1.0 : 0.0);
     }
-
-} // namespace
+}
 
 void EventModel::setEvents(std::vector<Event> events)
 {
@@ -73,9 +71,13 @@ QString EventModel::text(const Event &event, int column) const
     case End:
         return secondsText(event.endSeconds, 0.1);
     case Frequency:
-        return event.position.empty() ? QStringLiteral("–") : numberText(event.position.back(), 2);
+        return event.position.empty()
+                   ? QStringLiteral("–")
+                   : numberText(event.position.front(), hasBearing() ? decimalsFor(m_axes.front().step) : 2);
+    case Bearing:
+        return event.position.empty() ? QStringLiteral("–") : numberText(event.position.back(), 1);
     case Drift:
-        return powerText(event.driftPerSecond, 3);
+        return powerText(sortValue(event, Drift), 3);
     case Statistic:
         return numberText(event.statistic, 1);
     default:
@@ -109,6 +111,12 @@ void EventModel::setStatisticUnit(const QString &unit)
     emit headerDataChanged(Qt::Horizontal, Statistic, Statistic);
 }
 
+void EventModel::setAxes(const std::vector<Axis> &axes)
+{
+    m_axes = axes;
+    emit headerDataChanged(Qt::Horizontal, 0, ColumnCount - 1);
+}
+
 QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     if (orientation != Qt::Horizontal)
@@ -116,13 +124,22 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
     if (role == Qt::TextAlignmentRole)
         return QVariant::fromValue(
             Qt::Alignment((section == State ? Qt::AlignHCenter : Qt::AlignRight) | Qt::AlignVCenter));
-    const QString names[] = {tr("№"),      tr("Onset"),        tr("Detected"), tr("End"),
-                             tr("f (Hz)"), tr("Drift (Hz/s)"), tr("D (%1)").arg(m_statisticUnit),  tr("State")};
+    const auto unit = [this](std::size_t axis) { return QString::fromStdString(m_axes[axis].unit); };
+    const QString names[] = {tr("№"),
+                             tr("Onset"),
+                             tr("Detected"),
+                             tr("End"),
+                             hasBearing() ? tr("Range (%1)").arg(unit(0)) : tr("f (Hz)"),
+                             hasBearing() ? tr("Bearing (%1)").arg(unit(1)) : tr("Bearing"),
+                             hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
+                             tr("D (%1)").arg(m_statisticUnit),
+                             tr("State")};
     const QString tips[] = {tr("Number, in order of detection"),
                             tr("Where the detecting path was last reset, from the first sample"),
                             tr("Where the statistic first exceeded the threshold"),
                             tr("Last frame with evidence"),
-                            tr("Frequency at detection"),
+                            hasBearing() ? tr("Range at detection") : tr("Frequency at detection"),
+                            tr("Bearing at detection"),
                             tr("Straight-line slope of the track"),
                             tr("Largest statistic"),
                             tr("Confirmed or tentative; open where the data ended first")};

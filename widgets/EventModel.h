@@ -15,13 +15,16 @@ class EventModel : public QAbstractTableModel
     Q_OBJECT
 
 public:
-    enum Column { Id, Onset, Detection, End, Frequency, Drift, Statistic, State, ColumnCount };
+    enum Column { Id, Onset, Detection, End, Frequency, Bearing, Drift, Statistic, State, ColumnCount };
     static constexpr int SortRole = Qt::UserRole;
 
     using QAbstractTableModel::QAbstractTableModel;
 
     void setEvents(std::vector<Event> events);
     void setStatisticUnit(const QString &unit);
+    /// The axes of the events' positions; of two, the first one takes the frequency's place, the second one is the bearing.
+    void setAxes(const std::vector<Axis> &axes);
+    bool hasBearing() const { return m_axes.size() > 1; }
     const std::vector<Event> &events() const { return m_events; }
 
     /// Row of an event, -1 if there is none of that id.
@@ -37,8 +40,10 @@ public:
 
 private:
     QString text(const Event &event, int column) const;
+    double sortValue(const Event &event, int column) const;
 
     std::vector<Event> m_events;
+    std::vector<Axis> m_axes;
     QString m_statisticUnit = QStringLiteral("nat");
 };
 

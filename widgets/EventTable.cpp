@@ -72,6 +72,7 @@ void EventTable::setUpTable()
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
+    m_table->setColumnHidden(EventModel::Bearing, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) { activate(index.row()); });
 }
 
@@ -89,6 +90,12 @@ void EventTable::setEvents(const std::vector<Event> &events)
 void EventTable::setStatisticUnit(const QString &unit)
 {
     m_model->setStatisticUnit(unit);
+}
+
+void EventTable::setAxes(const std::vector<Axis> &axes)
+{
+    m_model->setAxes(axes);
+    m_table->setColumnHidden(EventModel::Bearing, !m_model->hasBearing());
 }
 
 void EventTable::setEmptySentence(const QString &sentence)

@@ -30,6 +30,7 @@ public:
     /// Keeps the selection where the event of that id still exists. Emits nothing.
     void setEvents(const std::vector<Event> &events);
     void setStatisticUnit(const QString &unit);
+    void setAxes(const std::vector<Axis> &axes); ///< of the events' positions
     void setEmptySentence(const QString &sentence);
 
     int selectedEvent() const;         ///< 0: none

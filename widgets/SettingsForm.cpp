@@ -59,6 +59,12 @@ SettingsForm::SettingsForm(QWidget *parent) : QWidget(parent), m_scroll(new QScr
 
 SettingsForm::~SettingsForm() = default;
 
+void SettingsForm::setSectionShown(const QString &prefix, bool isShown)
+{
+    if (FormSection *section = m_sections.value(prefix))
+        section->setVisible(isShown);
+}
+
 FormSection &SettingsForm::section(const QString &prefix)
 {
     FormSection *&section = m_sections[prefix];

@@ -40,6 +40,8 @@ public:
     /// s").
     void setNote(const QString &name, const QString &note);
 
+    /// Hides the stages that what is open does not go through.
+    void setSectionShown(const QString &prefix, bool isShown);
     /// Scrolls to a field, unfolds its section and gives it the focus.
     void reveal(const QString &name);
 

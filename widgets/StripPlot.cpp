@@ -12,6 +12,7 @@
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
 #include <qwt_plot_marker.h>
+#include <qwt_plot_zoneitem.h>
 #include <qwt_scale_map.h>
 #include <qwt_scale_widget.h>
 #include <qwt_text.h>
@@ -99,7 +100,7 @@ private:
 
 StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
     : QwtPlot(parent), m_levelValue(std::numeric_limits<double>::quiet_NaN()), m_grid(new QwtPlotGrid),
-      m_cursorLine(new QwtPlotMarker), m_level(new QwtPlotMarker), m_sentence(new CanvasSentence),
+      m_cursorLine(new QwtPlotMarker), m_level(new QwtPlotMarker), m_bandItem(new QwtPlotZoneItem), m_sentence(new CanvasSentence),
       m_key(new CurveKey(Qt::AlignRight | Qt::AlignTop))
 {
     m_sentence->text = tr("Nothing to draw yet.");
@@ -111,6 +112,10 @@ StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
     m_level->setZ(25.0);
     m_level->setLabelAlignment(Qt::AlignLeft | Qt::AlignTop);
     m_level->attach(this);
+    m_bandItem->setOrientation(Qt::Horizontal);
+    m_bandItem->setZ(1.0);
+    m_bandItem->setPen(QPen(Qt::NoPen));
+    m_bandItem->attach(this);
     m_cursorLine->setLineStyle(QwtPlotMarker::VLine);
     m_cursorLine->setZ(26.0);
     m_cursorLine->attach(this);
@@ -240,6 +245,14 @@ void StripPlot::setLevel(double value, const QString &label)
     restyle();
 }
 
+void StripPlot::setBand(const std::optional<Span> &band)
+{
+    m_band = band;
+    if (band)
+        m_bandItem->setInterval(band->low, band->high);
+    restyle();
+}
+
 void StripPlot::setEmptySentence(const QString &sentence)
 {
     m_sentence->text = sentence;
@@ -254,6 +267,9 @@ void StripPlot::restyle()
     m_grid->enableX(false);
     m_cursorLine->setLinePen(colours.faintText, 1.0);
     m_level->setLinePen(colours.threshold, 1.2, Qt::DashLine);
+    QColor bandColour = colours.curves[0];
+    bandColour.setAlpha(50);
+    m_bandItem->setBrush(bandColour);
     m_level->setLabel(plainText(m_level->title().text(), Theme::plotFont(), colours.threshold));
     m_sentence->colour = colours.faintText;
     m_key->textColour = colours.text;
@@ -306,6 +322,7 @@ void StripPlot::layAxes()
     m_sentence->setVisible(isEmpty);
     m_grid->setVisible(!isEmpty);
     m_level->setVisible(!isEmpty && !std::isnan(m_levelValue));
+    m_bandItem->setVisible(!isEmpty && m_band);
     followSpan();
 }
 
@@ -335,6 +352,8 @@ void StripPlot::updateOrdinate(Side side)
             span = {std::min(span.low, one->seen.low), std::max(span.high, one->seen.high)};
     if (side == Side::Left && !std::isnan(m_levelValue))
         span = {std::min(span.low, m_levelValue), std::max(span.high, m_levelValue)};
+    if (side == Side::Left && m_band)
+        span = {std::min(span.low, m_band->low), std::max(span.high, m_band->high)};
     const auto &fixed = m_fixed[static_cast<int>(side)];
     if (fixed)
         span = *fixed;

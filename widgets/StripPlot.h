@@ -15,6 +15,7 @@
 class QwtPlotCurve;
 class QwtPlotGrid;
 class QwtPlotMarker;
+class QwtPlotZoneItem;
 
 namespace faintline {
 
@@ -54,6 +55,9 @@ public:
     /// A horizontal line with a label, such as the threshold; NaN for none.
     void setLevel(double value, const QString &label);
 
+    /// Shades values of the left ordinate, such as where ln K stays on noise.
+    void setBand(const std::optional<Span> &band);
+
     void setEmptySentence(const QString &sentence);
 
     QSize sizeHint() const override { return {520, 110}; }
@@ -92,6 +96,8 @@ private:
     QwtPlotGrid *m_grid;
     QwtPlotMarker *m_cursorLine;
     QwtPlotMarker *m_level;
+    QwtPlotZoneItem *m_bandItem;
+    std::optional<Span> m_band;
     CanvasSentence *m_sentence;
     CurveKey *m_key;
     std::optional<double> m_dragLow; ///< visible time's start when the button went down

@@ -53,6 +53,17 @@ namespace {
         return {QString::fromStdString(axis.unit), 1.0};
     }
 
+    bool measuresTime(const Axis &axis)
+    {
+        return axis.unit == "s" || axis.unit.empty();
+    }
+
+    /// "12.4 m"
+    QString valueText(const Axis &axis, double value, double resolution)
+    {
+        return numberText(value, decimalsFor(resolution)) + QLatin1Char(' ') + QString::fromStdString(axis.unit);
+    }
+
     QString titleOf(const Axis &axis)
     {
         QString name = QString::fromStdString(axis.name);
@@ -119,6 +130,25 @@ void WaterfallView::setPicture(std::shared_ptr<const PeakPyramid> picture, const
         m_isRangeAutomatic = true;
     layAxes();
     updateMarks();
+}
+
+void WaterfallView::setNextPicture(std::shared_ptr<const PeakPyramid> picture)
+{
+    const bool isFirst = !m_picture || !picture || !(picture->time() == m_picture->time());
+    if (isFirst)
+        return setPicture(std::move(picture), m_frequency);
+    m_picture = std::move(picture);
+    m_raster->setPicture(m_picture, m_frequency);
+    m_histogramKey = {-1, 0};
+    const bool wasAutomatic = std::exchange(m_isRangeAutomatic, false);
+    countHistogram();
+    m_isRangeAutomatic = wasAutomatic;
+    followCursor();
+}
+
+bool WaterfallView::hasTime() const
+{
+    return !m_picture || measuresTime(m_picture->time());
 }
 
 Viewport::Box WaterfallView::extents(const PeakPyramid &picture, const Axis &frequency)
@@ -191,13 +221,19 @@ QPointF WaterfallView::positionOf(const Viewport::Point &point) const
 void WaterfallView::layAxes()
 {
     const bool isEmpty = !m_picture;
-    auto *timeDraw = new TimeScaleDraw;
-    timeDraw->setClock(full().time.high > longSeconds);
+    const bool isLong = full().time.high > longSeconds;
+    if (hasTime()) {
+        auto *draw = new TimeScaleDraw;
+        draw->setClock(isLong);
+        setAxisScaleDraw(timeAxis(), draw);
+        setAxisTitle(timeAxis(), isLong ? tr("Time (h:min:s)") : tr("Time (s)"));
+    } else {
+        setAxisScaleDraw(timeAxis(), new NumberScaleDraw);
+        setAxisTitle(timeAxis(), titleOf(m_picture->time()));
+    }
     auto *hzDraw = new NumberScaleDraw;
     hzDraw->setUnit(shownUnit(m_frequency).hz);
-    setAxisScaleDraw(timeAxis(), timeDraw);
     setAxisScaleDraw(hzAxis(), hzDraw);
-    setAxisTitle(timeAxis(), timeDraw->isClock() ? tr("Time (h:min:s)") : tr("Time (s)"));
     setAxisTitle(hzAxis(), titleOf(m_frequency));
     for (const QwtAxisId axis : {timeAxis(), hzAxis()})
         setAxisVisible(axis, !isEmpty);
@@ -223,15 +259,18 @@ void WaterfallView::followSpan()
     const QSize size = canvas()->contentsRect().size();
     const int along = isTimeVertical() ? size.height() : size.width();
     const int across = isTimeVertical() ? size.width() : size.height();
-    auto *timeDraw = static_cast<TimeScaleDraw *>(axisScaleDraw(timeAxis()));
+    auto *timeDraw = dynamic_cast<TimeScaleDraw *>(axisScaleDraw(timeAxis()));
+    auto *numberDraw = dynamic_cast<NumberScaleDraw *>(axisScaleDraw(timeAxis()));
     auto *hzDraw = static_cast<NumberScaleDraw *>(axisScaleDraw(hzAxis()));
 
-    const int timeSpacing = isTimeVertical() ? 42 : timeDraw->isClock() ? 90 : 60;
-    const QwtScaleDiv timeDiv = timeScaleDiv(time, std::clamp(along / timeSpacing, 1, 12));
+    const int timeSpacing = isTimeVertical() ? 42 : timeDraw && timeDraw->isClock() ? 90 : 60;
+    const int timeTicks = std::clamp(along / timeSpacing, 1, 12);
+    const QwtScaleDiv timeDiv = timeDraw ? timeScaleDiv(time, timeTicks) : linearScaleDiv(time, timeTicks);
     setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
     setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
 
-    const QString timeLabel = timeDraw->widestLabel(full().time), hzLabel = hzDraw->widestLabel(full().frequency);
+    const QString timeLabel = timeDraw ? timeDraw->widestLabel(full().time) : numberDraw->widestLabel(full().time);
+    const QString hzLabel = hzDraw->widestLabel(full().frequency);
     steadyAxes(*this, isTimeVertical() ? timeLabel : hzLabel, isTimeVertical() ? hzLabel : timeLabel);
 
     countHistogram();
@@ -422,7 +461,7 @@ void WaterfallView::updateContent()
     overlay.selection = m_viewport ? m_viewport->selection() : std::nullopt;
     overlay.selectionText = overlay.selection ? selectionText(*overlay.selection) : QString();
     overlay.harmonicsHz.clear();
-    if (m_hasHarmonics && m_viewport && m_viewport->cursor())
+    if (m_hasHarmonics && m_frequency.unit == "Hz" && m_viewport && m_viewport->cursor())
         for (int i = 1; i <= harmonicCount; ++i)
             overlay.harmonicsHz.push_back(i * m_viewport->cursor()->hz);
     replot();
@@ -431,9 +470,19 @@ void WaterfallView::updateContent()
 QString WaterfallView::selectionText(const Viewport::Box &box) const
 {
     const double seconds = box.time.width(), hz = box.frequency.width();
-    QStringList words{tr("Δt %1").arg(secondsText(seconds, 0.01 * seconds)), tr("Δf %1").arg(hertzText(hz, 0.01 * hz))};
-    if (seconds > 0.0)
-        words << tr("%1 Hz/s").arg(powerText(hz / seconds, 3));
+    QStringList words;
+    if (hasTime())
+        words << tr("Δt %1").arg(secondsText(seconds, 0.01 * seconds));
+    else
+        words << QStringLiteral("Δ ") + valueText(m_picture->time(), seconds, 0.01 * seconds);
+    if (m_frequency.unit == "Hz" || m_frequency.unit.empty())
+        words << tr("Δf %1").arg(hertzText(hz, 0.01 * hz));
+    else
+        words << QStringLiteral("Δ ") + valueText(m_frequency, hz, 0.01 * hz);
+    if (seconds > 0.0 && hasTime())
+        words << tr("%1 %2/s").arg(powerText(hz / seconds, 3), m_frequency.unit.empty()
+                                                                   ? QStringLiteral("Hz")
+                                                                   : QString::fromStdString(m_frequency.unit));
     const auto cellsOf = [](const Axis &axis, Index count, const Span &span) {
         const auto clamped = [count](double index) { return std::clamp<Index>(std::lround(index), 0, count - 1); };
         return std::pair(clamped(axis.position(span.low)), clamped(axis.position(span.high)) + 1);
@@ -455,7 +504,9 @@ void WaterfallView::followCursor()
     if (m_viewport && m_viewport->cursor()) {
         const Viewport::Point &cursor = *m_viewport->cursor();
         const auto value = valueAt(cursor.seconds, cursor.hz);
-        text = tr("Cursor at %1, %2").arg(secondsText(cursor.seconds, 0.01), hertzText(cursor.hz, 0.1));
+        text = tr("Cursor at %1, %2")
+                   .arg(hasTime() ? secondsText(cursor.seconds, 0.01) : valueText(m_picture->time(), cursor.seconds, 0.1),
+                        m_frequency.unit == "Hz" ? hertzText(cursor.hz, 0.1) : valueText(m_frequency, cursor.hz, 0.1));
         if (value)
             text += tr(", %1 %2").arg(numberText(*value, 1), valueUnit());
     }
@@ -737,8 +788,9 @@ void WaterfallView::fillMenu(QMenu &menu)
               [this, layer = layer](bool isOn) { setLayer(layer, isOn); });
     menu.addSeparator();
     check(menu, tr("Measure a box"), QStringLiteral("M"), m_isMeasuring, [this](bool isOn) { setMeasuring(isOn); });
-    check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), m_hasHarmonics,
-          [this](bool isOn) { setHarmonics(isOn); });
+    if (m_frequency.unit == "Hz")
+        check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), m_hasHarmonics,
+              [this](bool isOn) { setHarmonics(isOn); });
 }
 
 void WaterfallView::addActionsTo(QMenu *menu)

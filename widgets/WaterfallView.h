@@ -26,7 +26,8 @@ class CanvasSentence;
 class OverlayItem;
 class RasterItem;
 
-/// A spectrogram, or a detector's statistic, over time and frequency.
+/// A spectrogram, or a detector's statistic, over time and frequency; or over any two axes, such as a sonar's range and bearing:
+/// where the picture's own axis is no time, it is labelled as what it is.
 ///
 /// The picture is a PeakPyramid and keeps its maxima in time and frequency however far one zooms out; zoomed in, every
 /// cell is a plain rectangle. Looking (zooming, colours, orientation) is the view's own affair and is told by signals
@@ -65,6 +66,8 @@ public:
 
     /// The picture and the axis of its cells. Null shows the empty sentence. The range stays unless it is automatic.
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
+    /// The next one of a film, on the same axes: colours keep their range, so that what moves is the signal.
+    void setNextPicture(std::shared_ptr<const PeakPyramid> picture);
     const std::shared_ptr<const PeakPyramid> &picture() const { return m_picture; }
     const Axis &frequencyAxis() const { return m_frequency; }
 
@@ -167,6 +170,7 @@ private:
     void followCursor();
     void countHistogram();
     void applyRange(const Span &range);
+    bool hasTime() const;
     void updateContent();
     void updateMarks();
     QString selectionText(const Viewport::Box &box) const;

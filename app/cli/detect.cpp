@@ -30,8 +30,21 @@ namespace {
         std::string events;
         std::string tracks;
         std::string statistic;
+        std::string conventional;
         bool summary = false;
     };
+
+    /// The analysis as if the conventional detector had made it.
+    Analysis conventionally(const Analysis &analysis)
+    {
+        if (analysis.grid().axes.size() < 2)
+            throw Error(
+                "--conventional",
+                "is for frames on several axes, a sonar's pings; for lines choose detector.kind = energy or pOfN");
+        Analysis other = analysis;
+        other.tracks = analysis.conventional;
+        return other;
+    }
 
     void printSummary(const Analysis &analysis)
     {
@@ -82,7 +95,7 @@ namespace {
     {
         AnalysisSettings settings = options.analysis.settings();
         if (options.model.empty())
-            return analyse(frames, settings, context, sink);
+            return analyse(frames, settings, context, nullptr, sink);
         MarkovModel model;
         {
             const ModelFile file = readModelFile(options.model);
@@ -105,12 +118,15 @@ namespace {
 
     void detect(const DetectOptions &options, const Common &common)
     {
-        if (options.events.empty() && options.tracks.empty() && options.statistic.empty() && !options.summary)
-            throw Error("detect", "says nothing without at least one of --events, --tracks, --statistic, --summary");
+        if (options.events.empty() && options.tracks.empty() && options.statistic.empty()
+            && options.conventional.empty() && !options.summary)
+            throw Error("detect", "says nothing without at least one of --events, --tracks, --statistic, --summary, --conventional");
         if (!options.events.empty())
             checkEventsPath(options.events);
         if (!options.tracks.empty())
             checkTracksPath(options.tracks);
+        if (!options.conventional.empty())
+            checkEventsPath(options.conventional);
         if (!options.frames.empty() && !options.analysis.file.empty())
             throw Error("detect", "takes a recording or --frames, not both");
         const RunContext context = common.context();
@@ -148,17 +164,25 @@ namespace {
             writeEvents(*analysis, options.events);
         if (!options.tracks.empty())
             writeTracks(*analysis, options.tracks);
+        if (!options.conventional.empty())
+            writeEvents(conventionally(*analysis), options.conventional);
         if (writer)
             writer->finish();
         if (options.summary)
             printSummary(*analysis);
         if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)
             printScore(*analysis, *pings);
+        if (options.summary && analysis->grid().axes.size() > 1) {
+            std::printf("the conventional detector beside it: %zu track(s)\n", analysis->conventional.size());
+            if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()))
+                printScore(conventionally(*analysis), *pings);
+        }
     }
 
     void printExplanation(const Explanation &explanation, const Analysis &analysis, bool asJson)
     {
-        const StateSpace &space = analysis.model.space;
+        const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[explanation.model].model.space;
+        const std::vector<Axis> &axes = analysis.grid().axes;
         Json json;
         json["time"] = explanation.seconds;
         json["position"] = explanation.position;
@@ -167,6 +191,9 @@ namespace {
         json["threshold"] = explanation.threshold;
         json["margin"] = explanation.statistic - explanation.threshold;
         json["tracked"] = explanation.isTracked;
+        json["offset"] = explanation.offset;
+        if (!analysis.bank.empty())
+            json["model"] = explanation.model == 0 ? "nonManoeuvring" : "manoeuvring";
         json["steps"] = Json::array();
         for (const PathStep &step : explanation.steps) {
             const std::vector<Index> c = analysis.grid().coordinates(space.cellOf(step.state));
@@ -185,11 +212,23 @@ namespace {
                     explanation.statistic > explanation.threshold ? "above" : "below",
                     std::abs(explanation.statistic - explanation.threshold), explanation.isTracked ? ", followed by a tracker" : "");
         std::printf("the best path began %zu frame(s) ago, where its past was worth nothing and it was reset\n", explanation.steps.size() - 1);
-        std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");
-        for (const Json &step : json["steps"])
-            std::printf("%12.6g %14.8g %8d %10.4f %10.4f %10.4f %12.4f\n", step["t"].get<double>(), step["position"].back().get<double>(),
-                        step["rates"].back().get<int>(), step["llr"].get<double>(), step["ln_transition"].get<double>(),
+        if (axes.size() == 1)
+            std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");
+        else {
+            std::printf("%12s", "t (s)");
+            for (const Axis &axis : axes)
+                std::printf(" %14s %8s", (axis.name + " (" + axis.unit + ")").c_str(), "rate");
+            std::printf(" %10s %10s %10s %12s\n", "llr", "ln P", "ln K", "sum");
+        }
+        for (const Json &step : json["steps"]) {
+            std::printf("%12.6g", step["t"].get<double>());
+            for (std::size_t axis = 0; axis < axes.size(); ++axis)
+                std::printf(" %14.8g %8d", step["position"][axis].get<double>(), step["rates"][axis].get<int>());
+            std::printf(" %10.4f %10.4f %10.4f %12.4f\n", step["llr"].get<double>(), step["ln_transition"].get<double>(),
                         step["lnK"].get<double>(), step["sum"].get<double>());
+        }
+        if (explanation.offset != 0.0)
+            std::printf("and %.4f nat that all states are given alike: K of the frame, and the model's share\n", explanation.offset);
     }
 
     struct StatisticOptions {
@@ -269,6 +308,9 @@ void addDetect(CLI::App &app, Common &common)
     command->add_option("--model", options->model, "JSON of a model for the frames");
     command->add_option("--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
     command->add_option("--tracks", options->tracks, "Write the tracks: .csv or .json");
+    command->add_option("--conventional", options->conventional,
+                        "Of pings: write the events of the conventional detector beside it (one ping's threshold, then "
+                        "M of N in a gate), like --events");
     command->add_option("--statistic", options->statistic, "Write the statistic: .npy, float32, shape (frames, cells…)");
     command->add_flag("--summary", options->summary, "Say in numbers what was found");
     command->callback([options, &common] { detect(*options, common); });
@@ -291,19 +333,40 @@ void addExplain(CLI::App &app, Common &common)
     struct Options {
         AnalysisOptions analysis;
         double seconds = 0.0;
-        double hz = 0.0;
+        std::optional<double> hz;
+        std::optional<double> range;
+        std::optional<double> bearing;
+        std::string grid;
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("explain", "Why a cell has the statistic it has: the terms of the best path that ends there");
     options->analysis.addTo(*command);
     command->add_option("--time", options->seconds, "Time, s")->required();
-    command->add_option("--frequency", options->hz, "Frequency, Hz")->required();
+    command->add_option("--frequency", options->hz, "Frequency, Hz");
+    command->add_option("--range", options->range, "Of pings: range, in the unit of its axis");
+    command->add_option("--bearing", options->bearing, "Of pings: bearing, degrees");
+    command->add_option("--grid", options->grid, "Of a stack of frames (FILE.npy): JSON that names its axes");
     command->add_flag("--json", options->json, "As JSON");
     command->callback([options, &common] {
         const RunContext context = common.context();
-        const auto analysis = analyse(options->analysis.recording(), options->analysis.settings(), context.part(0.0, 0.5));
-        printExplanation(explain(*analysis, options->seconds, {options->hz}, context.part(0.5, 1.0)), *analysis, options->json);
+        NormalisedFramesPointer frames = openPings(options->analysis.file);
+        if (options->analysis.file.ends_with(".npy"))
+            frames = readFrames(options->analysis.file, options->grid);
+        std::vector<double> position;
+        if (frames && frames->grid().axes.size() > 1) {
+            if (!options->range || !options->bearing)
+                throw Error("explain", "a cell of pings is named by --range and --bearing");
+            position = {*options->range, *options->bearing};
+        } else {
+            if (!options->hz)
+                throw Error("explain", "needs --frequency; a cell of pings is named by --range and --bearing");
+            position = {*options->hz};
+        }
+        const AnalysisSettings settings = options->analysis.settings();
+        const auto analysis = frames ? analyse(frames, settings, context.part(0.0, 0.5))
+                                     : analyse(options->analysis.recording(), settings, context.part(0.0, 0.5));
+        printExplanation(explain(*analysis, options->seconds, position, context.part(0.5, 1.0)), *analysis, options->json);
     });
 }
 

@@ -150,6 +150,7 @@ const std::vector<Field<AnalysisSettings>> &AnalysisSettings::fields()
         appendDetectors(all, std::make_index_sequence<detectorNames.size()>());
         append(all, "decide", &S::decide);
         append(all, "track", &S::track);
+        append(all, "conventional", &S::conventional);
         return all;
     }();
     return table;
@@ -191,6 +192,8 @@ void checkSettings(const AnalysisSettings &settings)
             checkFieldValue(f, *value);
     if (settings.model.lowestSlope > settings.model.highestSlope)
         throw Error("model.lowestSlope = " + std::to_string(settings.model.lowestSlope), "must not exceed model.highestSlope");
+    if (settings.conventional.hits > settings.conventional.window)
+        throw Error("conventional.hits = " + std::to_string(settings.conventional.hits), "must not exceed conventional.window");
     KinematicAxis axis;
     axis.cells = 1;
     axis.firstRate = settings.model.lowestSlope;

@@ -5,6 +5,7 @@
 #include "model/MarkovModel.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Spectrogram.h"
+#include "track/ConventionalTracker.h"
 #include "track/HmmTracker.h"
 
 #include <array>
@@ -65,6 +66,7 @@ struct AnalysisSettings {
     DetectorSettings detector;
     DecideSettings decide;
     TrackSettings track;
+    ConventionalSettings conventional; ///< beside the detector, on frames of several axes
 
     /// The table of all settings, "stage.name", in the order of the chain.
     static const std::vector<Field<AnalysisSettings>> &fields();

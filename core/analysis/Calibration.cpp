@@ -520,6 +520,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     bare.selection = {};
     bare.spectrogram = {};
     bare.noise = {};
+    bare.conventional = {};
     return kept(nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
                 [&] { return calibrateOn(segment, segments, model, settings, context); });
 }

@@ -3,6 +3,7 @@
 #include "analysis/chain.h"
 #include "analysis/regulation.h"
 #include "spectrum/NoiseNormaliser.h"
+#include "spectrum/pictureCuts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,13 +69,23 @@ namespace {
             counts[static_cast<std::size_t>(std::clamp(4.0f * (value + 4.0f), 0.0f, last))] += 1.0;
     }
 
+    std::vector<std::shared_ptr<const PeakPyramid>> alongEachAxis(const PeakPyramid &picture, const Grid &grid)
+    {
+        std::vector<std::shared_ptr<const PeakPyramid>> result;
+        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
+            result.push_back(pictureAlong(picture, grid, axis));
+        return result;
+    }
+
     /// Streams the frames through the chain and fills in the rest of the analysis.
     void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink)
     {
         const NormalisedFrames &frames = *analysis.frames;
         const Index cells = frames.grid().size();
         const Index frameCount = frames.time().count;
+        const bool hasSeveralAxes = frames.grid().axes.size() > 1;
         const auto chain = makeChain(analysis);
+        ConventionalTracker conventional(frames.grid(), analysis.settings.conventional);
 
         std::shared_ptr<PeakPyramid> input;
         if (!analysis.input)
@@ -94,6 +105,10 @@ namespace {
                              std::span(scores).subspan(offset, static_cast<std::size_t>(cells)));
                 analysis.lnK.push_back(static_cast<float>(chain->detector().regulation().lnK));
                 analysis.continuedFraction.push_back(static_cast<float>(chain->detector().regulation().continuedFraction));
+                if (!hasSeveralAxes)
+                    continue;
+                analysis.inhibitions.push_back(chain->inhibitions());
+                conventional.update(first + i, std::span(block).subspan(offset, static_cast<std::size_t>(cells)));
             }
             countValues(scores, analysis.statisticCounts);
             if (input)
@@ -109,7 +124,13 @@ namespace {
         }
         statistic->finish();
         analysis.statistic = statistic;
+        if (hasSeveralAxes) {
+            if (analysis.inputAlong.empty())
+                analysis.inputAlong = alongEachAxis(*analysis.input, frames.grid());
+            analysis.statisticAlong = alongEachAxis(*statistic, frames.grid());
+        }
         analysis.tracks = chain->joinedTracks();
+        analysis.conventional = conventional.tracks();
     }
 
     /// Least-squares slope of the track's position along an axis against time, per second.
@@ -144,10 +165,15 @@ namespace {
 
 std::vector<Event> events(const Analysis &analysis)
 {
+    return events(analysis, analysis.tracks);
+}
+
+std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tracks)
+{
     const Axis &time = analysis.time();
     const Grid &grid = analysis.grid();
     std::vector<Event> result;
-    for (const Track &track : analysis.tracks) {
+    for (const Track &track : tracks) {
         Event event;
         event.id = track.id;
         event.onsetSeconds = time.value(static_cast<double>(track.onsetFrame));
@@ -231,37 +257,51 @@ namespace {
             member.offset = member.calibration->thresholdForPfa(pfa) - analysis.calibration->thresholdForPfa(pfa);
     }
 
-    void regulateAndRun(Analysis &analysis, const RunContext &context, const StatisticSink &sink)
+    void regulateAndRun(Analysis &analysis, const RunContext &context, const Analysis *previous, const StatisticSink &sink)
     {
-        if (const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector))
+        const bool isSame = previous && previous->frames == analysis.frames;
+        if (isSame) {
+            analysis.input = previous->input;
+            analysis.inputAlong = previous->inputAlong;
+        }
+        if (isSame && previous->settings.model == analysis.settings.model && previous->settings.detector == analysis.settings.detector)
+            analysis.lnKBand = previous->lnKBand;
+        else if (const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector))
             analysis.lnKBand = regulationBand(analysis.model, resetRule(*smd, analysis.calibration->lnK), context.part(0.0, 0.1));
         run(analysis, context.part(0.1, 1.0), sink);
+    }
+
+    std::shared_ptr<const Analysis> analyseOneModel(NormalisedFramesPointer frames, const MarkovModel &model,
+                                                    const AnalysisSettings &settings, const RunContext &context,
+                                                    const Analysis *previous, const StatisticSink &sink)
+    {
+        const auto analysis = analysisOf(std::move(frames), model, settings);
+        analysis->calibration = calibrateOnIndependentCells(model, settings, context.part(0.0, 0.5));
+        analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
+        regulateAndRun(*analysis, context.part(0.5, 1.0), previous, sink);
+        return analysis;
     }
 
 } // namespace
 
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings, const RunContext &context,
-                                        const StatisticSink &sink)
+                                        const Analysis *previous, const StatisticSink &sink)
 {
     const std::vector<MarkovModel> models = makeModels(settings.model, frames->grid());
     if (models.size() == 1)
-        return analyse(std::move(frames), models.front(), settings, context, sink);
+        return analyseOneModel(std::move(frames), models.front(), settings, context, previous, sink);
     if (!std::holds_alternative<SmdSettings>(settings.detector))
         throw Error("model.motion = bank", "is for the sequential Markov detector; choose detector.kind = smd");
     const auto analysis = analysisOf(std::move(frames), models.front(), settings);
     calibrateBank(*analysis, models, context.part(0.0, 0.5));
-    regulateAndRun(*analysis, context.part(0.5, 1.0), sink);
+    regulateAndRun(*analysis, context.part(0.5, 1.0), previous, sink);
     return analysis;
 }
 
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,
                                         const RunContext &context, const StatisticSink &sink)
 {
-    const auto analysis = analysisOf(std::move(frames), model, settings);
-    analysis->calibration = calibrateOnIndependentCells(model, settings, context.part(0.0, 0.5));
-    analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
-    regulateAndRun(*analysis, context.part(0.5, 1.0), sink);
-    return analysis;
+    return analyseOneModel(std::move(frames), model, settings, context, nullptr, sink);
 }
 
 } // namespace faintline

@@ -7,6 +7,7 @@
 #include "recording/Recording.h"
 #include "spectrum/NormalisedFrames.h"
 #include "spectrum/PeakPyramid.h"
+#include "track/DetectionChain.h"
 #include "track/Track.h"
 
 #include <functional>
@@ -37,7 +38,12 @@ struct Analysis {
     double cellFramesPerHour = 0.0;       ///< cells × frames of an hour of this recording
     std::shared_ptr<const PeakPyramid> input;     ///< y in dB
     std::shared_ptr<const PeakPyramid> statistic; ///< D in nats
+    /// Of frames on several axes: both pictures along one axis each, the maximum over the others. Of lines: empty.
+    std::vector<std::shared_ptr<const PeakPyramid>> inputAlong, statisticAlong;
+    /// Of frames on several axes: what was kept from the detector in each of them, and for which track.
+    std::vector<std::vector<DetectionChain::Inhibition>> inhibitions;
     std::vector<Track> tracks;            ///< ordered by detection, then cell
+    std::vector<Track> conventional;      ///< of frames on several axes: what thresholding each frame by itself would have found
     std::vector<float> lnK;               ///< per frame
     NoiseBand lnKBand;                    ///< where it stays on noise, under a law that regulates it (regulation.h)
     std::vector<float> continuedFraction; ///< per frame
@@ -64,6 +70,8 @@ struct Event {
 
 /// The events of an analysis at its threshold, ordered by onset, then frequency.
 std::vector<Event> events(const Analysis &analysis);
+/// The same of other tracks on its frames, such as the conventional ones.
+std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tracks);
 
 /// Called with every block of frames' statistic, in order: first frame, frames × cells values.
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
@@ -76,9 +84,10 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
                                         const StatisticSink &sink = {});
 
-/// The same from ready-made frames on any grid, with the settings' own model or bank of models …
+/// The same from ready-made frames on any grid, with the settings' own model or bank of models (`previous` lends its picture of the
+/// input and the band of ln K) …
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings, const RunContext &context = {},
-                                        const StatisticSink &sink = {});
+                                        const Analysis *previous = nullptr, const StatisticSink &sink = {});
 
 /// … or with a model of one's own.
 std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,

@@ -2,6 +2,7 @@
 
 #include "analysis/chain.h"
 #include "base/Error.h"
+#include "detect/Smd.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,13 @@ namespace {
         return chain;
     }
 
+    /// What a model's scores are raised by in the chain's newest frame to be the statistic.
+    double offsetOf(const Analysis &analysis, const DetectionChain &chain, std::size_t model)
+    {
+        const auto *smd = dynamic_cast<const Smd *>(&chain.detector().member(model));
+        return (smd ? smd->offset() : 0.0) - (analysis.bank.empty() ? 0.0 : analysis.bank[model].offset);
+    }
+
 } // namespace
 
 Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position, const RunContext &context)
@@ -38,7 +46,12 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     for (std::size_t axis = 0; axis < position.size(); ++axis) {
         if (std::isnan(position[axis]))
             throw Error(analysis.grid().axes[axis].name + " nan", "must be a number");
-        coordinates.push_back(analysis.grid().axes[axis].nearest(position[axis]));
+        const Axis &along = analysis.grid().axes[axis];
+        if (const double at = along.position(position[axis]);
+            !along.cyclic && !(at >= -0.5 && at <= static_cast<double>(along.count) - 0.5))
+            throw Error(along.name + " " + formatNumber(position[axis]) + " " + along.unit,
+                        "must lie in " + formatNumber(along.first) + " … " + formatNumber(along.last()) + " " + along.unit);
+        coordinates.push_back(along.nearest(position[axis]));
     }
     const Index cell = analysis.grid().cell(coordinates);
 
@@ -57,17 +70,21 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     explanation.threshold = analysis.threshold;
     explanation.isTracked = path.isTracked;
     explanation.steps = path.steps;
+    explanation.model = path.model;
+    explanation.offset = offsetOf(detailed, *chain, path.model);
     if (path.isTracked) {
         // Before its tracker was seeded, the path is the detector's own.
         const PathStep seed = path.steps.front();
         const auto before = runTo(detailed, seed.frame, statistic, context.part(0.6, 1.0));
         explanation.steps = before->detectorPathInto(seed.state, path.model);
+        explanation.offset = offsetOf(detailed, *before, path.model);
         explanation.steps.insert(explanation.steps.end(), path.steps.begin() + 1, path.steps.end());
     }
     for (PathStep &step : explanation.steps) {
         explanation.statistic += step.logLikelihoodRatio + step.lnTransition + step.lnK;
         step.score = explanation.statistic;
     }
+    explanation.statistic += explanation.offset;
     return explanation;
 }
 

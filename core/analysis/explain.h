@@ -12,9 +12,11 @@ struct Explanation {
     double seconds = 0.0;
     std::vector<double> position;  ///< of the cell, one per axis
     std::vector<PathStep> steps;   ///< from the last reset on
-    double statistic = 0.0;        ///< the sum of all terms, nat above background
+    double offset = 0.0;           ///< added to all of the detector's scores: K(t) under the mean law, less a bank's o_i
+    double statistic = 0.0;        ///< the sum of all terms and the offset, nat above background
     double displayed = 0.0;        ///< what the analysis shows there: the same, in single precision
     double threshold = 0.0;
+    std::size_t model = 0;         ///< of a bank, the one whose path it is: it numbers the steps' states
     bool isTracked = false;        ///< a tracker follows this cell; its path runs on without reset
 };
 

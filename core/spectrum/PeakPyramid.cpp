@@ -68,9 +68,14 @@ void PeakPyramid::append(std::span<const float> frames)
     std::vector<std::uint8_t> row(static_cast<std::size_t>(m_cells));
     for (std::size_t offset = 0; offset < frames.size(); offset += row.size()) {
         m_scale.encode(frames.subspan(offset, row.size()), row);
-        ++m_frameCount;
-        push(0, row);
+        appendBytes(row);
     }
+}
+
+void PeakPyramid::appendBytes(std::span<const std::uint8_t> frame)
+{
+    ++m_frameCount;
+    push(0, frame);
 }
 
 void PeakPyramid::push(int level, std::span<const std::uint8_t> row)

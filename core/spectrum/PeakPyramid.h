@@ -43,6 +43,8 @@ public:
 
     /// Takes the next frames, in order: whole rows of `cells` values.
     void append(std::span<const float> frames);
+    /// The same, one frame that is bytes of the scale already.
+    void appendBytes(std::span<const std::uint8_t> frame);
 
     /// Closes the last, incomplete rows. Nothing may be appended afterwards.
     void finish();

@@ -342,6 +342,22 @@ void HmmTracker::paint(std::span<float> statistic) const
     }
 }
 
+void HmmTracker::paintStates(std::span<float> scores) const
+{
+    const TrackerModel &model = *m_model;
+    const Slice &slice = m_history.back();
+    for (Index cell = 0; cell < model.window.cellCount(); ++cell) {
+        const Index global = model.windowCell(slice.centre, cell);
+        if (global < 0)
+            continue;
+        for (Index plane = 0; plane < model.window.planeCount(); ++plane) {
+            float &value = scores[static_cast<std::size_t>(plane * model.space.cellCount() + global)];
+            value = std::max(value, slice.scores[static_cast<std::size_t>(plane * model.window.cellCount() + cell)]
+                                        + static_cast<float>(slice.offset));
+        }
+    }
+}
+
 Track HmmTracker::finish(bool isOpen)
 {
     commit(m_history.size());

@@ -92,6 +92,8 @@ public:
 
     /// Raises `statistic` to this track's score in every cell of its window.
     void paint(std::span<float> statistic) const;
+    /// The same, state by state, to the scores of all states (StateSpace order).
+    void paintStates(std::span<float> scores) const;
 
     /// Score of the best state in a cell, -∞ outside of the window; and that state.
     double scoreAt(Index cell, Index *state = nullptr) const;

@@ -18,6 +18,13 @@ void writeFile(const QString &path, const QByteArray &bytes)
     file.write(bytes);
 }
 
+Session sessionOf(const QString &recording)
+{
+    Session session;
+    session.source.path = recording;
+    return session;
+}
+
 /// What reading says, "" if nothing.
 std::string refusal(const QString &path)
 {
@@ -75,7 +82,7 @@ private slots:
     {
         QVERIFY(QDir(m_folder.path()).mkpath("old"));
         writeFile(path("old/a.raw"), "0123");
-        writeSession(path("old/s.faintline"), {{path("old/a.raw"), {}, {}}, {}, {}, {}});
+        writeSession(path("old/s.faintline"), sessionOf(path("old/a.raw")));
         QVERIFY(QDir(m_folder.path()).rename("old", "new"));
         QCOMPARE(readSession(path("new/s.faintline")).source.path, path("new/a.raw"));
     }
@@ -83,7 +90,7 @@ private slots:
     void noticesAnotherRecording()
     {
         writeFile(path("b.raw"), "0123");
-        writeSession(path("b.faintline"), {{path("b.raw"), {}, {}}, {}, {}, {}});
+        writeSession(path("b.faintline"), sessionOf(path("b.raw")));
         writeFile(path("b.raw"), "0124");
         QVERIFY(!recordingMismatch(readSession(path("b.faintline"))).isEmpty());
     }

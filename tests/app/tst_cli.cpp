@@ -401,6 +401,25 @@ void tst_cli::pingsFromAScene()
     for (const auto &event : numbersOf(content("a.csv"))) // 20 m and 9° in 40 s
         isFound = isFound || (event[8] == 1.0 && std::abs(event[10] - 0.5) < 0.1 && std::abs(event[11] - 0.225) < 0.1);
     QVERIFY2(isFound, content("a.csv").data());
+    // The same cell is explained of the scene and of its frames.
+    const QStringList cell{"--time", "960", "--range", "3400", "--bearing", "0", "--json"};
+    const Outcome why = run(m_folder, QStringList{"explain", "pings.json"} + cell + settings);
+    QCOMPARE(why.err, QByteArray());
+    const Json json = parseJson(why.out.toStdString(), "explain");
+    double sum = json["offset"].get<double>();
+    for (const Json &step : json["steps"])
+        sum += step["llr"].get<double>() + step["ln_transition"].get<double>() + step["lnK"].get<double>();
+    QVERIFY(std::abs(sum - json["statistic"].get<double>()) < 1e-6);
+    QVERIFY(std::abs(sum - json["displayed"].get<double>()) < 1e-3);
+    QCOMPARE(json["position"].size(), std::size_t(2));
+    const Outcome unnamed = run(m_folder, QStringList{"explain", "pings.json", "--time", "960", "--frequency", "3400"} + settings);
+    QCOMPARE(unnamed.code, 2);
+    QVERIFY(unnamed.err.contains("--range and --bearing"));
+    // Beside it, the conventional detector.
+    QCOMPARE(run(m_folder, QStringList{"detect", "pings.json", "--conventional", "c.csv"} + settings).code, 0);
+    QVERIFY(content("c.csv").startsWith("event,t_onset,t_detect,t_end,range,bearing,"));
+    QVERIFY(content("c.csv").count('\n') >= 2); // 12 dB show in a ping by themselves
+
     const Outcome wrong = run(m_folder, {"simulate", "pings.json", "--out", "P.wav"});
     QCOMPARE(wrong.code, 2);
     QVERIFY(wrong.err.contains("P.wav: pings are written as frames"));

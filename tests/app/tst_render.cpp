@@ -123,6 +123,29 @@ private slots:
         QVERIFY(bytesOf(path("t1.png")) != bytesOf(path("t3.png")));
     }
 
+    void viewsOfPings()
+    {
+        QFile file(path("pings.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"kind": "pings", "pings": 16, "rangeCells": 80, "beams": 6, "targets": [{"snrDb": 12, "rangeMetres": 3200,
+                       "bearingDegrees": 120, "appearPing": 3}]})");
+        file.close();
+        const QStringList views{"window", "input", "output", "map", "polar", "histories", "slice"};
+        const QStringList nineRates{"--set", "model.motion=slopes", "--set", "model.lowestSlope=-1", "--set", "model.highestSlope=1"};
+        for (const QString &name : {QString("p"), QString("q")}) {
+            const Outcome outcome =
+                run(QStringList{"render", path("pings.json"), "--out", path(name + ".png"), "--view", views.join(','),
+                                "--size", "1280x800", "--time", "400", "--range", "3200", "--bearing", "120"}
+                    + nineRates);
+            QCOMPARE(outcome.error, QByteArray());
+        }
+        for (const QString &view : views) {
+            QCOMPARE(QImage(path("p-" + view + ".png")).size(), QSize(1280, 800));
+            QVERIFY2(bytesOf(path("p-" + view + ".png")) == bytesOf(path("q-" + view + ".png")), qPrintable(view));
+        }
+        QVERIFY(bytesOf(path("p-map.png")) != bytesOf(path("p-polar.png")));
+    }
+
     void mistakesAreOneLineAndTwo_data()
     {
         QTest::addColumn<QStringList>("arguments");
@@ -134,6 +157,7 @@ private slots:
         QTest::newRow("raw without its rate") << QStringList{"render", path("raw.cf32"), "--out", out} << "--raw-rate";
         QTest::newRow("no out") << QStringList{"render", scene} << "--out";
         QTest::newRow("view") << QStringList{"render", scene, "--out", out, "--view", "moon"} << "moon";
+        QTest::newRow("view of pings") << QStringList{"render", scene, "--out", out, "--view", "polar"} << "polar";
         QTest::newRow("size") << QStringList{"render", scene, "--out", out, "--size", "big"} << "--size";
         QTest::newRow("small") << QStringList{"render", scene, "--out", out, "--size", "400x300"} << "--size";
         QTest::newRow("theme") << QStringList{"render", scene, "--out", out, "--theme", "pink"} << "theme";

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "app/Bench.h"
+#include "app/Document.h"
+#include "widgets/PingMarks.h"
+#include "widgets/PingViewports.h"
+#include "widgets/WaterfallView.h"
+
+#include <QTimer>
+
+class QLabel;
+class QSlider;
+class QSplitter;
+
+namespace faintline {
+
+class PingMap;
+class StripPlot;
+
+/// A sonar's pings: input and statistic of one ping as maps of range × bearing, range and bearing of the tracks against time, ln K below.
+///
+/// The ping shown is the one the cursor stands on. All pictures have one range, one bearing, one time (PingViewports).
+/// Keys: J and L step, Space plays, Shift+Space plays backwards, P looks from above.
+class PingBench : public Bench
+{
+    Q_OBJECT
+
+public:
+    explicit PingBench(Document &document, QWidget *parent = nullptr);
+
+    PingMap *input() const { return m_input; }
+    PingMap *output() const { return m_output; }
+    WaterfallView *rangeHistory() const { return m_rangeHistory; }
+    WaterfallView *bearingHistory() const { return m_bearingHistory; }
+    QWidget *histories() const;
+    QWidget *maps() const;
+    PingViewports &viewports() { return m_viewports; }
+
+    Index ping() const; ///< the one shown
+    QString reading() const;
+
+    void setEmptySentence(const QString &sentence) override;
+    ViewState viewState() const override;
+    void restore(const ViewState &view) override;
+    void cycleOrientation() override;
+    void cycleColourMap() override;
+    void setAutomaticRange() override;
+
+public slots:
+    void selectEvent(int id) override;
+    void stepFrames(int frames) override;
+    void setPlaying(bool isPlaying) override;
+    void setPlayingBackward(bool isPlaying);
+    void setPolar(bool isPolar);
+    void showPing(faintline::Index ping);
+
+private:
+    QWidget *buildBar();
+    void linkViews();
+    std::vector<WaterfallView *> views() const;
+    void showAnalysis();
+    void showRegulation();
+    void showThreshold();
+    void showEvents();
+    void followExtents();
+    void placeCursor();
+    void followPlace();
+    void showMarks();
+    void read(double range, double bearing);
+    void readCursor();
+    void startPlaying(int step);
+    void play();
+
+    Document &m_document;
+    PingViewports m_viewports;
+    PingMap *m_input;
+    PingMap *m_output;
+    WaterfallView *m_rangeHistory;
+    WaterfallView *m_bearingHistory;
+    StripPlot *m_regulation;
+    QLabel *m_dragged;  ///< a warning where signals drag K down
+    QSlider *m_slider;
+    QLabel *m_reading;
+    QSplitter *m_maps;
+    QSplitter *m_histories;
+    QSplitter *m_rows;
+    PingMarks m_marks;
+    Index m_shownPing = -1; ///< whose pictures the maps show; -1: none
+    int m_playStep = 1;
+    QTimer m_player;
+    bool m_isFirstAnalysis = true; ///< of what is open
+    bool m_isFollowing = false;
+};
+
+} // namespace faintline

@@ -1,0 +1,136 @@
+#include "analysis/StateReplay.h"
+
+#include "analysis/chain.h"
+#include "detect/Smd.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    const MarkovModel &modelOf(const Analysis &analysis, std::size_t model)
+    {
+        return analysis.bank.empty() ? analysis.model : analysis.bank[model].model;
+    }
+
+} // namespace
+
+StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget) : m_analysis(std::move(analysis))
+{
+    const std::size_t frameBytes = sizeof(float) * static_cast<std::size_t>(m_analysis->model.space.stateCount());
+    m_mostKept = std::max<std::size_t>(1, byteBudget / frameBytes);
+}
+
+std::shared_ptr<const StateScores> StateReplay::at(Index frame, std::size_t model, const RunContext &context)
+{
+    frame = std::clamp<Index>(frame, 0, m_analysis->time().count - 1);
+    const auto kept = std::find_if(m_kept.begin(), m_kept.end(),
+                                   [&](const auto &one) { return one->frame == frame && one->model == model; });
+    if (kept != m_kept.end())
+        return *kept;
+    if (!m_chain || m_next > frame) {
+        m_chain = makeChain(*m_analysis);
+        m_next = 0;
+    }
+    std::vector<float> y(static_cast<std::size_t>(m_analysis->grid().size()));
+    std::vector<float> statistic(y.size());
+    while (m_next <= frame) {
+        context.checkpoint(static_cast<double>(m_next) / static_cast<double>(frame + 1), "going through it again");
+        m_analysis->frames->read(m_next, 1, y);
+        m_chain->update(m_next, y, statistic);
+        if (frame - m_next < static_cast<Index>(m_mostKept)) {
+            m_kept.push_back(take(m_next, model));
+            if (m_kept.size() > m_mostKept)
+                m_kept.pop_front();
+        }
+        ++m_next;
+    }
+    return m_kept.back();
+}
+
+std::shared_ptr<const StateScores> StateReplay::take(Index frame, std::size_t model) const
+{
+    auto result = std::make_shared<StateScores>();
+    result->frame = frame;
+    result->model = model;
+    const Detector &detector = m_chain->detector().member(model);
+    result->values.assign(detector.scores().begin(), detector.scores().end());
+    const auto *smd = dynamic_cast<const Smd *>(&detector);
+    if (const auto offset = static_cast<float>(smd ? smd->offset() : 0.0); offset != 0.0f)
+        for (float &value : result->values)
+            value += offset;
+    if (const auto shift = static_cast<float>(m_analysis->bank.empty() ? 0.0 : m_analysis->bank[model].offset); shift != 0.0f)
+        for (float &value : result->values)
+            value -= shift;
+    for (const HmmTracker &tracker : m_chain->trackers())
+        if (tracker.track().model == model)
+            tracker.paintStates(result->values);
+    return result;
+}
+
+std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model)
+{
+    std::vector<Axis> axes = analysis.grid().axes;
+    const std::vector<KinematicAxis> &kinematic = modelOf(analysis, model).space.axes();
+    for (std::size_t i = 0; i < kinematic.size(); ++i) {
+        const Axis &axis = analysis.grid().axes[i];
+        const double rate = axis.step / analysis.time().step;
+        axes.push_back({axis.name + " rate", axis.unit + "/s", kinematic[i].firstRate * rate, rate, kinematic[i].rateCount, false});
+    }
+    return axes;
+}
+
+std::vector<float> cutStates(const StateSpace &space, std::span<const float> scores, const StateSlice &slice)
+{
+    // Axes in the order of memory: rates first, then cells.
+    const std::size_t count = space.axes().size();
+    struct Along {
+        Index size;
+        Index stride;
+        Index step; ///< in the picture
+        std::optional<Index> place;
+    };
+    std::vector<Along> along(2 * count);
+    std::vector<Index> sizes(2 * count); // by the number of the state's axis
+    for (std::size_t i = 0; i < count; ++i) {
+        sizes[i] = space.axes()[i].cells;
+        sizes[count + i] = space.axes()[i].rateCount;
+    }
+    Index stride = 1;
+    for (std::size_t memory = 2 * count; memory-- > 0;) {
+        const std::size_t axis = memory < count ? memory + count : memory - count;
+        const Index step = axis == slice.rows ? sizes[slice.columns] : axis == slice.columns ? 1 : 0;
+        along[memory] = {sizes[axis], stride, step, step == 0 ? slice.places[axis] : std::nullopt};
+        stride *= sizes[axis];
+    }
+    std::vector<float> picture(static_cast<std::size_t>(sizes[slice.rows] * sizes[slice.columns]), -std::numeric_limits<float>::infinity());
+    const auto descend = [&](auto &&self, std::size_t memory, Index state, Index pixel) -> void {
+        if (memory == along.size()) {
+            float &value = picture[static_cast<std::size_t>(pixel)];
+            value = std::max(value, scores[static_cast<std::size_t>(state)]);
+            return;
+        }
+        const Along &axis = along[memory];
+        if (axis.place)
+            return self(self, memory + 1, state + *axis.place * axis.stride, pixel);
+        for (Index i = 0; i < axis.size; ++i)
+            self(self, memory + 1, state + i * axis.stride, pixel + i * axis.step);
+    };
+    descend(descend, 0, 0, 0);
+    return picture;
+}
+
+std::vector<Index> bestRates(const StateSpace &space, std::span<const float> scores, Index cell)
+{
+    Index best = 0;
+    for (Index plane = 1; plane < space.planeCount(); ++plane)
+        if (scores[static_cast<std::size_t>(plane * space.cellCount() + cell)]
+            > scores[static_cast<std::size_t>(best * space.cellCount() + cell)])
+            best = plane;
+    const StateSpace::Coordinates coordinates = space.coordinates(best * space.cellCount() + cell);
+    return {coordinates.rates.begin(), coordinates.rates.end()};
+}
+
+} // namespace faintline

@@ -1,0 +1,131 @@
+#include "track/ConventionalTracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace faintline {
+
+const std::vector<Field<ConventionalSettings>> &ConventionalSettings::fields()
+{
+    using S = ConventionalSettings;
+    static const std::vector<Field<S>> table{
+        field(&S::hitThreshold, "hitThreshold", "× noise", 0.0, 1e6,
+              "Power above which a cell of one ping is a hit of the conventional detector."),
+        field(&S::hits, "hits", "pings", 1.0, 1000.0, "M: pings with a hit that make a conventional track."),
+        field(&S::window, "window", "pings", 1.0, 1000.0, "N: the latest pings among which these must be."),
+        field(&S::fastestCells, "fastestCells", "cells/ping", 0.0, 1e5,
+              "Largest speed the gate admits along the range."),
+        field(&S::fastestAcross, "fastestAcross", "cells/ping", 0.0, 1e5,
+              "Largest speed the gate admits along the bearing."),
+    };
+    return table;
+}
+
+int ConventionalTracker::Candidate::recentHits() const
+{
+    return static_cast<int>(std::count(recent.begin(), recent.end(), true));
+}
+
+ConventionalTracker::ConventionalTracker(const Grid &grid, const ConventionalSettings &settings) : m_grid(grid), m_settings(settings) {}
+
+bool ConventionalTracker::isInGate(const TrackPoint &from, Index frame, Index cell) const
+{
+    const auto frames = static_cast<double>(frame - from.frame);
+    const std::vector<Index> a = m_grid.coordinates(from.cell);
+    const std::vector<Index> b = m_grid.coordinates(cell);
+    for (std::size_t axis = 0; axis < a.size(); ++axis) {
+        Index distance = std::abs(a[axis] - b[axis]);
+        if (m_grid.axes[axis].cyclic)
+            distance = std::min(distance, m_grid.axes[axis].count - distance);
+        if (static_cast<double>(distance) > frames * (axis == 0 ? m_settings.fastestCells : m_settings.fastestAcross))
+            return false;
+    }
+    return true;
+}
+
+ConventionalTracker::Hit *ConventionalTracker::strongestInGate(const TrackPoint &from, Index frame, std::vector<Hit> &hits) const
+{
+    Hit *best = nullptr;
+    for (Hit &hit : hits)
+        if (!hit.isTaken && (!best || hit.y > best->y) && isInGate(from, frame, hit.cell))
+            best = &hit;
+    return best;
+}
+
+void ConventionalTracker::take(Candidate &candidate, Index frame, const Hit &hit)
+{
+    Track &track = candidate.track;
+    candidate.powers.push_back(hit.y);
+    std::vector<float> strongest = candidate.powers;
+    std::sort(strongest.begin(), strongest.end(), std::greater<>());
+    strongest.resize(std::min(strongest.size(), static_cast<std::size_t>(m_settings.hits)));
+    track.peakStatistic =
+        std::accumulate(strongest.begin(), strongest.end(), 0.0, [](double sum, float y) { return sum + static_cast<double>(y); })
+        / static_cast<double>(strongest.size());
+    track.points.push_back({frame, hit.cell, 0, static_cast<double>(hit.y)});
+    track.endFrame = frame;
+}
+
+void ConventionalTracker::update(Index frame, std::span<const float> y)
+{
+    std::vector<Hit> hits;
+    for (std::size_t cell = 0; cell < y.size(); ++cell)
+        if (static_cast<double>(y[cell]) > m_settings.hitThreshold)
+            hits.push_back({static_cast<Index>(cell), y[cell], false});
+    for (Candidate &candidate : m_candidates) {
+        Hit *hit = strongestInGate(candidate.track.points.back(), frame, hits);
+        candidate.recent.push_back(hit != nullptr);
+        if (std::ssize(candidate.recent) > m_settings.window)
+            candidate.recent.pop_front();
+        if (hit) {
+            hit->isTaken = true;
+            take(candidate, frame, *hit);
+        }
+    }
+    for (const Hit &hit : hits)
+        if (!hit.isTaken) {
+            Candidate fresh;
+            fresh.track.onsetFrame = frame;
+            fresh.recent.push_back(true);
+            take(fresh, frame, hit);
+            m_candidates.push_back(std::move(fresh));
+        }
+    drop(frame);
+}
+
+void ConventionalTracker::drop(Index frame)
+{
+    std::vector<Candidate> going;
+    for (Candidate &candidate : m_candidates) {
+        const int found = candidate.recentHits();
+        if (!candidate.isReported && found >= m_settings.hits) {
+            candidate.isReported = true;
+            candidate.track.id = m_nextId++;
+            candidate.track.detectFrame = candidate.track.confirmFrame = frame;
+            candidate.track.isConfirmed = true;
+        }
+        // Hits that will still be in the window however long one waits: a young candidate's all, an old one's all but the oldest.
+        const int frames = static_cast<int>(candidate.recent.size());
+        const bool isHopeless = found + (m_settings.window - frames) < m_settings.hits;
+        if (!isHopeless)
+            going.push_back(std::move(candidate));
+        else if (candidate.isReported)
+            m_ended.push_back(std::move(candidate.track));
+    }
+    m_candidates = std::move(going);
+}
+
+std::vector<Track> ConventionalTracker::tracks() const
+{
+    std::vector<Track> all = m_ended;
+    for (const Candidate &candidate : m_candidates)
+        if (candidate.isReported) {
+            all.push_back(candidate.track);
+            all.back().isOpen = true;
+        }
+    std::sort(all.begin(), all.end(), [](const Track &a, const Track &b) { return a.id < b.id; });
+    return all;
+}
+
+} // namespace faintline

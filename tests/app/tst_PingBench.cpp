@@ -1,0 +1,337 @@
+// A sonar's pings in the window: opened, stepped through, saved and reopened.
+
+#include "app/MainWindow.h"
+#include "app/LatencyPanel.h"
+#include "app/PingBench.h"
+#include "app/StateSlicePanel.h"
+#include "app/WelcomePage.h"
+#include "app/Workbench.h"
+#include "exchange/ModelFile.h"
+#include "exchange/NumPy.h"
+#include "spectrum/SimulatedPings.h"
+#include "widgets/ChartPlot.h"
+#include "widgets/EventTable.h"
+#include "widgets/PingMap.h"
+
+#include <qwt_plot_canvas.h>
+
+#include <QCheckBox>
+#include <QMenuBar>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 120000; // ms
+
+/// Small enough to be analysed at once: nine rates a cell.
+const char *const scene = R"({"kind": "pings", "pings": 24, "rangeCells": 120, "beams": 8, "seed": 5, "targets": [
+    {"snrDb": 11, "rangeMetres": 3500, "bearingDegrees": 90, "appearPing": 4, "legs": [{"rangeCellsPerPing": 1}]},
+    {"snrDb": 11, "rangeMetres": 3900, "bearingDegrees": 315, "appearPing": 5, "legs": [{"rangeCellsPerPing": -1, "beamsPerPing": 0.15}]}]})";
+
+AnalysisSettings nineRates(AnalysisSettings settings)
+{
+    settings.model.motion = Motion::Slopes;
+    settings.model.lowestSlope = -1;
+    settings.model.highestSlope = 1;
+    settings.detector = SmdSettings{SmdSettings::Reset::Mean, 0.0};
+    settings.decide.thresholdNats = 22.0;
+    settings.decide.inhibitCells = {2.0, 1.0};
+    settings.decide.forgetCells = {4.0, 1.0};
+    settings.track.windowCells = {4.0, 1.0};
+    return settings;
+}
+
+bool openAndSettle(MainWindow &window, const QString &path, bool isAdjusted = true)
+{
+    QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+    window.open(path, {}, [isAdjusted](AnalysisSettings &settings) {
+        if (isAdjusted)
+            settings = nineRates(settings);
+    });
+    return settled.wait(patience);
+}
+
+} // namespace
+
+class tst_PingBench : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+
+    QString path(const QString &name) const { return m_folder.filePath(name); }
+
+    std::unique_ptr<MainWindow> window() const
+    {
+        auto result = std::make_unique<MainWindow>();
+        result->setAsking(false);
+        result->resize(1400, 900);
+        result->show();
+        result->welcome().stop();
+        return result;
+    }
+
+private slots:
+    void initTestCase()
+    {
+        Theme::apply(Theme::Kind::Light);
+        QFile file(path("pings.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(scene);
+        file.close();
+        const SimulatedPings pings(*sourceOf(path("pings.json")).pings);
+        std::vector<float> y(static_cast<std::size_t>(pings.time().count * pings.grid().size()));
+        pings.read(0, pings.time().count, y);
+        NumPyWriter stack(path("stack.npy").toStdString(), {24, 120, 8});
+        stack.write(y);
+        stack.finish();
+        QFile grid(path("stack.grid.json"));
+        QVERIFY(grid.open(QIODevice::WriteOnly));
+        grid.write(QByteArray::fromStdString(gridFileText({pings.grid(), pings.time()})));
+    }
+
+    void aSceneOpensOnTheBenchOfPings()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(w->pingBench().isVisible());
+        QVERIFY(!w->workbench().isVisible());
+        const Analysis &analysis = *w->document().analysis();
+        QVERIFY(w->document().isCurrent());
+        QVERIFY(analysis.tracks.size() >= 2);
+        QCOMPARE(analysis.inhibitions.size(), std::size_t(24));
+        QCOMPARE(analysis.statisticAlong.size(), std::size_t(2));
+        QVERIFY(w->pingBench().input()->plane()->picture());
+        QVERIFY(w->pingBench().reading().startsWith("ping "));
+        QVERIFY(!w->eventTable().shownIds().empty());
+        QVERIFY(w->windowTitle().contains("pings.json"));
+    }
+
+    void aStackOfFramesIsTheSame()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        const auto simulated = w->document().analysis();
+        QVERIFY(openAndSettle(*w, path("stack.npy")));
+        const auto read = w->document().analysis();
+        QVERIFY(read != simulated);
+        QCOMPARE(read->lnK, simulated->lnK);
+        QCOMPARE(read->tracks.size(), simulated->tracks.size());
+        QCOMPARE(read->grid(), simulated->grid());
+        QVERIFY(w->document().pingTruth().targets.empty()); // a stack knows none
+        QVERIFY(w->pingBench().isVisible());
+    }
+
+    void stepsAndPlaysBothWays()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        PingBench &bench = w->pingBench();
+        bench.showPing(10);
+        QCOMPARE(bench.ping(), Index(10));
+        QTest::keyClick(bench.output()->plane(), Qt::Key_L);
+        QCOMPARE(bench.ping(), Index(11));
+        QTest::keyClick(bench.output()->plane(), Qt::Key_J);
+        QTest::keyClick(bench.output()->plane(), Qt::Key_J);
+        QCOMPARE(bench.ping(), Index(9));
+        auto *slider = bench.findChild<QSlider *>();
+        QCOMPARE(slider->value(), 9);
+        slider->setValue(15);
+        QCOMPARE(bench.ping(), Index(15));
+        QVERIFY(bench.reading().startsWith("ping 16/24"));
+        const auto shown = bench.input()->plane()->picture();
+        bench.stepFrames(-100);
+        QCOMPARE(bench.ping(), Index(0));
+        QVERIFY(bench.input()->plane()->picture() != shown);
+
+        QSignalSpy playing(&bench, &Bench::playingChanged);
+        QTest::keyClick(bench.output()->plane(), Qt::Key_Space);
+        QCOMPARE(playing.count(), 1);
+        QTRY_VERIFY(bench.ping() >= 2);
+        bench.setPlayingBackward(true);
+        QTRY_COMPARE(bench.ping(), Index(0));
+        QTRY_COMPARE(playing.last().first().toBool(), false); // it ends at the first ping
+    }
+
+    void picturesHaveOneCursor()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        PingBench &bench = w->pingBench();
+        bench.showPing(8);
+        const WaterfallView &history = *bench.rangeHistory();
+        const Axis &time = w->document().analysis()->time();
+        const QPointF at = history.positionOf({time.value(17.0), 3800.0});
+        QTest::mouseClick(bench.rangeHistory()->canvas(), Qt::LeftButton, {}, at.toPoint());
+        QCOMPARE(bench.ping(), Index(17));
+        QVERIFY(std::abs(bench.viewports().map().cursor()->seconds - 3800.0) < 20.0);
+    }
+
+    void anEventBringsItsPing()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        const Event event = w->document().shownEvents().front();
+        w->pingBench().selectEvent(event.id);
+        QCOMPARE(w->pingBench().viewports().place().seconds, event.detectSeconds);
+        QCOMPARE(w->pingBench().viewports().place().bearing, event.position[1]);
+        // The cell it was found in is now kept from the detector for it.
+        QVERIFY2(w->pingBench().reading().contains(QStringLiteral("inhibited: track %1").arg(event.id)),
+                 qPrintable(w->pingBench().reading()));
+    }
+
+    void inhibitionCanBeHidden()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        w->pingBench().selectEvent(w->document().shownEvents().front().id);
+        PingMap &map = *w->pingBench().output();
+        const QImage with = map.grab().toImage();
+        for (QCheckBox *box : w->pingBench().findChildren<QCheckBox *>())
+            if (box->text() == "Inhibited")
+                QTest::mouseClick(box, Qt::LeftButton, {}, {8, box->height() / 2});
+        QVERIFY(map.grab().toImage() != with);
+    }
+
+    void theConventionalDetectorCanBeShownBeside()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        PingBench &bench = w->pingBench();
+        const std::vector<Track> &found = w->document().analysis()->conventional;
+        QVERIFY(!found.empty()); // 11 dB show in a ping by themselves
+        bench.showPing(found.front().detectFrame);
+        const QImage without = bench.output()->grab().toImage();
+        for (QCheckBox *box : bench.findChildren<QCheckBox *>())
+            if (box->text() == "Conventional")
+                QTest::mouseClick(box, Qt::LeftButton, {}, {8, box->height() / 2});
+        QVERIFY(bench.output()->grab().toImage() != without);
+    }
+
+    void theBestStatesAreTheStatistic()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        StateSlicePanel &states = w->states();
+        QSignalSpy settled(&states, &StateSlicePanel::settled);
+        const auto wait = [&] { return !states.isBusy() || settled.wait(patience); };
+        w->pingBench().showPing(18);
+        w->showStates();
+        QVERIFY(wait());
+        QVERIFY(states.view()->picture());
+        QCOMPARE(states.view()->picture()->cells(), Index(3)); // range × its three rates
+        QVERIFY2(states.sentence().startsWith("Ping 19:"), qPrintable(states.sentence()));
+
+        states.setAxes(0, 1);
+        states.setMaximised(true);
+        QVERIFY(wait());
+        const PeakPyramid &slice = *states.view()->picture();
+        const PeakPyramid &map = *w->pingBench().output()->plane()->picture();
+        QCOMPARE(slice.rowCount(0), map.rowCount(0));
+        for (Index row = 0; row < map.rowCount(0); ++row)
+            QVERIFY(std::ranges::equal(slice.row(0, row), map.row(0, row)));
+
+        // Backwards, too.
+        w->pingBench().showPing(5);
+        QVERIFY(wait());
+        QVERIFY(std::ranges::equal(states.view()->picture()->row(0, 40), w->pingBench().output()->plane()->picture()->row(0, 40)));
+    }
+
+    void latencyOfTheScene()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("stack.npy")));
+        QVERIFY(w->latency().obstacle().contains("scene"));
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY2(w->latency().obstacle().isEmpty(), qPrintable(w->latency().obstacle()));
+        QSignalSpy settled(&w->latency(), &LatencyPanel::settled);
+        w->latency().start(3);
+        QVERIFY(settled.wait(patience));
+        const Chart &pd = w->latency().pdPlot()->chart();
+        QCOMPARE(pd.curves.size(), std::size_t(2));
+        for (std::size_t i = 1; i < pd.curves[0].points.size(); ++i)
+            QVERIFY(pd.curves[0].points[i].y >= pd.curves[0].points[i - 1].y);
+        QVERIFY(pd.curves[0].points.back().y >= pd.curves[1].points.back().y); // what is confirmed is detected
+        double counted = 0.0;
+        for (const Curve::Point &point : w->latency().histogramPlot()->chart().curves[0].points)
+            counted += point.y;
+        QCOMPARE(counted, 6.0 * pd.curves[0].points.back().y); // two targets, three runs
+        QVERIFY(w->latency().sentence().contains("6 targets in 3 runs"));
+    }
+
+    void aSessionComesBackAsItWas()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        PingBench &bench = w->pingBench();
+        bench.viewports().setPlace({400.0, 3600.0, 90.0});
+        bench.viewports().map().zoomTo({3400.0, 3800.0}, {0.0, 225.0});
+        bench.setPolar(true);
+        Session session;
+        session.source = w->document().source();
+        session.settings = w->document().settings();
+        session.view = bench.viewState();
+        writeSession(path("s.faintline"), session);
+
+        const Session back = readSession(path("s.faintline"));
+        QVERIFY(back.source.pings);
+        QCOMPARE(*back.source.pings, *session.source.pings);
+        QVERIFY(openAndSettle(*w, path("s.faintline"), false));
+        QCOMPARE(bench.viewports().place(), (PingViewports::Place{400.0, 3600.0, 90.0}));
+        QCOMPARE(bench.viewports().map().time(), (Span{3400.0, 3800.0}));
+        QCOMPARE(bench.viewports().map().frequency(), (Span{0.0, 225.0}));
+        QVERIFY(bench.output()->isPolar());
+        QCOMPARE(w->document().settings(), session.settings);
+    }
+
+    void aStackInASessionIsKnownByItsHash()
+    {
+        Session session;
+        session.source = sourceOf(path("stack.npy"));
+        writeSession(path("stack.faintline"), session);
+        const Session back = readSession(path("stack.faintline"));
+        QVERIFY(back.source.isStack());
+        QCOMPARE(back.recordingHash.size(), std::size_t(64));
+        QVERIFY(openSource(back.source).frames);
+    }
+
+    void linesComeBackToTheirBench()
+    {
+        QFile file(path("lines.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
+        file.close();
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openAndSettle(*w, path("lines.json"), false));
+        QVERIFY(w->workbench().isVisible());
+        QVERIFY(!w->pingBench().isVisible());
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(w->pingBench().isVisible());
+    }
+
+    void aMistakeIsALine()
+    {
+        const auto w = window();
+        QStringList failures;
+        connect(&w->controller(), &AnalysisController::failed, this, [&](const Error &error) { failures << error.what(); });
+        QFile file(path("bad.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"kind": "pings", "moons": 1})");
+        file.close();
+        QVERIFY(openAndSettle(*w, path("bad.json")));
+        QCOMPARE(failures.size(), 1);
+        QVERIFY2(failures.first().contains("moons"), qPrintable(failures.first()));
+    }
+};
+
+QTEST_MAIN(tst_PingBench)
+#include "tst_PingBench.moc"
