@@ -1,6 +1,7 @@
 #include "spectrum/NoiseNormaliser.h"
 
 #include "spectrum/levels.h"
+#include "spectrum/medians.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,69 +16,28 @@ namespace {
     constexpr int framesPerBlock = 512; // longer blocks are looked at here and there
     constexpr Index largestBlockCount = 1024;
     constexpr float largestRatio = 1e30f;
-    constexpr Index pivotCells = 5;      // at the band's edges, about which the sequence is continued
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
     constexpr double roundingFloor = 1e-13;
     constexpr double roundingMargin = 4.0; // of ln power: what lies no higher above the floor does not tell the noise's level
 
-    /// Running median of a sequence over ±half, continued by point reflection about its robust ends.
-    std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
-    {
-        const Index n = std::ssize(sequence);
-        half = std::min(half, n - 1);
-        const auto pivot = [&](Index from) {
-            std::vector<float> few;
-            for (Index i = from; i < std::min(from + pivotCells, n); ++i)
-                few.push_back(sequence[static_cast<std::size_t>(i)]);
-            return medianOf(few);
-        };
-        const float low = pivot(0);
-        const float high = pivot(std::max<Index>(0, n - pivotCells));
-        const auto at = [&](Index i) {
-            if (i < 0)
-                return 2.0f * low - sequence[static_cast<std::size_t>(std::min(-i, n - 1))];
-            if (i >= n)
-                return 2.0f * high - sequence[static_cast<std::size_t>(std::max<Index>(0, 2 * (n - 1) - i))];
-            return sequence[static_cast<std::size_t>(i)];
-        };
-        // A sorted window that one value enters and one leaves.
-        std::vector<float> window;
-        for (Index i = -half; i <= half; ++i)
-            window.push_back(at(i));
-        std::sort(window.begin(), window.end());
-        std::vector<float> medians(sequence.size());
-        for (Index i = 0; i < n; ++i) {
-            medians[static_cast<std::size_t>(i)] = window[static_cast<std::size_t>(half)];
-            const auto leaving = std::lower_bound(window.begin(), window.end(), at(i - half));
-            window.erase(leaving);
-            const float entering = at(i + half + 1);
-            window.insert(std::upper_bound(window.begin(), window.end(), entering), entering);
-        }
-        return medians;
-    }
-
     /// Mean of ratio e^(value-median) over the cells within ±half that are not lines; answers which are not.
     std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double mostRatio)
     {
-        const Index n = std::ssize(values);
-        std::vector<double> sum(static_cast<std::size_t>(n) + 1, 0.0);
-        std::vector<double> count(static_cast<std::size_t>(n) + 1, 0.0);
-        std::vector<bool> isNoise(static_cast<std::size_t>(n));
-        for (Index i = 0; i < n; ++i) {
-            const auto k = static_cast<std::size_t>(i);
+        constexpr double fewestCells = 3.0;
+        std::vector<double> ratios(values.size());
+        std::vector<double> weights(values.size());
+        std::vector<bool> isNoise(values.size());
+        for (std::size_t k = 0; k < values.size(); ++k) {
             const double ratio = std::exp(static_cast<double>(values[k] - medians[k]));
             isNoise[k] = ratio < mostRatio && ratio > 1.0 / mostRatio;
-            sum[k + 1] = sum[k] + (isNoise[k] ? ratio : 0.0);
-            count[k + 1] = count[k] + (isNoise[k] ? 1.0 : 0.0);
+            ratios[k] = isNoise[k] ? ratio : 0.0;
+            weights[k] = isNoise[k] ? 1.0 : 0.0;
         }
-        for (Index i = 0; i < n; ++i) {
-            const auto from = static_cast<std::size_t>(std::max<Index>(0, i - half));
-            const auto to = static_cast<std::size_t>(std::min(n, i + half + 1));
-            const double cells = count[to] - count[from];
-            if (cells >= 3.0)
-                medians[static_cast<std::size_t>(i)] += static_cast<float>(std::log((sum[to] - sum[from]) / cells));
-        }
+        std::vector<double> mean(values.size());
+        runningMean(ratios, weights, half, mean, fewestCells);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            medians[k] += static_cast<float>(std::log(mean[k]));
         return isNoise;
     }
 
@@ -91,28 +51,25 @@ namespace {
     BlockBackground blockBackground(const std::vector<float> &frames, Index cells, Index half)
     {
         const Index frameCount = std::ssize(frames) / cells;
-        std::vector<Index> loud;
+        std::vector<float> loud; // the frames that are no digital silence
         double strongest = 0.0;
         for (Index frame = 0; frame < frameCount; ++frame) {
             const auto row = frames.begin() + frame * cells;
             const float peak = *std::max_element(row, row + cells);
             strongest = std::max(strongest, static_cast<double>(peak));
             if (peak > 0.0f)
-                loud.push_back(frame);
+                loud.insert(loud.end(), row, row + cells);
         }
         std::vector<float> ln(static_cast<std::size_t>(cells), silence);
         if (loud.empty())
             return {std::move(ln), std::vector<bool>(static_cast<std::size_t>(cells), true)};
-        const int used = static_cast<int>(loud.size());
+        const auto used = static_cast<int>(std::ssize(loud) / cells);
         const double bias = std::log(medianMean(used));
         const double floor = std::log(strongest * roundingFloor);
-        std::vector<float> column(loud.size());
-        for (Index cell = 0; cell < cells; ++cell) {
-            for (std::size_t i = 0; i < loud.size(); ++i)
-                column[i] = frames[static_cast<std::size_t>(loud[i] * cells + cell)];
-            const double power = static_cast<double>(medianOf(column));
-            ln[static_cast<std::size_t>(cell)] =
-                static_cast<float>(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
+        columnMedians(loud, ln);
+        for (float &value : ln) {
+            const auto power = static_cast<double>(value);
+            value = static_cast<float>(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
         }
         std::vector<float> background = runningMedian(ln, half);
         std::vector<bool> isNoise = refine(ln, background, half, 1.0 + 5.0 / std::sqrt(static_cast<double>(used)));
