@@ -15,9 +15,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index tileCells = 256;      ///< of each plane of a tile
+    constexpr Index tileCells = 1024;     ///< of each plane of a tile
     constexpr Index longTileCells = 2048; ///< the same where a single axis needs no second step
-    constexpr Index slantCells = 512;
+    constexpr Index slantCells = 1024;
+    constexpr Index vectorCells = 32;
     constexpr Index largestWindow = 1 << 19; ///< bytes of the second-level cache
     constexpr Index manyFrames = 16;      ///< gone through at a time: then the memory has become as good as free
     constexpr std::size_t fewest = 4;     ///< rates whose maximum is worth sharing
@@ -48,6 +49,15 @@ namespace {
             addEach(to, departures, n);
         else
             multiplyEach(to, departures, n);
+    }
+
+    /// Asks for memory that the next tile will read or write: planes are many, and pieces of them too short for the processor to foresee.
+    template <bool toWrite>
+    void fetch(const void *begin, Index bytes)
+    {
+        constexpr Index line = 64;
+        for (Index at = 0; at < bytes; at += line)
+            __builtin_prefetch(static_cast<const char *>(begin) + at, toWrite ? 1 : 0, 2);
     }
 
     /// An axis that never moves and loses no probability needs no step of its own.
@@ -139,7 +149,7 @@ Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
     prepareTiles();
     preparePlaces(space, transitionScale);
     const Index windowBytes = 2 * m_groups * (slantCells + 2 * m_reach) * static_cast<Index>(sizeof(Real));
-    m_isSlantable = space.axes().size() == 1 && !m_first.cyclic && m_slideCount == 0 && m_departures.empty() && m_matrices.empty()
+    m_isSlantable = space.axes().size() == 1 && !m_first.cyclic && m_slideRing == 0 && m_departures.empty() && m_matrices.empty()
                     && windowBytes <= largestWindow;
 }
 
@@ -241,13 +251,17 @@ void Recursion<Semiring>::prepareSlides()
             self(self, slide.other);
             made[static_cast<std::size_t>(number - rates)] = true;
             m_slides[rate].push_back(slide);
-            m_slideCount = 2 * rates;
             m_largest.resize(wanted.size());
             m_largest[static_cast<std::size_t>(number - rates)] = slide.largest;
         };
         for (const Shift &shift : replaced[rate])
             make(make, shift.from);
     }
+    if (std::none_of(m_slides.begin(), m_slides.end(), [](const std::vector<Slide> &slides) { return !slides.empty(); }))
+        return;
+    for (std::size_t rate = 0; rate < replaced.size(); ++rate)
+        for (const Shift &shift : m_first.shifts[rate])
+            m_slideRing = std::max(m_slideRing, 2 * std::abs(shift.from - static_cast<Index>(rate)) + 1);
     m_first.shifts = std::move(replaced);
 }
 
@@ -256,6 +270,12 @@ void Recursion<Semiring>::prepareTiles()
 {
     const Index cells = m_planeCount == m_groups && m_later.empty() ? longTileCells : tileCells;
     m_tileRows = std::clamp<Index>(cells / m_first.inner, 1, m_first.cells);
+    // Whole vectors, if that can be had.
+    for (Index rows = m_tileRows; rows > 0 && m_tileRows < m_first.cells; --rows)
+        if (rows * m_first.inner % vectorCells == 0) {
+            m_tileRows = rows;
+            break;
+        }
     // Of a wide law only those sources count that exist for some row of a tile.
     if (4 * m_reach > m_first.cells)
         m_tileRows = std::min<Index>(m_tileRows, 8);
@@ -271,6 +291,11 @@ void Recursion<Semiring>::prepareTiles()
         cut(m_edgeRows, m_first.cells - m_edgeRows);
         cut(m_first.cells - m_edgeRows, m_first.cells);
     }
+    Index slideRows = 0;
+    for (const std::vector<Slide> &slides : m_slides)
+        for (const Slide &s : slides)
+            slideRows = std::max(slideRows, s.largest - s.smallest);
+    m_slotSize = (m_tileRows + slideRows) * m_first.inner;
     if (m_reach > 0) {
         const Index rows = m_edgeRows == m_first.cells ? m_first.cells + 2 * m_reach : 2 * (m_edgeRows + 2 * m_reach);
         m_margins.resize(static_cast<std::size_t>(m_planeCount * rows * m_first.inner));
@@ -353,11 +378,7 @@ typename Recursion<Semiring>::Scratch &Recursion<Semiring>::scratch(std::size_t 
         made->otherTile.resize(planes * size);
         made->copies.resize(copies * size);
         made->lambda.resize(size);
-        Index slideRows = 0;
-        for (const std::vector<Slide> &slides : m_slides)
-            for (const Slide &s : slides)
-                slideRows = std::max(slideRows, s.largest - s.smallest);
-        made->slides.resize(static_cast<std::size_t>(m_slideCount * m_groupSize * (m_tileRows + slideRows) * m_first.inner));
+        made->slides.resize(static_cast<std::size_t>(2 * m_slideRing * m_groupSize * m_slotSize));
         m_scratch.push_back(std::move(made));
     }
     return *m_scratch[number];
@@ -441,14 +462,21 @@ const typename Semiring::Real *Recursion<Semiring>::rowsOf(std::span<const Real>
     return m_margins.data() + (plane * (isWhole ? rows : 2 * rows) + block + firstRow - begin) * m_first.inner;
 }
 
+/// Where a maximum is kept: those of the same rates as many targets on as a law reaches take the place of those of before.
+template <class Semiring>
+Index Recursion<Semiring>::slotOf(Index number, Index group) const
+{
+    const Index level = number / m_groups - 1; // over two, over four
+    return (level * m_slideRing + number % m_groups % m_slideRing) * m_groupSize + group;
+}
+
 /// Makes one maximum for the rows of a tile.
 template <class Semiring>
 void Recursion<Semiring>::slide(std::span<const Real> scores, const Slide &slide, Index group, TileRows rows, Scratch &own) const
 {
     if constexpr (Semiring::logarithmic) {
         const Index inner = m_first.inner;
-        const Index room = std::ssize(own.slides) / (m_slideCount * m_groupSize);
-        const auto place = [&](Index number) { return own.slides.data() + ((number - m_groups) * m_groupSize + group) * room; };
+        const auto place = [&](Index number) { return own.slides.data() + slotOf(number, group) * m_slotSize; };
         const Index firstRow = -slide.largest; // relative to the tile
         const auto from = [&](Index number, Index back) -> const Real * {
             if (number < m_groups)
@@ -468,11 +496,10 @@ void Recursion<Semiring>::listFirst(std::span<const Real> scores, Index rate, In
         own.sources.push_back({rowsOf(scores, rate * m_groupSize + group, rows.first), weightOf<Semiring>(0.0)});
         return;
     }
-    const Index room = m_slideCount > 0 ? std::ssize(own.slides) / (m_slideCount * m_groupSize) : 0;
     for (const Shift &shift : m_first.shifts[static_cast<std::size_t>(rate)]) {
         if (shift.from >= m_groups) {
             const auto number = static_cast<std::size_t>(shift.from - m_groups);
-            const Real *maxima = own.slides.data() + (std::ptrdiff_t(number) * m_groupSize + group) * room;
+            const Real *maxima = own.slides.data() + slotOf(shift.from, group) * m_slotSize;
             own.sources.push_back({maxima + (m_largest[number] - shift.cells) * inner, shift.weight});
         } else if (m_first.cyclic || (rows.first - shift.cells < m_first.cells && rows.first + rows.count - shift.cells > 0)) {
             own.sources.push_back({rowsOf(scores, shift.from * m_groupSize + group, rows.first) - shift.cells * inner, shift.weight});
@@ -515,6 +542,7 @@ template <class Semiring>
 template <class Finish>
 void Recursion<Semiring>::goThroughTile(std::span<const Real> scores, TileRows rows, Scratch &own, Finish finish) const
 {
+    const Index bytes = rows.count * m_first.inner * static_cast<Index>(sizeof(Real));
     own.clearSources();
     for (Index rate = 0; rate < m_groups; ++rate) {
         for (const Slide &s : m_slides[static_cast<std::size_t>(rate)])
@@ -523,6 +551,8 @@ void Recursion<Semiring>::goThroughTile(std::span<const Real> scores, TileRows r
         if (!m_later.empty())
             own.clearSources();
         for (Index group = 0; group < m_groupSize; ++group) {
+            if (const Index ahead = rows.first + rows.count; ahead + rows.count <= m_first.cells)
+                fetch<false>(scores.data() + (rate * m_groupSize + group) * m_planeSize + ahead * m_first.inner, bytes);
             listFirst(scores, rate, group, rows, own);
             own.endTarget();
         }
@@ -574,7 +604,6 @@ void Recursion<Semiring>::advance(std::span<const float> scores, std::span<float
                                   const FrameJoin &join)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
-    std::fill(frames.statistic.begin(), frames.statistic.end(), -std::numeric_limits<float>::infinity());
     scores = prepare(scores);
     fillMargins(scores);
     RunContext context;
@@ -601,9 +630,15 @@ void Recursion<Semiring>::advanceOne(std::span<const float> scores, std::span<fl
         Continued &continued = m_tileContinued[static_cast<std::size_t>(number)];
         goThroughTile(scores, rows, own, [&](Index firstPlane) {
             own.targets.clear();
-            for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k)
-                own.targets.push_back({own.sourcesOf(k), next.data() + (firstPlane + static_cast<Index>(k)) * m_planeSize});
-            const Continued part = finishMax(own.targets, n, 0, firstCell, own.lambda.data(), join, frames.statistic.data() + firstCell);
+            for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
+                float *const to = next.data() + (firstPlane + static_cast<Index>(k)) * m_planeSize;
+                own.targets.push_back({own.sourcesOf(k), to});
+                if (firstCell + 2 * n <= m_planeSize)
+                    fetch<true>(to + firstCell + n, n * static_cast<Index>(sizeof(float)));
+            }
+            FrameJoin joined = join;
+            joined.isFresh = firstPlane == 0;
+            const Continued part = finishMax(own.targets, n, 0, firstCell, own.lambda.data(), joined, frames.statistic.data() + firstCell);
             continued.count += part.count;
             continued.sum += part.sum;
         });
@@ -703,6 +738,8 @@ void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
     own.lambda.resize(static_cast<std::size_t>(std::max(slantCells, std::ssize(own.lambda))));
     own.unused.resize(static_cast<std::size_t>(slantCells));
     float *const windows = own.windows.data() + (16 - reinterpret_cast<std::uintptr_t>(own.windows.data()) / 4 % 16) % 16;
+    FrameJoin join = s.join;
+    join.isFresh = true;
     const auto window = [&](Index time) { return windows + time % 2 * m_groups * stride; };
 
     // From the scores, which begin, as all planes do here, `reach` cells before the first cell that is asked of them …
@@ -754,7 +791,7 @@ void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
                         continue;
                     float *const statistic = isOwn ? s.frames.statistic.data() + time * cells + first : own.unused.data();
                     const Continued more = finishMax(list.targets, n, first - sourceBegin, isLast ? first : first - begin,
-                                                     own.lambda.data() + (first - from), s.join, statistic);
+                                                     own.lambda.data() + (first - from), join, statistic);
                     if (isOwn)
                         s.continued[static_cast<std::size_t>(time)].count += more.count;
                 }

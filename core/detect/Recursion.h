@@ -141,6 +141,7 @@ private:
     void fillMargins(std::span<const Real> scores);
     const Real *rowsOf(std::span<const Real> scores, Index plane, Index firstRow) const;
     void listFirst(std::span<const Real> scores, Index rate, Index group, TileRows rows, Scratch &scratch) const;
+    Index slotOf(Index number, Index group) const;
     void slide(std::span<const Real> scores, const Slide &slide, Index group, TileRows rows, Scratch &scratch) const;
     void makeCopies(const AxisStep &step, Index size, Scratch &scratch) const;
     template <class Finish>
@@ -167,7 +168,8 @@ private:
     AxisStep m_first;
     std::vector<AxisStep> m_later;
     std::vector<std::vector<Slide>> m_slides; ///< before each target rate, in the order they are made in
-    Index m_slideCount = 0;
+    Index m_slideRing = 0; ///< rates whose maxima are kept at a time; 0: there are none
+    Index m_slotSize = 0;
     std::vector<Index> m_largest; ///< shift that each maximum is wanted at
     bool m_isSlantable = false;
     std::vector<Continued> m_tileContinued;

@@ -127,76 +127,103 @@ namespace {
         return a > b ? a : b;
     }
 
-    struct Lane {
-        Floats lambda;
-        Floats statistic;
-        Integers count;
-        Floats sum;
+    /// A target's sources as the inner loop wants them: nearly all have three of equal weight, or fewer, one of which may then count twice.
+    struct Joined {
+        const float *first;
+        const float *second;
+        const float *third;
+        float weight;
+        float *to;
+        const TargetPlane *general; ///< where they are more, or differ in weight
     };
 
-    /// The part of a frame that `finishMax` goes through with `vectors` × 16 cells at a time.
-    template <int vectors, bool wantsSum>
-    [[gnu::always_inline]] inline Index finish(std::span<const TargetPlane> targets, Index i, Index n, Index sourceOffset, Index targetOffset,
-                                               const float *lambda, const FrameJoin &join, float *statistic, Continued &continued)
+    constexpr std::size_t mostAtOnce = 64; ///< targets
+
+    [[gnu::always_inline]] inline Joined joined(const TargetPlane &target, Index sourceOffset, Index targetOffset)
     {
-        Lane lane[vectors] = {};
+        const std::span<const ShiftedPlane<float>> sources = target.sources;
+        Joined result{nullptr, nullptr, nullptr, 0.0f, target.to + targetOffset, &target};
+        if (sources.empty() || sources.size() > 3 || !haveEqualWeights(sources))
+            return result;
+        result.first = sources.front().from + sourceOffset;
+        result.second = sources[sources.size() / 2].from + sourceOffset;
+        result.third = sources.back().from + sourceOffset;
+        result.weight = sources.front().weight;
+        result.general = nullptr;
+        return result;
+    }
+
+    /// The maximum over any sources, their weights included.
+    [[gnu::always_inline]] inline Floats bestOf(const TargetPlane &target, Index i)
+    {
+        Floats best = Floats{} - std::numeric_limits<float>::infinity();
+        for (const ShiftedPlane<float> &source : target.sources)
+            best = larger(load(source.from + i) + source.weight, best);
+        return best;
+    }
+
+    /// One or two vectors of cells at a time through all targets: what belongs to the cells stays in registers.
+    template <bool pairs, bool wantsSum>
+    [[gnu::always_inline]] inline Index finishVectors(std::span<const Joined> targets, Index i, Index n, Index sourceOffset,
+                                                      const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
+                                                      Continued &continued)
+    {
+        constexpr Index step = pairs ? 2 * width : width;
+        constexpr Index second = pairs ? width : 0;
+        Integers countA{};
+        Integers countB{};
+        Floats sumA{};
+        Floats sumB{};
+        const Floats minus = Floats{} - std::numeric_limits<float>::infinity();
         const Floats floor = Floats{} + join.floor;
-        for (; i + vectors * width <= n; i += vectors * width) {
-            for (int v = 0; v < vectors; ++v) {
-                lane[v].lambda = load(lambda + i + v * width);
-                lane[v].statistic = load(statistic + i + v * width);
-            }
-            for (const TargetPlane &target : targets) {
-                const ShiftedPlane<float> *source = target.sources.data();
-                const std::size_t count = target.sources.size();
-                const Index from = i + sourceOffset;
-                const auto end = [&](int v, const Floats &best, float weight) __attribute__((always_inline)) {
-                    const Floats going = (best + weight) + join.lnK;
-                    const Floats kept = larger(going, floor);
-                    const Floats score = lane[v].lambda + kept;
-                    store(target.to + targetOffset + i + v * width, score);
-                    lane[v].count -= score > lane[v].lambda;
-                    lane[v].statistic = larger(score, lane[v].statistic);
-                    if constexpr (wantsSum)
-                        lane[v].sum += kept;
-                };
-                // One, two and three of equal weight are nearly all there are.
-                const bool equal = count > 0 && count < 4 && source[0].weight == source[count - 1].weight && source[0].weight == source[count / 2].weight;
-                if (equal && count == 3) {
-                    for (int v = 0; v < vectors; ++v)
-                        end(v,
-                            larger(larger(load(source[1].from + from + v * width), load(source[0].from + from + v * width)),
-                                   load(source[2].from + from + v * width)),
-                            source[0].weight);
-                } else if (equal && count == 2) {
-                    for (int v = 0; v < vectors; ++v)
-                        end(v, larger(load(source[1].from + from + v * width), load(source[0].from + from + v * width)), source[0].weight);
-                } else if (equal && count == 1) {
-                    for (int v = 0; v < vectors; ++v)
-                        end(v, load(source[0].from + from + v * width), source[0].weight);
+        const Floats lnK = Floats{} + join.lnK;
+        for (; i + step <= n; i += step) {
+            const Floats lambdaA = load(lambda + i);
+            const Floats lambdaB = load(lambda + i + second);
+            Floats statisticA = isFresh ? minus : load(statistic + i);
+            Floats statisticB = isFresh ? minus : load(statistic + i + second);
+            for (const Joined &t : targets) {
+                Floats a;
+                Floats b;
+                if (t.general) {
+                    a = bestOf(*t.general, i + sourceOffset);
+                    b = pairs ? bestOf(*t.general, i + sourceOffset + second) : a;
                 } else {
-                    for (int v = 0; v < vectors; ++v) {
-                        Floats best = Floats{} - std::numeric_limits<float>::infinity();
-                        for (std::size_t k = 0; k < count; ++k)
-                            best = larger(load(source[k].from + from + v * width) + source[k].weight, best);
-                        end(v, best, 0.0f);
-                    }
+                    a = larger(larger(load(t.second + i), load(t.first + i)), load(t.third + i));
+                    b = larger(larger(load(t.second + i + second), load(t.first + i + second)), load(t.third + i + second));
                 }
+                a = larger((a + t.weight) + lnK, floor);
+                b = larger((b + t.weight) + lnK, floor);
+                if constexpr (wantsSum) {
+                    sumA += a;
+                    sumB += b;
+                }
+                a += lambdaA;
+                b += lambdaB;
+                store(t.to + i, a);
+                if constexpr (pairs)
+                    store(t.to + i + second, b);
+                countA -= a > lambdaA;
+                countB -= b > lambdaB;
+                statisticA = larger(a, statisticA);
+                statisticB = larger(b, statisticB);
             }
-            for (int v = 0; v < vectors; ++v)
-                store(statistic + i + v * width, lane[v].statistic);
+            store(statistic + i, statisticA);
+            if constexpr (pairs)
+                store(statistic + i + second, statisticB);
         }
-        for (int v = 0; v < vectors; ++v)
-            for (Index k = 0; k < width; ++k) {
-                continued.count += lane[v].count[k];
-                continued.sum += static_cast<double>(lane[v].sum[k]);
-            }
+        for (Index lane = 0; lane < width; ++lane) {
+            continued.count += countA[lane] + (pairs ? countB[lane] : 0);
+            continued.sum += static_cast<double>(sumA[lane]) + (pairs ? static_cast<double>(sumB[lane]) : 0.0);
+        }
         return i;
     }
 
     [[gnu::always_inline]] inline void finishOne(std::span<const TargetPlane> targets, Index i, Index sourceOffset, Index targetOffset,
-                                                 const float *lambda, const FrameJoin &join, float *statistic, Continued &continued)
+                                                 const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
+                                                 Continued &continued)
     {
+        statistic[i] = isFresh ? -std::numeric_limits<float>::infinity() : statistic[i];
         for (const TargetPlane &target : targets) {
             float best = -std::numeric_limits<float>::infinity();
             for (const ShiftedPlane<float> &source : target.sources) {
@@ -211,6 +238,22 @@ namespace {
             continued.sum += join.wantsSum ? static_cast<double>(kept) : 0.0;
             statistic[i] = score > statistic[i] ? score : statistic[i];
         }
+    }
+
+    template <bool wantsSum>
+    [[gnu::always_inline]] inline void finishAll(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset,
+                                                 const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
+                                                 Continued &continued)
+    {
+        Joined list[mostAtOnce];
+        for (std::size_t k = 0; k < targets.size(); ++k)
+            list[k] = joined(targets[k], sourceOffset, targetOffset);
+        const std::span<const Joined> all(list, targets.size());
+        Index i = finishVectors<true, wantsSum>(all, 0, n, sourceOffset, lambda, join, isFresh, statistic, continued);
+        if (i + width <= n)
+            i = finishVectors<false, wantsSum>(all, i, n, sourceOffset, lambda, join, isFresh, statistic, continued);
+        for (; i < n; ++i)
+            finishOne(targets, i, sourceOffset, targetOffset, lambda, join, isFresh, statistic, continued);
     }
 
 } // namespace
@@ -276,16 +319,14 @@ Continued finishMax(std::span<const TargetPlane> targets, Index n, Index sourceO
                     const FrameJoin &join, float *statistic)
 {
     Continued continued;
-    Index i = 0;
-    if (join.wantsSum) {
-        i = finish<2, true>(targets, i, n, sourceOffset, targetOffset, lambda, join, statistic, continued);
-        i = finish<1, true>(targets, i, n, sourceOffset, targetOffset, lambda, join, statistic, continued);
-    } else {
-        i = finish<2, false>(targets, i, n, sourceOffset, targetOffset, lambda, join, statistic, continued);
-        i = finish<1, false>(targets, i, n, sourceOffset, targetOffset, lambda, join, statistic, continued);
+    for (std::size_t first = 0; first < targets.size(); first += mostAtOnce) {
+        const std::span<const TargetPlane> some = targets.subspan(first, std::min(mostAtOnce, targets.size() - first));
+        const bool isFresh = join.isFresh && first == 0;
+        if (join.wantsSum)
+            finishAll<true>(some, n, sourceOffset, targetOffset, lambda, join, isFresh, statistic, continued);
+        else
+            finishAll<false>(some, n, sourceOffset, targetOffset, lambda, join, isFresh, statistic, continued);
     }
-    for (; i < n; ++i)
-        finishOne(targets, i, sourceOffset, targetOffset, lambda, join, statistic, continued);
     return continued;
 }
 

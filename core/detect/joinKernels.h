@@ -47,6 +47,7 @@ struct FrameJoin {
     float lnK = 0.0f;
     float floor = 0.0f;       ///< 0, or -∞ for no reset
     bool wantsSum = false;
+    bool isFresh = false;     ///< D begins at -∞; else at what it holds
 };
 
 /// The maximum over the sources of every target, joined with the frame at once, cell by cell for all targets, so that λ and D are

@@ -1,10 +1,13 @@
 #include "spectrum/NoiseNormaliser.h"
 
+#include "base/fastmath.h"
+#include "base/multiversion.h"
 #include "spectrum/levels.h"
 #include "spectrum/medians.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -317,6 +320,71 @@ namespace {
         return result;
     }
 
+    // What every frame goes through, cell by cell and bin by bin.
+
+    /// Between two blocks' ln powers, as `betweenBlocks`.
+    FAINTLINE_MULTIVERSION
+    void interpolateBlocks(const float *early, const float *late, float fraction, std::size_t cells, float *ln)
+    {
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const float a = early[cell];
+            const float b = late[cell];
+            const float least = a < b ? a : b;
+            const float most = a < b ? b : a;
+            const float mixed = a + fraction * (b - a);
+            ln[cell] = least <= silence ? most : mixed;
+        }
+    }
+
+    /// Adds levels of sub-bands of equal width, interpolated between their middles; one more than there are is given.
+    FAINTLINE_MULTIVERSION
+    void addBetweenBands(float *ln, std::size_t cells, const float *levels, float bands)
+    {
+        const float perCell = bands / static_cast<float>(cells);
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            float position = (static_cast<float>(static_cast<std::int32_t>(cell)) + 0.5f) * perCell - 0.5f;
+            position = position > 0.0f ? position : 0.0f;
+            position = position < bands - 1.0f ? position : bands - 1.0f;
+            const auto lower = static_cast<std::int32_t>(position);
+            const float fraction = position - static_cast<float>(lower);
+            ln[cell] += levels[lower] + fraction * (levels[lower + 1] - levels[lower]);
+        }
+    }
+
+    /// ln power → 1/power, 0 in silence.
+    FAINTLINE_MULTIVERSION
+    void invertPower(float *values, std::size_t cells)
+    {
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const float inverse = fastExp(-values[cell]);
+            values[cell] = values[cell] <= 0.5f * silence ? 0.0f : inverse;
+        }
+    }
+
+    /// y ← y/B, 1/B interpolated between cells; one value more than there are cells is given.
+    FAINTLINE_MULTIVERSION
+    void divideByBackground(float *y, std::size_t bins, const float *inverse, double start, double perBin, double lastCell)
+    {
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            double position = start + static_cast<double>(static_cast<std::int32_t>(bin)) * perBin;
+            position = position > 0.0 ? position : 0.0;
+            position = position < lastCell ? position : lastCell;
+            const auto lower = static_cast<std::int32_t>(position);
+            const auto fraction = static_cast<float>(position - static_cast<double>(lower));
+            const float ratio = y[bin] * (inverse[lower] + fraction * (inverse[lower + 1] - inverse[lower]));
+            y[bin] = ratio < largestRatio ? ratio : largestRatio;
+        }
+    }
+
+    FAINTLINE_MULTIVERSION
+    Index countAbove(const float *values, Index count, float limit)
+    {
+        std::int32_t above = 0;
+        for (Index i = 0; i < count; ++i)
+            above += values[i] > limit ? 1 : 0;
+        return above;
+    }
+
 } // namespace
 
 const std::vector<Field<NormaliserSettings>> &NormaliserSettings::fields()
@@ -418,38 +486,31 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
 {
     m_spectrogram->read(first, count, out);
     const auto cells = static_cast<std::size_t>(grid().size());
+    std::vector<float> inverse;
     for (Index i = 0; i < count; ++i)
-        normalise(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells));
+        normalise(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells), inverse);
 }
 
-void NormalisedSpectrogram::normalise(Index frame, std::span<float> values) const
+void NormalisedSpectrogram::normalise(Index frame, std::span<float> values, std::vector<float> &inverse) const
 {
     const NoiseBackground &b = *m_background;
     const Between t = between(b.time, time().value(static_cast<double>(frame)));
     const float *early = b.lnPower.data() + t.lower * b.frequency.count;
     const float *late = b.lnPower.data() + std::min(t.lower + 1, b.time.count - 1) * b.frequency.count;
-    std::vector<float> inverse(static_cast<std::size_t>(b.frequency.count));
-    for (std::size_t cell = 0; cell < inverse.size(); ++cell)
-        inverse[cell] = betweenBlocks(early[cell], late[cell], t.fraction);
-    addLevels(time().value(static_cast<double>(frame)), inverse);
-    for (float &value : inverse)
-        value = value <= 0.5f * silence ? 0.0f : std::exp(-value);
+    const auto cells = static_cast<std::size_t>(b.frequency.count);
+    inverse.resize(cells + 1);
+    interpolateBlocks(early, late, static_cast<float>(t.fraction), cells, inverse.data());
+    addLevels(time().value(static_cast<double>(frame)), std::span(inverse).first(cells));
+    invertPower(inverse.data(), cells);
+    inverse[cells] = inverse[cells - 1];
     const Axis &axis = grid().axes[0];
-    const double start = b.frequency.position(axis.first);
-    const double perBin = axis.step / b.frequency.step;
-    const double lastCell = static_cast<double>(b.frequency.count - 1);
-    for (std::size_t bin = 0; bin < values.size(); ++bin) {
-        const double position = std::clamp(start + static_cast<double>(bin) * perBin, 0.0, lastCell);
-        const auto lower = std::min(static_cast<std::size_t>(position), inverse.size() - 1);
-        const auto upper = std::min(lower + 1, inverse.size() - 1);
-        const auto fraction = static_cast<float>(position - static_cast<double>(lower));
-        values[bin] = std::min(values[bin] * (inverse[lower] + fraction * (inverse[upper] - inverse[lower])), largestRatio);
-    }
+    divideByBackground(values.data(), values.size(), inverse.data(), b.frequency.position(axis.first), axis.step / b.frequency.step,
+                       static_cast<double>(b.frequency.count - 1));
     if (m_settings.followLevel)
         guardAgainstClicks(values);
 }
 
-void NormalisedSpectrogram::addLevels(double seconds, std::vector<float> &ln) const
+void NormalisedSpectrogram::addLevels(double seconds, std::span<float> ln) const
 {
     const NoiseBackground &b = *m_background;
     if (b.bandCount == 0)
@@ -461,17 +522,13 @@ void NormalisedSpectrogram::addLevels(double seconds, std::vector<float> &ln) co
         };
         return (1.0 - t.fraction) * at(t.lower) + t.fraction * at(t.lower + 1);
     };
-    std::vector<double> levels;
+    std::vector<float> levels;
     for (Index band = 0; band < b.bandCount; ++band)
-        levels.push_back(level(band));
-    if (std::all_of(levels.begin(), levels.end(), [](double value) { return value == 0.0; }))
+        levels.push_back(static_cast<float>(level(band)));
+    if (std::all_of(levels.begin(), levels.end(), [](float value) { return value == 0.0f; }))
         return;
-    const Axis bands{"band", "", 0.5 / static_cast<double>(b.bandCount), 1.0 / static_cast<double>(b.bandCount), b.bandCount, false};
-    for (std::size_t cell = 0; cell < ln.size(); ++cell) {
-        const Between f = between(bands, (static_cast<double>(cell) + 0.5) / static_cast<double>(ln.size()));
-        const auto upper = static_cast<std::size_t>(std::min(f.lower + 1, b.bandCount - 1));
-        ln[cell] += static_cast<float>((1.0 - f.fraction) * levels[static_cast<std::size_t>(f.lower)] + f.fraction * levels[upper]);
-    }
+    levels.push_back(levels.back());
+    addBetweenBands(ln.data(), ln.size(), levels.data(), static_cast<float>(b.bandCount));
 }
 
 void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const
@@ -487,7 +544,7 @@ void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const
     for (std::size_t band = 0; band < bands; ++band) {
         const auto from = static_cast<std::ptrdiff_t>(band * values.size() / bands);
         const auto to = static_cast<std::ptrdiff_t>((band + 1) * values.size() / bands);
-        isLoud = isLoud || 2 * std::count_if(values.begin() + from, values.begin() + to, [limit](float y) { return y > limit; }) > to - from;
+        isLoud = isLoud || 2 * countAbove(values.data() + from, to - from, limit) > to - from;
     }
     if (!isLoud)
         return;
