@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 
 namespace faintline {
@@ -13,27 +12,31 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t lanes = 32; ///< columns at a time, in a few registers
+    using Bits = std::int32_t __attribute__((vector_size(64)));
+    using UnalignedBits = std::int32_t __attribute__((vector_size(64), aligned(4), may_alias));
 
     /// The value of a rank in every one of `lanes` columns, found bit by bit: floats that are not negative are ordered as their bits are.
     FAINTLINE_MULTIVERSION
     void ranked(const float *frames, std::size_t rows, std::size_t stride, std::int32_t rank, float *out)
     {
-        std::int32_t found[lanes] = {};
+        Bits foundA{};
+        Bits foundB{};
         for (std::int32_t bit = 1 << 30; bit > 0; bit >>= 1) {
-            std::int32_t smaller[lanes] = {};
-            float candidate[lanes];
-            for (std::size_t lane = 0; lane < lanes; ++lane)
-                candidate[lane] = std::bit_cast<float>(found[lane] | bit);
+            const Bits candidateA = foundA | bit;
+            const Bits candidateB = foundB | bit;
+            Bits smallerA{};
+            Bits smallerB{};
             for (std::size_t row = 0; row < rows; ++row) {
-                const float *values = frames + row * stride;
-                for (std::size_t lane = 0; lane < lanes; ++lane) // what is no number yet, all bits of the exponent set, is above all values
-                    smaller[lane] += values[lane] >= candidate[lane] ? 0 : 1;
+                const auto *values = reinterpret_cast<const UnalignedBits *>(frames + row * stride);
+                smallerA -= values[0] < candidateA;
+                smallerB -= values[1] < candidateB;
             }
-            for (std::size_t lane = 0; lane < lanes; ++lane)
-                found[lane] |= smaller[lane] <= rank ? bit : 0;
+            foundA = smallerA <= rank ? candidateA : foundA;
+            foundB = smallerB <= rank ? candidateB : foundB;
         }
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-            out[lane] = std::bit_cast<float>(found[lane]);
+        auto *to = reinterpret_cast<UnalignedBits *>(out);
+        to[0] = foundA;
+        to[1] = foundB;
     }
 
 } // namespace
