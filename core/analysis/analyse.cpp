@@ -74,7 +74,9 @@ namespace {
         const NormalisedFrames &frames = *analysis.frames;
         const Index cells = frames.grid().size();
         const Index frameCount = frames.time().count;
-        const auto chain = makeChain(analysis);
+        std::unique_ptr<Detector> detector = makeDetector(analysis);
+        detector->useThreads(context.threads);
+        const auto chain = makeChain(analysis, std::move(detector));
 
         std::shared_ptr<PeakPyramid> input;
         if (!analysis.input)

@@ -30,6 +30,7 @@ public:
     void update(std::span<const float> y, std::span<float> statistic) override;
     void forget(const Grid &grid, const CellBox &box) override;
     void inhibit(std::span<const Index> cells) override;
+    void useThreads(int threads) override;
     /// The first member's.
     Regulation regulation() const override { return m_detectors.front().regulation(); }
 

@@ -128,20 +128,38 @@ namespace {
     constexpr Index historyFloats = Index(1) << 24;
     constexpr Index shortestCorridor = 8;
 
+    /// Memory that one corridor after the other uses: fresh pages cost as much as what is written to them.
+    class Storage
+    {
+    public:
+        float *atLeast(Index size)
+        {
+            if (size > m_size) {
+                m_values.reset(new float[static_cast<std::size_t>(size)]);
+                m_size = size;
+            }
+            return m_values.get();
+        }
+
+    private:
+        std::unique_ptr<float[]> m_values;
+        Index m_size = 0;
+    };
+
     /// Scores of the corridor's states in the newest frames, as many as fit into the memory set aside.
     class CorridorScores
     {
     public:
-        CorridorScores(Index firstFrame, Index frameCount, Index states)
-            : m_states(states), m_room(std::clamp<Index>(historyFloats / states, 2, std::max<Index>(frameCount, 2))), m_firstFrame(firstFrame),
-              m_end(firstFrame), m_values(new float[static_cast<std::size_t>(m_room * states)])
+        CorridorScores(Index firstFrame, Index frameCount, Index states, Storage &storage)
+            : m_states(states), m_room(std::clamp<Index>(historyFloats / states, 2, std::max<Index>(frameCount, 2))),
+              m_firstFrame(firstFrame), m_end(firstFrame), m_values(storage.atLeast(m_room * states))
         {
         }
 
         Index firstFrame() const { return std::max(m_firstFrame, m_end - m_room); }
         std::span<float> at(Index frame) const
         {
-            return {m_values.get() + (frame - m_firstFrame) % m_room * m_states, static_cast<std::size_t>(m_states)};
+            return {m_values + (frame - m_firstFrame) % m_room * m_states, static_cast<std::size_t>(m_states)};
         }
         std::span<float> append() { return at(m_end++); }
 
@@ -150,7 +168,7 @@ namespace {
         Index m_room;
         Index m_firstFrame;
         Index m_end;
-        std::unique_ptr<float[]> m_values;
+        float *m_values;
     };
 
     void forget(const CellBox &box, const Grid &grid, const Corridor &corridor, std::span<float> scores)
@@ -166,11 +184,11 @@ namespace {
 
     /// Goes from frame `first` to `last`; all paths start inside the corridor.
     CorridorScores runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, const Corridor &corridor,
-                               Index first, Index last)
+                               Index first, Index last, Storage &storage)
     {
         const Index cells = corridor.space.cellCount();
         Recursion<MaxPlus<float>> recursion(corridor.space, model.transitionScale);
-        CorridorScores history(first, last - first + 1, corridor.space.stateCount());
+        CorridorScores history(first, last - first + 1, corridor.space.stateCount(), storage);
         std::vector<float> y(static_cast<std::size_t>(cells));
         std::vector<float> statistic(y.size());
         for (Index frame = first; frame <= last; ++frame) {
@@ -219,13 +237,14 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
                                 Index state, double detectorScore)
 {
     std::vector<PathStep> path;
+    Storage storage;
     bool isReset = false;
     for (Index length = shortestCorridor; !isReset;) {
         const Index known = frame - record.firstFrame + 1;
         const Index used = std::min(length, known);
         const Index first = frame - used + 1;
         const Corridor corridor(model, grid, state, used - 1);
-        const CorridorScores history = runCorridor(model, grid, record, corridor, first, frame);
+        const CorridorScores history = runCorridor(model, grid, record, corridor, first, frame, storage);
 
         Index local = corridor.toLocal(model.space, state);
         // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's score.

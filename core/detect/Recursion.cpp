@@ -194,8 +194,8 @@ void Recursion<Semiring>::addLaterAxis(const KinematicAxis &axis, Index inner, I
     m_later.push_back(std::move(step));
 }
 
-/// Replaces runs of sources of equal weight, each two rates and a cell on from the one before, by maxima over two and four of them. They may
-/// overlap: a maximum minds no repetition.
+/// Replaces runs of sources of equal weight, each two rates and a cell on from the one before, by maxima over two and four of them.
+/// They may overlap: a maximum minds no repetition.
 template <class Semiring>
 void Recursion<Semiring>::prepareSlides()
 {
@@ -235,7 +235,9 @@ void Recursion<Semiring>::prepareSlides()
             const std::size_t length = run.size() >= 4 ? 4 : run.size() >= 2 ? 2 : 1;
             for (std::size_t at = 0; at < run.size(); at += length) {
                 const Shift &first = run[std::min(at, run.size() - length)];
-                const Index from = length == 4 ? ofFour(first.from, first.cells) : length == 2 ? ofTwo(first.from, first.cells) : first.from;
+                Index from = first.from;
+                if (length > 1)
+                    from = length == 4 ? ofFour(first.from, first.cells) : ofTwo(first.from, first.cells);
                 shifts.push_back({from, first.cells, first.weight});
             }
         }
@@ -262,6 +264,8 @@ void Recursion<Semiring>::prepareSlides()
     for (std::size_t rate = 0; rate < replaced.size(); ++rate)
         for (const Shift &shift : m_first.shifts[rate])
             m_slideRing = std::max(m_slideRing, 2 * std::abs(shift.from - static_cast<Index>(rate)) + 1);
+    if (m_later.empty()) // then all targets are finished together
+        m_slideRing = rates;
     m_first.shifts = std::move(replaced);
 }
 
@@ -483,7 +487,8 @@ void Recursion<Semiring>::slide(std::span<const Real> scores, const Slide &slide
                 return rowsOf(scores, number * m_groupSize + group, rows.first) + (firstRow - back) * inner;
             return place(number) + (firstRow - back + m_largest[static_cast<std::size_t>(number - m_groups)]) * inner;
         };
-        maxOfTwo(place(slide.number), from(slide.of, 0), from(slide.other, slide.back), (rows.count + slide.largest - slide.smallest) * inner);
+        const Index count = rows.count + slide.largest - slide.smallest;
+        maxOfTwo(place(slide.number), from(slide.of, 0), from(slide.other, slide.back), count * inner);
     }
 }
 

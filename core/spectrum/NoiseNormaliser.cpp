@@ -336,18 +336,29 @@ namespace {
         }
     }
 
-    /// Adds levels of sub-bands of equal width, interpolated between their middles; one more than there are is given.
     FAINTLINE_MULTIVERSION
-    void addBetweenBands(float *ln, std::size_t cells, const float *levels, float bands)
+    void addLine(float *values, std::int32_t count, float start, float step)
     {
-        const float perCell = bands / static_cast<float>(cells);
-        for (std::size_t cell = 0; cell < cells; ++cell) {
-            float position = (static_cast<float>(static_cast<std::int32_t>(cell)) + 0.5f) * perCell - 0.5f;
-            position = position > 0.0f ? position : 0.0f;
-            position = position < bands - 1.0f ? position : bands - 1.0f;
-            const auto lower = static_cast<std::int32_t>(position);
-            const float fraction = position - static_cast<float>(lower);
-            ln[cell] += levels[lower] + fraction * (levels[lower + 1] - levels[lower]);
+        for (std::int32_t i = 0; i < count; ++i)
+            values[i] += start + step * static_cast<float>(i);
+    }
+
+    /// Adds levels of sub-bands of equal width, interpolated between their middles, constant beyond the outer ones.
+    void addBetweenBands(std::span<float> ln, const std::vector<float> &levels)
+    {
+        const double perCell = static_cast<double>(levels.size()) / static_cast<double>(ln.size());
+        std::size_t cell = 0;
+        for (std::size_t upper = 0; upper <= levels.size(); ++upper) { // from the middle of the band before to that of this one
+            const double middle = (static_cast<double>(upper) + 0.5) / perCell - 0.5;
+            std::size_t end = ln.size();
+            if (upper < levels.size())
+                end = std::clamp(static_cast<std::size_t>(std::ceil(middle)), cell, end);
+            const double low = static_cast<double>(levels[upper == 0 ? 0 : upper - 1]);
+            const double high = static_cast<double>(levels[std::min(upper, levels.size() - 1)]);
+            const double slope = (high - low) * perCell;
+            const double start = high + (static_cast<double>(cell) - middle) * slope;
+            addLine(ln.data() + cell, static_cast<std::int32_t>(end - cell), static_cast<float>(start), static_cast<float>(slope));
+            cell = end;
         }
     }
 
@@ -372,6 +383,16 @@ namespace {
             const auto lower = static_cast<std::int32_t>(position);
             const auto fraction = static_cast<float>(position - static_cast<double>(lower));
             const float ratio = y[bin] * (inverse[lower] + fraction * (inverse[lower + 1] - inverse[lower]));
+            y[bin] = ratio < largestRatio ? ratio : largestRatio;
+        }
+    }
+
+    /// The same where bins are cells.
+    FAINTLINE_MULTIVERSION
+    void divideBinByBin(float *y, std::size_t bins, const float *inverse)
+    {
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            const float ratio = y[bin] * inverse[bin];
             y[bin] = ratio < largestRatio ? ratio : largestRatio;
         }
     }
@@ -504,8 +525,12 @@ void NormalisedSpectrogram::normalise(Index frame, std::span<float> values, std:
     invertPower(inverse.data(), cells);
     inverse[cells] = inverse[cells - 1];
     const Axis &axis = grid().axes[0];
-    divideByBackground(values.data(), values.size(), inverse.data(), b.frequency.position(axis.first), axis.step / b.frequency.step,
-                       static_cast<double>(b.frequency.count - 1));
+    const double start = b.frequency.position(axis.first);
+    const double perBin = axis.step / b.frequency.step;
+    if (start == 0.0 && perBin == 1.0 && values.size() <= cells)
+        divideBinByBin(values.data(), values.size(), inverse.data());
+    else
+        divideByBackground(values.data(), values.size(), inverse.data(), start, perBin, static_cast<double>(b.frequency.count - 1));
     if (m_settings.followLevel)
         guardAgainstClicks(values);
 }
@@ -527,8 +552,7 @@ void NormalisedSpectrogram::addLevels(double seconds, std::span<float> ln) const
         levels.push_back(static_cast<float>(level(band)));
     if (std::all_of(levels.begin(), levels.end(), [](float value) { return value == 0.0f; }))
         return;
-    levels.push_back(levels.back());
-    addBetweenBands(ln.data(), ln.size(), levels.data(), static_cast<float>(b.bandCount));
+    addBetweenBands(ln, levels);
 }
 
 void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const

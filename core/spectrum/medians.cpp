@@ -17,7 +17,7 @@ namespace {
 
     /// The value of a rank in every one of `lanes` columns, found bit by bit: floats that are not negative are ordered as their bits are.
     FAINTLINE_MULTIVERSION
-    void ranked(const float *frames, std::size_t rows, std::size_t stride, std::int32_t rank, float *out)
+    void ranked(const float *columns, std::size_t rows, std::int32_t rank, float *out)
     {
         Bits foundA{};
         Bits foundB{};
@@ -27,7 +27,7 @@ namespace {
             Bits smallerA{};
             Bits smallerB{};
             for (std::size_t row = 0; row < rows; ++row) {
-                const auto *values = reinterpret_cast<const UnalignedBits *>(frames + row * stride);
+                const auto *values = reinterpret_cast<const UnalignedBits *>(columns + row * lanes);
                 smallerA -= values[0] < candidateA;
                 smallerB -= values[1] < candidateB;
             }
@@ -46,18 +46,16 @@ void columnMedians(std::span<const float> frames, std::span<float> out)
     const std::size_t cells = out.size();
     const std::size_t rows = frames.size() / cells;
     const auto rank = static_cast<std::int32_t>((rows - 1) / 2);
-    std::size_t cell = 0;
-    for (; cell + lanes <= cells; cell += lanes)
-        ranked(frames.data() + cell, rows, cells, rank, out.data() + cell);
-    if (cell == cells)
-        return;
-    std::vector<float> rest(rows * lanes, 0.0f);
-    for (std::size_t row = 0; row < rows; ++row)
-        std::copy_n(frames.begin() + static_cast<std::ptrdiff_t>(row * cells + cell), cells - cell,
-                    rest.begin() + static_cast<std::ptrdiff_t>(row * lanes));
+    // In a copy that lies together: rows whose distance is a power of two would push one another out of the cache.
+    std::vector<float> columns(rows * lanes, 0.0f);
     std::array<float, lanes> medians;
-    ranked(rest.data(), rows, lanes, rank, medians.data());
-    std::copy_n(medians.begin(), cells - cell, out.begin() + static_cast<std::ptrdiff_t>(cell));
+    for (std::size_t cell = 0; cell < cells; cell += lanes) {
+        const std::size_t count = std::min(lanes, cells - cell);
+        for (std::size_t row = 0; row < rows; ++row)
+            std::copy_n(frames.data() + row * cells + cell, count, columns.data() + row * lanes);
+        ranked(columns.data(), rows, rank, medians.data());
+        std::copy_n(medians.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(cell));
+    }
 }
 
 std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)

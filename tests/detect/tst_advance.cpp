@@ -35,7 +35,8 @@ std::vector<Case> cases()
         {"shared maxima, half down", {rated(2100, false, -9, 19, wide)}},
         {"shared maxima, truncated, cyclic", {rated(2100, true, -9, 19, wide, Rounding::Trunc)}},
         {"shared maxima over three", {rated(900, false, -4, 9, {0.2, 0.2, 0.2})}},
-        {"range and cyclic bearing", {rated(300, false, -9, 19, wide, Rounding::Trunc), rated(20, true, -1, 3, {0.5, 0.25}, Rounding::Trunc)}},
+        {"range and cyclic bearing",
+         {rated(300, false, -9, 19, wide, Rounding::Trunc), rated(20, true, -1, 3, {0.5, 0.25}, Rounding::Trunc)}},
         {"both bounded, one-to-one", {rated(200, false, -5, 11, {1.0}), rated(13, false, -2, 5, {1.0})}},
     };
 }
@@ -93,7 +94,8 @@ void tst_advance::isTheFormula()
     for (Index frame = 0; frame < frames; ++frame) {
         formula.update(std::span(y).subspan(static_cast<std::size_t>(frame * cells), expected.size()), expected);
         for (std::size_t cell = 0; cell < expected.size(); ++cell)
-            QVERIFY2(std::abs(found[static_cast<std::size_t>(frame * cells) + cell] - expected[cell]) < 2e-5f * static_cast<float>(frame + 1),
+            QVERIFY2(std::abs(found[static_cast<std::size_t>(frame * cells) + cell] - expected[cell])
+                         < 2e-5f * static_cast<float>(frame + 1),
                      qPrintable(QString("frame %1 cell %2").arg(frame).arg(cell)));
     }
     for (std::size_t state = 0; state < formula.scores().size(); ++state)
@@ -118,7 +120,8 @@ void tst_advance::blocksAndThreadsChangeNoBit()
     std::vector<float> expected;
     Smd reference(m, {ResetLaw::Fixed, -0.9});
     run(1, 1, expected, reference);
-    for (const auto &[block, threads] : std::vector<std::pair<Index, int>>{{2, 1}, {3, 2}, {7, 1}, {16, 1}, {41, 1}, {41, 2}, {41, 3}, {1, 3}}) {
+    const std::vector<std::pair<Index, int>> ways{{2, 1}, {3, 2}, {7, 1}, {16, 1}, {41, 1}, {41, 2}, {41, 3}, {1, 3}};
+    for (const auto &[block, threads] : ways) {
         std::vector<float> found;
         Smd detector(m, {ResetLaw::Fixed, -0.9});
         run(block, threads, found, detector);

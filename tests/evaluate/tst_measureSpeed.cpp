@@ -47,7 +47,8 @@ void tst_measureSpeed::ratiosAndChecks()
     int slowRuns = 0;
     const SpeedKernel kernel{"k", "title", "thing", {{"fast", "slow", 1e9}, {"slow", "fast", 0.0}},
                              [&] {
-                                 return std::vector<SpeedForm>{{"fast", 1.0, 1, [&] { ++fastRuns; }}, {"slow", 1.0, 1, [&] { ++slowRuns; }}};
+                                 return std::vector<SpeedForm>{{"fast", 1.0, 1, [&] { ++fastRuns; }},
+                                                               {"slow", 1.0, 1, [&] { ++slowRuns; }}};
                              },
                              {{"error", 1.0, [] { return 0.5; }}}};
     const SpeedResult result = measureSpeed(kernel, {3, 1e-4});
