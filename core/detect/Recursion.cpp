@@ -767,12 +767,29 @@ void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
     PlaneList last;
     listPlanes({window(frameCount) + margin - 2 * reach, stride}, s.next.data(), m_planeSize, last);
 
+    // What the next tile will touch, a share of it at each time.
+    const auto fetchAhead = [&](Index tile, Index begin, Index time) {
+        constexpr Index bytes = slantCells * static_cast<Index>(sizeof(float));
+        if (begin >= 0 && begin + slantCells <= cells) {
+            fetch<false>(s.frames.y.data() + time * cells + begin, bytes);
+            fetch<true>(s.frames.statistic.data() + time * cells + begin, bytes);
+        }
+        const Index end = tile - (frameCount - 1) * reach;
+        for (Index plane = time; plane < m_groups; plane += frameCount) {
+            if (tile + slantCells <= cells)
+                fetch<false>(s.scores.data() + plane * m_planeSize + tile, bytes);
+            if (end >= 0 && end + slantCells <= cells)
+                fetch<true>(s.next.data() + plane * m_planeSize + end, bytes);
+        }
+    };
+
     for (Index tile = s.low; tile - (frameCount - 1) * reach < s.high; tile += slantCells)
         for (Index time = 0; time < frameCount; ++time) {
             const Index begin = tile - time * reach; // of the tile at this time
             const Index from = std::max(begin, s.low);
             const Index end = std::min(begin + slantCells, s.high);
             const bool isLast = time + 1 == frameCount;
+            fetchAhead(tile + slantCells, begin + slantCells, time);
             float *const to = window(time) + margin;
             float *const halo = own.halo.data() + time * haloSize;
             if (!isLast)

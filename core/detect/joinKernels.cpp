@@ -94,17 +94,6 @@ namespace {
         return true;
     }
 
-    template <class Real>
-    [[gnu::always_inline]] inline void joinMaxima(Real *to, Index n, std::span<const ShiftedPlane<Real>> sources)
-    {
-        if (sources.empty())
-            std::fill_n(to, n, -std::numeric_limits<Real>::infinity());
-        else if (haveEqualWeights(sources))
-            joinAll(to, n, sources.data(), sources.size(), EqualMaxJoin());
-        else
-            joinAll(to, n, sources.data(), sources.size(), MaxJoin());
-    }
-
     // Sixteen floats, in as many registers as the instruction set needs for them: arrays of a plain loop would not stay in registers
     // while the targets go by.
     using Floats = float __attribute__((vector_size(64)));
@@ -125,6 +114,40 @@ namespace {
     [[gnu::always_inline]] inline Floats larger(const Floats &a, const Floats &b)
     {
         return a > b ? a : b;
+    }
+
+    template <class Real>
+    [[gnu::always_inline]] inline void joinMaxima(Real *to, Index n, std::span<const ShiftedPlane<Real>> sources)
+    {
+        if (sources.empty())
+            std::fill_n(to, n, -std::numeric_limits<Real>::infinity());
+        else if (haveEqualWeights(sources))
+            joinAll(to, n, sources.data(), sources.size(), EqualMaxJoin());
+        else
+            joinAll(to, n, sources.data(), sources.size(), MaxJoin());
+    }
+
+    /// `joinMaxima` for floats: two vectors at a time stay in registers while the sources go by.
+    template <bool equal>
+    [[gnu::always_inline]] inline Index joinVectors(float *to, Index n, std::span<const ShiftedPlane<float>> sources)
+    {
+        const Floats common = Floats{} + sources.front().weight;
+        Index i = 0;
+        for (; i + 2 * width <= n; i += 2 * width) {
+            const float *first = sources.front().from + i;
+            Floats a = equal ? load(first) : load(first) + common;
+            Floats b = equal ? load(first + width) : load(first + width) + common;
+            for (const ShiftedPlane<float> &source : sources.subspan(1)) {
+                const float weight = equal ? 0.0f : source.weight;
+                const Floats nextA = equal ? load(source.from + i) : load(source.from + i) + weight;
+                const Floats nextB = equal ? load(source.from + i + width) : load(source.from + i + width) + weight;
+                a = larger(nextA, a);
+                b = larger(nextB, b);
+            }
+            store(to + i, equal ? a + common : a);
+            store(to + i + width, equal ? b + common : b);
+        }
+        return i;
     }
 
     /// A target's sources as the inner loop wants them: nearly all have three of equal weight, or fewer, one of which may then count twice.
@@ -261,7 +284,17 @@ namespace {
 FAINTLINE_MULTIVERSION
 void joinMax(float *to, Index n, std::span<const ShiftedPlane<float>> sources)
 {
-    joinMaxima(to, n, sources);
+    Index i = 0;
+    if (!sources.empty())
+        i = haveEqualWeights(sources) ? joinVectors<true>(to, n, sources) : joinVectors<false>(to, n, sources);
+    for (; i < n; ++i) {
+        float best = -std::numeric_limits<float>::infinity();
+        for (const ShiftedPlane<float> &source : sources) {
+            const float candidate = source.from[i] + source.weight;
+            best = candidate > best ? candidate : best;
+        }
+        to[i] = best;
+    }
 }
 
 FAINTLINE_MULTIVERSION
@@ -282,7 +315,10 @@ void joinSum(double *to, Index n, std::span<const ShiftedPlane<double>> sources)
 FAINTLINE_MULTIVERSION
 void maxOfTwo(float *to, const float *a, const float *b, Index n)
 {
-    for (Index i = 0; i < n; ++i)
+    Index i = 0;
+    for (; i + width <= n; i += width)
+        store(to + i, larger(load(b + i), load(a + i)));
+    for (; i < n; ++i)
         to[i] = b[i] > a[i] ? b[i] : a[i];
 }
 

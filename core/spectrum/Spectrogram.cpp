@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index runSamples = 1 << 18; ///< read at a time: little enough to be in the cache when they are transformed
+    constexpr Index runSamples = 1 << 17; ///< read at a time: little enough to be in the cache when they are transformed
 
     FAINTLINE_MULTIVERSION
     void applyWindow(const float *samples, const float *window, std::size_t n, float *out)
