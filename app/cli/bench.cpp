@@ -19,7 +19,9 @@ void addBench(CLI::App &app, Common &common)
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("bench", "The inner loops on this machine, as ratios to their plain forms and to the memory");
     command->add_option("NAME", options->names, "all, LIST, a kernel such as recursion-21, or what several names begin with")->required();
-    command->add_option("--rounds", options->speed.rounds, "Rounds; medians are taken over them")->check(CLI::Range(1, 1000))->capture_default_str();
+    command->add_option("--rounds", options->speed.rounds, "Rounds; medians are taken over them")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
     command->add_flag("--json", options->json, "JSON instead of a table");
     command->callback([options, &common] {
         if (options->names == std::vector<std::string>{"LIST"} || options->names == std::vector<std::string>{"list"}) {
