@@ -45,7 +45,8 @@ int main(int argc, char **argv)
     for (const auto add : {faintline::cli::addInfo, faintline::cli::addDescribe, faintline::cli::addDetect,
                            faintline::cli::addStatistic, faintline::cli::addExplain, faintline::cli::addSimulate,
                            faintline::cli::addReproduce, faintline::cli::addEvaluate, faintline::cli::addMerge,
-                           faintline::cli::addCalibrate, faintline::cli::addInject, faintline::cli::addSequential})
+                           faintline::cli::addCalibrate, faintline::cli::addInject, faintline::cli::addSequential,
+                           faintline::cli::addBench})
         add(app, common);
     try {
         app.parse(argc, argv);

@@ -56,6 +56,7 @@ void addMerge(CLI::App &app, Common &common);
 void addCalibrate(CLI::App &app, Common &common);
 void addInject(CLI::App &app, Common &common);
 void addSequential(CLI::App &app, Common &common);
+void addBench(CLI::App &app, Common &common);
 
 /// The simulated pings of a scene file whose kind is "pings"; nothing if the file is another.
 std::shared_ptr<const SimulatedPings> openPings(const std::string &path);

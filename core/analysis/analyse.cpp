@@ -14,6 +14,7 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t blockBytes = std::size_t(1) << 20;
+    constexpr std::size_t pictureBytes = std::size_t(100) << 20; ///< of each of two: an hour at 48 kHz then takes less than 300 MiB
 
     /// Reads blocks of frames one ahead of their use, on another thread if there is one to spare.
     class FrameStream
@@ -84,13 +85,16 @@ namespace {
         const Index cells = frames.grid().size();
         const Index frameCount = frames.time().count;
         const bool hasSeveralAxes = frames.grid().axes.size() > 1;
-        const auto chain = makeChain(analysis);
         ConventionalTracker conventional(frames.grid(), analysis.settings.conventional);
+        std::unique_ptr<Detector> detector = makeDetector(analysis);
+        detector->useThreads(context.threads);
+        const auto chain = makeChain(analysis, std::move(detector));
 
         std::shared_ptr<PeakPyramid> input;
         if (!analysis.input)
-            input = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::PowerDb));
-        const auto statistic = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats));
+            input = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::PowerDb), pictureBytes);
+        const auto statistic =
+            std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
         analysis.statisticCounts.assign(256, 0.0);
         std::vector<float> scores;
         FrameStream stream(frames, context.threads > 1);

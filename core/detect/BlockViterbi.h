@@ -31,6 +31,7 @@ public:
     void update(std::span<const float> y, std::span<float> statistic) override;
     /// The cells' paths so far begin again with no evidence.
     void forget(const Grid &grid, const CellBox &box) override { m_smd.forget(grid, box); }
+    void useThreads(int threads) override { m_smd.useThreads(threads); }
 
 private:
     Smd m_smd;

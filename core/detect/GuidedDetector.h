@@ -31,6 +31,12 @@ public:
         m_decider->forget(grid, box);
     }
 
+    void useThreads(int threads) override
+    {
+        m_guide.useThreads(threads);
+        m_decider->useThreads(threads);
+    }
+
     std::span<const float> scores() const override { return m_guide.scores(); }
     bool hasPaths() const override { return true; }
     Regulation regulation() const override { return m_guide.regulation(); }

@@ -45,4 +45,10 @@ void ModelBank::inhibit(std::span<const Index> cells)
         detector.inhibit(cells);
 }
 
+void ModelBank::useThreads(int threads)
+{
+    for (Smd &detector : m_detectors)
+        detector.useThreads(threads);
+}
+
 } // namespace faintline

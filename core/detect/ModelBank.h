@@ -31,6 +31,7 @@ public:
     void forget(const Grid &grid, const CellBox &box) override;
     void inhibit(std::span<const Index> cells) override;
     bool hasPaths() const override { return true; }
+    void useThreads(int threads) override;
     /// The first member's.
     Regulation regulation() const override { return m_detectors.front().regulation(); }
 

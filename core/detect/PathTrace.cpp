@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
+#include <memory>
+#include <span>
 
 namespace faintline {
 
@@ -124,10 +125,53 @@ namespace {
 
     constexpr double scoreTolerance = 1e-4;
     constexpr float unreached = -std::numeric_limits<float>::infinity();
-    constexpr std::size_t historyBytes = std::size_t(64) << 20;
+    constexpr Index historyFloats = Index(1) << 24;
     constexpr Index shortestCorridor = 8;
 
-    void forget(const CellBox &box, const Grid &grid, const Corridor &corridor, std::vector<float> &scores)
+    /// Memory that one corridor after the other uses: fresh pages cost as much as what is written to them.
+    class Storage
+    {
+    public:
+        float *atLeast(Index size)
+        {
+            if (size > m_size) {
+                m_values.reset(new float[static_cast<std::size_t>(size)]);
+                m_size = size;
+            }
+            return m_values.get();
+        }
+
+    private:
+        std::unique_ptr<float[]> m_values;
+        Index m_size = 0;
+    };
+
+    /// Scores of the corridor's states in the newest frames, as many as fit into the memory set aside.
+    class CorridorScores
+    {
+    public:
+        CorridorScores(Index firstFrame, Index frameCount, Index states, Storage &storage)
+            : m_states(states), m_room(std::clamp<Index>(historyFloats / states, 2, std::max<Index>(frameCount, 2))),
+              m_firstFrame(firstFrame), m_end(firstFrame), m_values(storage.atLeast(m_room * states))
+        {
+        }
+
+        Index firstFrame() const { return std::max(m_firstFrame, m_end - m_room); }
+        std::span<float> at(Index frame) const
+        {
+            return {m_values + (frame - m_firstFrame) % m_room * m_states, static_cast<std::size_t>(m_states)};
+        }
+        std::span<float> append() { return at(m_end++); }
+
+    private:
+        Index m_states;
+        Index m_room;
+        Index m_firstFrame;
+        Index m_end;
+        float *m_values;
+    };
+
+    void forget(const CellBox &box, const Grid &grid, const Corridor &corridor, std::span<float> scores)
     {
         box.forEachCell(grid, [&](Index cell) {
             const Index local = corridor.localCell(cell);
@@ -138,58 +182,39 @@ namespace {
         });
     }
 
-    /// Scores of the corridor's states in the newest frames, as many as fit into the memory set aside.
-    struct CorridorScores {
-        Index firstFrame = 0;
-        std::deque<std::vector<float>> scores;
-
-        const std::vector<float> &at(Index frame) const { return scores[static_cast<std::size_t>(frame - firstFrame)]; }
-    };
-
     /// Goes from frame `first` to `last`; all paths start inside the corridor.
     CorridorScores runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, const Corridor &corridor,
-                               Index first, Index last)
+                               Index first, Index last, Storage &storage)
     {
         const Index cells = corridor.space.cellCount();
-        const auto states = static_cast<std::size_t>(corridor.space.stateCount());
-        const std::size_t most = std::max<std::size_t>(2, historyBytes / (sizeof(float) * states));
         Recursion<MaxPlus<float>> recursion(corridor.space, model.transitionScale);
-        CorridorScores history{first, {}};
+        CorridorScores history(first, last - first + 1, corridor.space.stateCount(), storage);
         std::vector<float> y(static_cast<std::size_t>(cells));
-        std::vector<float> lambda(y.size());
+        std::vector<float> statistic(y.size());
         for (Index frame = first; frame <= last; ++frame) {
             const std::span<const float> whole = record.frame(frame);
             for (std::size_t i = 0; i < y.size(); ++i)
                 y[i] = whole[static_cast<std::size_t>(corridor.cells()[i])];
-            model.likelihood.apply(y, lambda);
-            std::vector<float> scores(states);
+            const std::span<float> scores = history.append();
             if (frame == first) {
-                for (std::size_t n = 0; n < states; ++n)
-                    scores[n] = lambda[n % y.size()];
+                model.likelihood.apply(y, scores);
+                for (Index plane = 1; plane < corridor.space.planeCount(); ++plane)
+                    std::copy_n(scores.begin(), cells, scores.begin() + plane * cells);
             } else {
-                const auto lnK = static_cast<float>(record.lnK(frame));
-                recursion.predict(history.scores.back(), [&](Index plane, Index firstCell, std::span<const float> predicted) {
-                    float *to = scores.data() + plane * cells + firstCell;
-                    for (std::size_t i = 0; i < predicted.size(); ++i) {
-                        const float going = predicted[i] + lnK;
-                        to[i] = lambda[static_cast<std::size_t>(firstCell) + i] + (going > 0.0f ? going : 0.0f);
-                    }
-                });
+                Continued continued;
+                FrameJoin join;
+                join.lnK = static_cast<float>(record.lnK(frame));
+                recursion.advance(history.at(frame - 1), scores, {y, statistic, {&continued, 1}}, model.likelihood, join);
             }
             if (frame < last)
                 for (const CellBox &box : record.forgotten(frame))
                     forget(box, grid, corridor, scores);
-            history.scores.push_back(std::move(scores));
-            if (history.scores.size() > most) {
-                history.scores.pop_front();
-                ++history.firstFrame;
-            }
         }
         return history;
     }
 
     /// Where a step's maximum came from, or -1 if the path was reset there.
-    Index origin(const MarkovModel &model, const Corridor &corridor, const std::vector<float> &before, Index state, double lnK,
+    Index origin(const MarkovModel &model, const Corridor &corridor, std::span<const float> before, Index state, double lnK,
                  double &lnTransition)
     {
         Index best = -1;
@@ -212,13 +237,14 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
                                 Index state, double detectorScore)
 {
     std::vector<PathStep> path;
+    Storage storage;
     bool isReset = false;
     for (Index length = shortestCorridor; !isReset;) {
         const Index known = frame - record.firstFrame + 1;
         const Index used = std::min(length, known);
         const Index first = frame - used + 1;
         const Corridor corridor(model, grid, state, used - 1);
-        const CorridorScores history = runCorridor(model, grid, record, corridor, first, frame);
+        const CorridorScores history = runCorridor(model, grid, record, corridor, first, frame, storage);
 
         Index local = corridor.toLocal(model.space, state);
         // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's score.
@@ -244,7 +270,7 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
                 break;
             local = before;
             --frame;
-            if (frame == history.firstFrame && frame > first)
+            if (frame == history.firstFrame() && frame > first)
                 break; // older scores were let go: once more, from here
         }
         if (!isReset) {

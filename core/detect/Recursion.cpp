@@ -1,10 +1,13 @@
 #include "detect/Recursion.h"
 
-#include "base/multiversion.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -12,143 +15,14 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index tileCells = 4096;  ///< such a piece of every source plane of a target fits into the second-level cache
-    constexpr Index lanes = 64;        ///< values kept in registers while all sources are joined to them
-
-    struct MaxJoin {
-        template <class Real>
-        Real first(Real value, Real weight) const
-        {
-            return value + weight;
-        }
-        template <class Real>
-        Real next(Real best, Real value, Real weight) const
-        {
-            const Real candidate = value + weight;
-            return candidate > best ? candidate : best;
-        }
-        template <class Real>
-        Real last(Real best, Real) const
-        {
-            return best;
-        }
-    };
-
-    /// Where all weights are the same: max(a + w, b + w) = max(a, b) + w to the last bit, for rounding is monotone.
-    struct EqualMaxJoin {
-        template <class Real>
-        Real first(Real value, Real) const
-        {
-            return value;
-        }
-        template <class Real>
-        Real next(Real best, Real value, Real) const
-        {
-            return value > best ? value : best;
-        }
-        template <class Real>
-        Real last(Real best, Real weight) const
-        {
-            return best + weight;
-        }
-    };
-
-    struct SumJoin {
-        double first(double value, double weight) const { return value * weight; }
-        double next(double sum, double value, double weight) const { return sum + value * weight; }
-        double last(double sum, double) const { return sum; }
-    };
-
-    /// to[i] = ⊕_k from_k[i] ⊗ weight_k, the sources in their order.
-    template <class Real, class Join>
-    [[gnu::always_inline]] inline void joinAll(Real *to, Index n, const ShiftedPlane<Real> *sources, std::size_t count, Join join)
-    {
-        Index i = 0;
-        for (; i + lanes <= n; i += lanes) {
-            Real sum[lanes];
-            for (Index lane = 0; lane < lanes; ++lane)
-                sum[lane] = join.first(sources[0].from[i + lane], sources[0].weight);
-            for (std::size_t k = 1; k < count; ++k) {
-                const Real *from = sources[k].from + i;
-                const Real weight = sources[k].weight;
-                for (Index lane = 0; lane < lanes; ++lane)
-                    sum[lane] = join.next(sum[lane], from[lane], weight);
-            }
-            for (Index lane = 0; lane < lanes; ++lane)
-                to[i + lane] = join.last(sum[lane], sources[0].weight);
-        }
-        for (; i < n; ++i) {
-            Real sum = join.first(sources[0].from[i], sources[0].weight);
-            for (std::size_t k = 1; k < count; ++k)
-                sum = join.next(sum, sources[k].from[i], sources[k].weight);
-            to[i] = join.last(sum, sources[0].weight);
-        }
-    }
-
-    template <class Real>
-    bool haveEqualWeights(const ShiftedPlane<Real> *sources, std::size_t count)
-    {
-        return std::all_of(sources, sources + count, [&](const ShiftedPlane<Real> &s) { return s.weight == sources[0].weight; });
-    }
-
-    FAINTLINE_MULTIVERSION
-    void joinMax(float *to, Index n, const ShiftedPlane<float> *sources, std::size_t count)
-    {
-        joinAll(to, n, sources, count, MaxJoin());
-    }
-
-    FAINTLINE_MULTIVERSION
-    void joinEqualMax(float *to, Index n, const ShiftedPlane<float> *sources, std::size_t count)
-    {
-        joinAll(to, n, sources, count, EqualMaxJoin());
-    }
-
-    void joinEqualMax(double *to, Index n, const ShiftedPlane<double> *sources, std::size_t count)
-    {
-        joinAll(to, n, sources, count, EqualMaxJoin());
-    }
-
-    FAINTLINE_MULTIVERSION
-    void joinMax(double *to, Index n, const ShiftedPlane<double> *sources, std::size_t count)
-    {
-        joinAll(to, n, sources, count, MaxJoin());
-    }
-
-    FAINTLINE_MULTIVERSION
-    void addEach(float *to, const float *more, Index n)
-    {
-        for (Index i = 0; i < n; ++i)
-            to[i] += more[i];
-    }
-
-    FAINTLINE_MULTIVERSION
-    void addEach(double *to, const double *more, Index n)
-    {
-        for (Index i = 0; i < n; ++i)
-            to[i] += more[i];
-    }
-
-    FAINTLINE_MULTIVERSION
-    void multiplyEach(double *to, const double *factors, Index n)
-    {
-        for (Index i = 0; i < n; ++i)
-            to[i] *= factors[i];
-    }
-
-    template <class Semiring>
-    void depart(typename Semiring::Real *to, const typename Semiring::Real *departures, Index n)
-    {
-        if constexpr (Semiring::logarithmic)
-            addEach(to, departures, n);
-        else
-            multiplyEach(to, departures, n);
-    }
-
-    FAINTLINE_MULTIVERSION
-    void joinSum(double *to, Index n, const ShiftedPlane<double> *sources, std::size_t count)
-    {
-        joinAll(to, n, sources, count, SumJoin());
-    }
+    constexpr Index tileCells = 1024;     ///< of each plane of a tile
+    constexpr Index longTileCells = 2048; ///< the same where a single axis needs no second step
+    constexpr Index slantCells = 1024;
+    constexpr Index vectorCells = 32;
+    constexpr Index largestWindow = 1 << 19; ///< bytes of the second-level cache
+    constexpr Index manyFrames = 16;      ///< gone through at a time: then the memory has become as good as free
+    constexpr std::size_t fewest = 4;     ///< rates whose maximum is worth sharing
+    constexpr Index worthAThread = 1 << 19; ///< states × frames
 
     template <class Semiring>
     constexpr typename Semiring::Real nothing()
@@ -160,18 +34,30 @@ namespace {
     }
 
     template <class Semiring>
-    void joinSources(typename Semiring::Real *to, Index n, const std::vector<ShiftedPlane<typename Semiring::Real>> &sources)
+    void joinSources(typename Semiring::Real *to, Index n, std::span<const ShiftedPlane<typename Semiring::Real>> sources)
     {
-        if (sources.empty()) {
-            std::fill_n(to, n, nothing<Semiring>());
-        } else if constexpr (Semiring::logarithmic) {
-            if (haveEqualWeights(sources.data(), sources.size()))
-                joinEqualMax(to, n, sources.data(), sources.size());
-            else
-                joinMax(to, n, sources.data(), sources.size());
-        } else {
-            joinSum(to, n, sources.data(), sources.size());
-        }
+        if constexpr (Semiring::logarithmic)
+            joinMax(to, n, sources);
+        else
+            joinSum(to, n, sources);
+    }
+
+    template <class Semiring>
+    void depart(typename Semiring::Real *to, const typename Semiring::Real *departures, Index n)
+    {
+        if constexpr (Semiring::logarithmic)
+            addEach(to, departures, n);
+        else
+            multiplyEach(to, departures, n);
+    }
+
+    /// Asks for memory that the next tile will read or write: planes are many, and pieces of them too short for the processor to foresee.
+    template <bool toWrite>
+    void fetch(const void *begin, Index bytes)
+    {
+        constexpr Index line = 64;
+        for (Index at = 0; at < bytes; at += line)
+            __builtin_prefetch(static_cast<const char *>(begin) + at, toWrite ? 1 : 0, 2);
     }
 
     /// An axis that never moves and loses no probability needs no step of its own.
@@ -182,32 +68,62 @@ namespace {
         });
     }
 
-    /// Rows first … second-1 are those in which no shift reaches beyond the axis's ends.
-    template <class Shifts>
-    std::pair<Index, Index> interior(const Shifts &shifts, Index cells)
+    template <class Semiring>
+    typename Semiring::Real weightOf(double lnProbability)
     {
-        Index low = 0;
-        Index high = cells;
-        for (const auto &shift : shifts) {
-            low = std::max(low, shift.cells);
-            high = std::min(high, cells + shift.cells);
-        }
-        return low < high ? std::pair{low, high} : std::pair{cells, cells};
-    }
-
-    /// The row a shift takes its value from, or -1 where there is none.
-    Index sourceRow(Index row, Index shift, Index cells, bool cyclic)
-    {
-        const Index source = row - shift;
-        if (source >= 0 && source < cells)
-            return source;
-        if (!cyclic)
-            return -1;
-        const Index rest = source % cells;
-        return rest < 0 ? rest + cells : rest;
+        return static_cast<typename Semiring::Real>(Semiring::logarithmic ? lnProbability : std::exp(lnProbability));
     }
 
 } // namespace
+
+template <class Semiring>
+struct Recursion<Semiring>::Scratch {
+    std::vector<Real> slides;                  ///< each maximum's rows of a tile
+    std::vector<Real> tile;                    ///< a group's planes of a tile, after an axis's step
+    std::vector<Real> otherTile;
+    std::vector<Real> copies;
+    std::vector<const Real *> planes;          ///< what the next axis starts from
+    std::vector<Source> sources;
+    std::vector<std::size_t> firstSource;      ///< of each target, and one beyond the last
+    std::vector<TargetPlane> targets;
+    std::vector<float> lambda;
+    std::vector<float> windows;                ///< of a slanting tile: two times of it in turns
+    std::vector<float> halo;                   ///< of every time: the last columns of the tile before
+    std::vector<float> unused;                 ///< a statistic nobody looks at
+
+    void clearSources()
+    {
+        sources.clear();
+        firstSource.assign(1, 0);
+    }
+    void endTarget() { firstSource.push_back(sources.size()); }
+    std::span<const Source> sourcesOf(std::size_t target) const
+    {
+        return std::span(sources).subspan(firstSource[target], firstSource[target + 1] - firstSource[target]);
+    }
+};
+
+/// Planes of cells, equally far apart, and the targets of the only axis that take from them.
+template <class Semiring>
+struct Recursion<Semiring>::Planes {
+    const float *start;
+    Index stride;
+};
+
+template <class Semiring>
+struct Recursion<Semiring>::PlaneList {
+    std::vector<ShiftedPlane<float>> sources;
+    std::vector<TargetPlane> targets;
+};
+
+template <class Semiring>
+Recursion<Semiring>::~Recursion() = default;
+
+template <class Semiring>
+Recursion<Semiring>::Recursion(Recursion &&) noexcept = default;
+
+template <class Semiring>
+Recursion<Semiring> &Recursion<Semiring>::operator=(Recursion &&) noexcept = default;
 
 template <class Semiring>
 Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
@@ -220,41 +136,174 @@ Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
     for (std::size_t axis = 0; axis < space.axes().size(); ++axis) {
         const KinematicAxis &a = space.axes()[axis];
         inner /= a.cells;
-        if (axis > 0)
-            after /= a.rateCount;
-        AxisStep step{a.cells, inner, a.cyclic, {}};
-        const std::vector<KinematicAxis::Move> moves = a.moves();
-        if (!isIdentity(moves)) {
-            std::vector<std::vector<Shift>> byRate(static_cast<std::size_t>(a.rateCount));
-            for (const KinematicAxis::Move &move : moves) {
-                const double ln = move.lnProbability * transitionScale;
-                byRate[static_cast<std::size_t>(move.toRate)].push_back(
-                    {move.fromRate, move.cells, static_cast<Real>(Semiring::logarithmic ? ln : std::exp(ln))});
-            }
-            if (axis == 0)
-                step.shifts = std::move(byRate);
-            else
-                for (Index b = 0; b < before; ++b)
-                    for (Index toRate = 0; toRate < a.rateCount; ++toRate)
-                        for (Index c = 0; c < after; ++c) {
-                            std::vector<Shift> shifts = byRate[static_cast<std::size_t>(toRate)];
-                            for (Shift &shift : shifts)
-                                shift.fromPlane = (b * a.rateCount + shift.fromPlane) * after + c;
-                            step.shifts.push_back(std::move(shifts));
-                        }
+        if (axis == 0) {
+            addFirstAxis(a, inner, transitionScale);
+            continue;
         }
-        if (axis == 0)
-            m_first = std::move(step);
-        else if (!step.shifts.empty())
-            m_later.push_back(std::move(step));
-        if (axis > 0)
-            before *= a.rateCount;
+        after /= a.rateCount;
+        addLaterAxis(a, inner, before, after, transitionScale);
+        before *= a.rateCount;
     }
-    m_tileRows = std::clamp<Index>(tileCells / m_first.inner, 1, m_first.cells);
-    const auto tileSize = static_cast<std::size_t>(m_groupSize * m_tileRows * m_first.inner);
-    m_tile.resize(tileSize);
-    m_otherTile.resize(m_later.empty() ? 0 : tileSize);
+    if constexpr (Semiring::logarithmic)
+        prepareSlides();
+    prepareTiles();
     preparePlaces(space, transitionScale);
+    const Index windowBytes = 2 * m_groups * (slantCells + 2 * m_reach) * static_cast<Index>(sizeof(Real));
+    m_isSlantable = space.axes().size() == 1 && !m_first.cyclic && m_slideRing == 0 && m_departures.empty() && m_matrices.empty()
+                    && windowBytes <= largestWindow;
+}
+
+template <class Semiring>
+void Recursion<Semiring>::addFirstAxis(const KinematicAxis &axis, Index inner, double transitionScale)
+{
+    m_first = {axis.cells, inner, axis.cyclic, {}};
+    const std::vector<KinematicAxis::Move> moves = axis.moves();
+    m_slides.resize(static_cast<std::size_t>(axis.rateCount));
+    if (isIdentity(moves))
+        return;
+    m_first.shifts.resize(static_cast<std::size_t>(axis.rateCount));
+    for (const KinematicAxis::Move &move : moves) {
+        m_first.shifts[static_cast<std::size_t>(move.toRate)].push_back(
+            {move.fromRate, move.cells, weightOf<Semiring>(move.lnProbability * transitionScale)});
+        m_reach = std::max<Index>(m_reach, std::abs(move.cells));
+    }
+}
+
+template <class Semiring>
+void Recursion<Semiring>::addLaterAxis(const KinematicAxis &axis, Index inner, Index before, Index after, double transitionScale)
+{
+    const std::vector<KinematicAxis::Move> moves = axis.moves();
+    if (isIdentity(moves))
+        return;
+    AxisStep step{axis.cells, inner, axis.cyclic, std::vector<std::vector<Shift>>(static_cast<std::size_t>(m_groupSize))};
+    for (Index b = 0; b < before; ++b)
+        for (const KinematicAxis::Move &move : moves)
+            for (Index c = 0; c < after; ++c) {
+                const auto plane = [&](Index rate) { return (b * axis.rateCount + rate) * after + c; };
+                Shift shift{plane(move.fromRate), move.cells, weightOf<Semiring>(move.lnProbability * transitionScale)};
+                if (move.cells != 0) {
+                    const auto same = [&](const Shift &copy) { return copy.from == shift.from && copy.cells == shift.cells; };
+                    const auto found = std::find_if(step.copies.begin(), step.copies.end(), same);
+                    const Index number = m_groupSize + (found - step.copies.begin());
+                    if (found == step.copies.end())
+                        step.copies.push_back(shift);
+                    shift = {number, 0, shift.weight};
+                }
+                step.shifts[static_cast<std::size_t>(plane(move.toRate))].push_back(shift);
+            }
+    m_later.push_back(std::move(step));
+}
+
+/// Replaces runs of sources of equal weight, each two rates and a cell on from the one before, by maxima over two and four of them.
+/// They may overlap: a maximum minds no repetition.
+template <class Semiring>
+void Recursion<Semiring>::prepareSlides()
+{
+    const Index rates = m_groups;
+    std::vector<Slide> wanted(static_cast<std::size_t>(2 * rates), {-1, 0, 0, 0, 0, 0});
+    const auto want = [&](Index number, Index of, Index other, Index back, Index shift) {
+        Slide &slide = wanted[static_cast<std::size_t>(number - rates)];
+        slide = slide.number < 0 ? Slide{number, of, other, back, shift, shift}
+                                 : Slide{number, of, other, back, std::min(slide.smallest, shift), std::max(slide.largest, shift)};
+    };
+    const auto ofTwo = [&](Index rate, Index shift) {
+        want(rates + rate, rate, rate + 2, 1, shift);
+        return rates + rate;
+    };
+    const auto ofFour = [&](Index rate, Index shift) {
+        ofTwo(rate, shift);
+        ofTwo(rate + 4, shift + 2);
+        want(2 * rates + rate, rates + rate, rates + rate + 4, 2, shift);
+        return 2 * rates + rate;
+    };
+    std::vector<std::vector<Shift>> replaced = m_first.shifts;
+    for (std::vector<Shift> &shifts : replaced) {
+        const bool isUniform = std::all_of(shifts.begin(), shifts.end(), [&](const Shift &s) { return s.weight == shifts.front().weight; });
+        if (shifts.size() < fewest || !isUniform)
+            continue;
+        const std::vector<Shift> all = std::exchange(shifts, {});
+        std::vector<bool> used(all.size(), false);
+        for (std::size_t start = 0; start < all.size(); ++start) {
+            if (used[start])
+                continue;
+            std::vector<Shift> run{all[start]};
+            for (std::size_t next = start + 1; next < all.size(); ++next)
+                if (!used[next] && all[next].from == run.back().from + 2 && all[next].cells == run.back().cells + 1) {
+                    run.push_back(all[next]);
+                    used[next] = true;
+                }
+            const std::size_t length = run.size() >= 4 ? 4 : run.size() >= 2 ? 2 : 1;
+            for (std::size_t at = 0; at < run.size(); at += length) {
+                const Shift &first = run[std::min(at, run.size() - length)];
+                Index from = first.from;
+                if (length > 1)
+                    from = length == 4 ? ofFour(first.from, first.cells) : ofTwo(first.from, first.cells);
+                shifts.push_back({from, first.cells, first.weight});
+            }
+        }
+    }
+    // Each is made just before the first target that takes it, those it is made of before it.
+    std::vector<bool> made(wanted.size(), false);
+    for (std::size_t rate = 0; rate < replaced.size(); ++rate) {
+        const auto make = [&](auto &&self, Index number) -> void {
+            if (number < rates || made[static_cast<std::size_t>(number - rates)])
+                return;
+            const Slide &slide = wanted[static_cast<std::size_t>(number - rates)];
+            self(self, slide.of);
+            self(self, slide.other);
+            made[static_cast<std::size_t>(number - rates)] = true;
+            m_slides[rate].push_back(slide);
+            m_largest.resize(wanted.size());
+            m_largest[static_cast<std::size_t>(number - rates)] = slide.largest;
+        };
+        for (const Shift &shift : replaced[rate])
+            make(make, shift.from);
+    }
+    if (std::none_of(m_slides.begin(), m_slides.end(), [](const std::vector<Slide> &slides) { return !slides.empty(); }))
+        return;
+    for (std::size_t rate = 0; rate < replaced.size(); ++rate)
+        for (const Shift &shift : m_first.shifts[rate])
+            m_slideRing = std::max(m_slideRing, 2 * std::abs(shift.from - static_cast<Index>(rate)) + 1);
+    if (m_later.empty()) // then all targets are finished together
+        m_slideRing = rates;
+    m_first.shifts = std::move(replaced);
+}
+
+template <class Semiring>
+void Recursion<Semiring>::prepareTiles()
+{
+    const Index cells = m_planeCount == m_groups && m_later.empty() ? longTileCells : tileCells;
+    m_tileRows = std::clamp<Index>(cells / m_first.inner, 1, m_first.cells);
+    // Whole vectors, if that can be had.
+    for (Index rows = m_tileRows; rows > 0 && m_tileRows < m_first.cells; --rows)
+        if (rows * m_first.inner % vectorCells == 0) {
+            m_tileRows = rows;
+            break;
+        }
+    // Of a wide law only those sources count that exist for some row of a tile.
+    if (4 * m_reach > m_first.cells)
+        m_tileRows = std::min<Index>(m_tileRows, 8);
+    m_edgeRows = 2 * m_reach + 2 * m_tileRows >= m_first.cells ? m_first.cells : m_reach;
+    const auto cut = [&](Index from, Index to) {
+        for (; from < to; from += m_tileRows)
+            m_tiles.push_back({from, std::min(m_tileRows, to - from)});
+    };
+    if (m_edgeRows == m_first.cells) {
+        cut(0, m_first.cells);
+    } else {
+        cut(0, m_edgeRows);
+        cut(m_edgeRows, m_first.cells - m_edgeRows);
+        cut(m_first.cells - m_edgeRows, m_first.cells);
+    }
+    Index slideRows = 0;
+    for (const std::vector<Slide> &slides : m_slides)
+        for (const Slide &s : slides)
+            slideRows = std::max(slideRows, s.largest - s.smallest);
+    m_slotSize = (m_tileRows + slideRows) * m_first.inner;
+    if (m_reach > 0) {
+        const Index rows = m_edgeRows == m_first.cells ? m_first.cells + 2 * m_reach : 2 * (m_edgeRows + 2 * m_reach);
+        m_margins.resize(static_cast<std::size_t>(m_planeCount * rows * m_first.inner));
+    }
 }
 
 template <class Semiring>
@@ -320,6 +369,26 @@ void Recursion<Semiring>::apply(const MatrixStep &step, std::span<const Real> fr
 }
 
 template <class Semiring>
+typename Recursion<Semiring>::Scratch &Recursion<Semiring>::scratch(std::size_t number)
+{
+    while (m_scratch.size() <= number) {
+        auto made = std::make_unique<Scratch>();
+        const auto planes = static_cast<std::size_t>(m_groupSize);
+        const auto size = static_cast<std::size_t>(m_tileRows * m_first.inner);
+        std::size_t copies = 0;
+        for (const AxisStep &step : m_later)
+            copies = std::max(copies, step.copies.size());
+        made->tile.resize(planes * size);
+        made->otherTile.resize(planes * size);
+        made->copies.resize(copies * size);
+        made->lambda.resize(size);
+        made->slides.resize(static_cast<std::size_t>(2 * m_slideRing * m_groupSize * m_slotSize));
+        m_scratch.push_back(std::move(made));
+    }
+    return *m_scratch[number];
+}
+
+template <class Semiring>
 std::span<typename Semiring::Real> Recursion<Semiring>::predict(std::span<const Real> scores)
 {
     m_result.resize(static_cast<std::size_t>(m_planeSize * m_planeCount));
@@ -333,106 +402,437 @@ template <class Semiring>
 void Recursion<Semiring>::predict(std::span<const Real> scores, const Tile &take)
 {
     scores = prepare(scores);
-    for (Index firstRow = 0; firstRow < m_first.cells; firstRow += m_tileRows) {
-        const Index rows = std::min(m_tileRows, m_first.cells - firstRow);
-        const Index size = rows * m_first.inner;
-        for (Index rate = 0; rate < m_groups; ++rate) {
-            firstAxis(scores.data(), rate, firstRow, rows, m_tile.data());
-            for (const AxisStep &step : m_later) {
-                laterAxis(step, m_tile.data(), size, m_otherTile.data());
-                std::swap(m_tile, m_otherTile);
+    fillMargins(scores);
+    Scratch &own = scratch(0);
+    std::vector<Real> predicted(static_cast<std::size_t>(m_tileRows * m_first.inner));
+    for (const TileRows &rows : m_tiles)
+        goThroughTile(scores, rows, own, [&](Index firstPlane) {
+            const std::span<Real> to = std::span(predicted).first(static_cast<std::size_t>(rows.count * m_first.inner));
+            for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
+                joinSources<Semiring>(to.data(), std::ssize(to), own.sourcesOf(k));
+                take(firstPlane + static_cast<Index>(k), rows.first * m_first.inner, to);
             }
-            for (Index plane = 0; plane < m_groupSize; ++plane)
-                take(rate * m_groupSize + plane, firstRow * m_first.inner,
-                     std::span<const Real>(m_tile).subspan(static_cast<std::size_t>(plane * size), static_cast<std::size_t>(size)));
+        });
+}
+
+/// Rows beyond the ends of the first axis, and those near to them: rows -reach … edge+reach and the same at the other end, or all.
+template <class Semiring>
+void Recursion<Semiring>::fillMargins(std::span<const Real> scores)
+{
+    if (m_reach == 0)
+        return;
+    const Index cells = m_first.cells;
+    const Index inner = m_first.inner;
+    Real *to = m_margins.data();
+    const auto copyRows = [&](const Real *plane, Index from, Index end) {
+        for (Index row = from; row < end;) {
+            const bool isInside = row >= 0 && row < cells;
+            const Index next = row < 0 ? std::min<Index>(0, end) : row < cells ? std::min(cells, end) : end;
+            const Index wrapped = row < 0 ? row + cells : row - cells;
+            const Index n = (next - row) * inner;
+            if (isInside)
+                std::copy_n(plane + row * inner, n, to);
+            else if (m_first.cyclic)
+                std::copy_n(plane + wrapped * inner, n, to);
+            else
+                std::fill_n(to, n, nothing<Semiring>());
+            to += n;
+            row = next;
+        }
+    };
+    for (Index number = 0; number < m_planeCount; ++number) {
+        const Real *plane = scores.data() + number * m_planeSize;
+        if (m_edgeRows == cells) {
+            copyRows(plane, -m_reach, cells + m_reach);
+        } else {
+            copyRows(plane, -m_reach, m_edgeRows + m_reach);
+            copyRows(plane, cells - m_edgeRows - m_reach, cells + m_reach);
         }
     }
 }
 
+/// Where a plane's rows from firstRow on lie, with `reach` more on either side of the tile.
 template <class Semiring>
-void Recursion<Semiring>::firstAxis(const Real *scores, Index targetRate, Index firstRow, Index rows, Real *to)
+const typename Semiring::Real *Recursion<Semiring>::rowsOf(std::span<const Real> scores, Index plane, Index firstRow) const
+{
+    const Index cells = m_first.cells;
+    const bool isLow = firstRow < m_edgeRows;
+    if (m_reach == 0 || (!isLow && firstRow < cells - m_edgeRows))
+        return scores.data() + plane * m_planeSize + firstRow * m_first.inner;
+    const bool isWhole = m_edgeRows == cells;
+    const Index rows = m_edgeRows + 2 * m_reach;
+    const Index block = isWhole || isLow ? 0 : rows;
+    const Index begin = isWhole || isLow ? -m_reach : cells - m_edgeRows - m_reach;
+    return m_margins.data() + (plane * (isWhole ? rows : 2 * rows) + block + firstRow - begin) * m_first.inner;
+}
+
+/// Where a maximum is kept: those of the same rates as many targets on as a law reaches take the place of those of before.
+template <class Semiring>
+Index Recursion<Semiring>::slotOf(Index number, Index group) const
+{
+    const Index level = number / m_groups - 1; // over two, over four
+    return (level * m_slideRing + number % m_groups % m_slideRing) * m_groupSize + group;
+}
+
+/// Makes one maximum for the rows of a tile.
+template <class Semiring>
+void Recursion<Semiring>::slide(std::span<const Real> scores, const Slide &slide, Index group, TileRows rows, Scratch &own) const
+{
+    if constexpr (Semiring::logarithmic) {
+        const Index inner = m_first.inner;
+        const auto place = [&](Index number) { return own.slides.data() + slotOf(number, group) * m_slotSize; };
+        const Index firstRow = -slide.largest; // relative to the tile
+        const auto from = [&](Index number, Index back) -> const Real * {
+            if (number < m_groups)
+                return rowsOf(scores, number * m_groupSize + group, rows.first) + (firstRow - back) * inner;
+            return place(number) + (firstRow - back + m_largest[static_cast<std::size_t>(number - m_groups)]) * inner;
+        };
+        const Index count = rows.count + slide.largest - slide.smallest;
+        maxOfTwo(place(slide.number), from(slide.of, 0), from(slide.other, slide.back), count * inner);
+    }
+}
+
+/// The sources of one target plane of the first axis, for the rows of a tile.
+template <class Semiring>
+void Recursion<Semiring>::listFirst(std::span<const Real> scores, Index rate, Index group, TileRows rows, Scratch &own) const
 {
     const Index inner = m_first.inner;
-    const Index size = rows * inner;
-    for (Index plane = 0; plane < m_groupSize; ++plane, to += size) {
-        const auto from = [&](Index rate, Index row) { return scores + (rate * m_groupSize + plane) * m_planeSize + row * inner; };
-        if (m_first.shifts.empty()) {
-            std::copy_n(from(targetRate, firstRow), size, to);
+    if (m_first.shifts.empty()) {
+        own.sources.push_back({rowsOf(scores, rate * m_groupSize + group, rows.first), weightOf<Semiring>(0.0)});
+        return;
+    }
+    for (const Shift &shift : m_first.shifts[static_cast<std::size_t>(rate)]) {
+        if (shift.from >= m_groups) {
+            const auto number = static_cast<std::size_t>(shift.from - m_groups);
+            const Real *maxima = own.slides.data() + slotOf(shift.from, group) * m_slotSize;
+            own.sources.push_back({maxima + (m_largest[number] - shift.cells) * inner, shift.weight});
+        } else if (m_first.cyclic || (rows.first - shift.cells < m_first.cells && rows.first + rows.count - shift.cells > 0)) {
+            own.sources.push_back({rowsOf(scores, shift.from * m_groupSize + group, rows.first) - shift.cells * inner, shift.weight});
+        }
+    }
+}
+
+/// Shifted copies of the planes a later axis starts from; what would come from beyond the axis's ends is neutral, or wrapped round.
+template <class Semiring>
+void Recursion<Semiring>::makeCopies(const AxisStep &step, Index size, Scratch &own) const
+{
+    const Index period = step.cells * step.inner;
+    for (std::size_t number = 0; number < step.copies.size(); ++number) {
+        const Shift &copy = step.copies[number];
+        const Real *from = own.planes[static_cast<std::size_t>(copy.from)];
+        Real *to = own.copies.data() + static_cast<Index>(number) * size;
+        const Index cells = std::clamp(copy.cells, -step.cells, step.cells);
+        const Index by = cells * step.inner;
+        // As if all blocks were one; then what that got wrong at their ends.
+        if (by > 0)
+            std::copy_n(from, size - by, to + by);
+        else
+            std::copy_n(from - by, size + by, to);
+        const Index wrong = std::abs(by);
+        const Index first = by > 0 ? 0 : period - wrong;
+        for (Index block = first; block < size; block += period) {
+            if (step.cyclic) {
+                for (Index i = 0; i < wrong; ++i)
+                    to[block + i] = from[block + i - by + (by > 0 ? period : -period)];
+            } else {
+                std::fill_n(to + block, wrong, nothing<Semiring>());
+            }
+        }
+        own.planes.push_back(to);
+    }
+}
+
+/// All axes' steps for the rows of a tile. `finish(plane)` is called with the first of the target planes whose sources have been listed.
+template <class Semiring>
+template <class Finish>
+void Recursion<Semiring>::goThroughTile(std::span<const Real> scores, TileRows rows, Scratch &own, Finish finish) const
+{
+    const Index bytes = rows.count * m_first.inner * static_cast<Index>(sizeof(Real));
+    own.clearSources();
+    for (Index rate = 0; rate < m_groups; ++rate) {
+        for (const Slide &s : m_slides[static_cast<std::size_t>(rate)])
+            for (Index group = 0; group < m_groupSize; ++group)
+                slide(scores, s, group, rows, own);
+        if (!m_later.empty())
+            own.clearSources();
+        for (Index group = 0; group < m_groupSize; ++group) {
+            if (const Index ahead = rows.first + rows.count; ahead + rows.count <= m_first.cells)
+                fetch<false>(scores.data() + (rate * m_groupSize + group) * m_planeSize + ahead * m_first.inner, bytes);
+            listFirst(scores, rate, group, rows, own);
+            own.endTarget();
+        }
+        if (m_later.empty())
+            continue;
+        const Index size = rows.count * m_first.inner;
+        for (const AxisStep &step : m_later) {
+            joinListed(size, own);
+            makeCopies(step, size, own);
+            own.clearSources();
+            for (const std::vector<Shift> &shifts : step.shifts) {
+                for (const Shift &shift : shifts)
+                    own.sources.push_back({own.planes[static_cast<std::size_t>(shift.from)], shift.weight});
+                own.endTarget();
+            }
+        }
+        finish(rate * m_groupSize);
+    }
+    if (m_later.empty())
+        finish(0);
+}
+
+/// Joins the sources of each target that has been listed to a plane; one that would be but a copy is the plane itself.
+template <class Semiring>
+void Recursion<Semiring>::joinListed(Index size, Scratch &own) const
+{
+    std::swap(own.tile, own.otherTile);
+    own.planes.clear();
+    for (Index group = 0; group < m_groupSize; ++group) {
+        const std::span<const Source> sources = own.sourcesOf(static_cast<std::size_t>(group));
+        if (sources.size() == 1 && sources.front().weight == weightOf<Semiring>(0.0) && m_later.size() == 1) {
+            own.planes.push_back(sources.front().from);
             continue;
         }
-        const std::vector<Shift> &shifts = m_first.shifts[static_cast<std::size_t>(targetRate)];
-        const auto [low, high] = interior(shifts, m_first.cells);
-        const Index inside = std::clamp(low, firstRow, firstRow + rows);
-        const Index outside = std::clamp(high, inside, firstRow + rows);
-        if (inside < outside) {
-            m_sources.clear();
-            for (const Shift &shift : shifts)
-                m_sources.push_back({from(shift.fromPlane, inside - shift.cells), shift.weight});
-            joinSources<Semiring>(to + (inside - firstRow) * inner, (outside - inside) * inner, m_sources);
-        }
-        for (Index row = firstRow; row < firstRow + rows; ++row) {
-            if (row == inside && inside < outside)
-                row = outside;
-            if (row == firstRow + rows)
-                break;
-            m_sources.clear();
-            for (const Shift &shift : shifts)
-                if (const Index source = sourceRow(row, shift.cells, m_first.cells, m_first.cyclic); source >= 0)
-                    m_sources.push_back({from(shift.fromPlane, source), shift.weight});
-            joinSources<Semiring>(to + (row - firstRow) * inner, inner, m_sources);
-        }
+        Real *to = own.tile.data() + group * size;
+        joinSources<Semiring>(to, size, sources);
+        own.planes.push_back(to);
     }
 }
 
 template <class Semiring>
-void Recursion<Semiring>::laterAxis(const AxisStep &step, const Real *from, Index size, Real *to)
+Index Recursion<Semiring>::framesAtOnce() const
 {
-    for (const std::vector<Shift> &shifts : step.shifts) {
-        const auto [low, high] = interior(shifts, step.cells);
-        // In one sweep over all rows, as if they were one long row; what that gets wrong at their ends is put right afterwards.
-        const Index begin = low * step.inner;
-        const Index end = size - (step.cells - high) * step.inner;
-        if (low < high) {
-            m_sources.clear();
-            for (const Shift &shift : shifts)
-                m_sources.push_back({from + shift.fromPlane * size + begin - shift.cells * step.inner, shift.weight});
-            joinSources<Semiring>(to + begin, end - begin, m_sources);
-        }
-        for (Index row = 0; row < step.cells; ++row) {
-            if (row == low)
-                row = high;
-            if (row < step.cells)
-                laterEdge(step, shifts, row, from, size, to);
-        }
-        to += size;
-    }
+    return m_isSlantable ? manyFrames : 1;
 }
 
 template <class Semiring>
-void Recursion<Semiring>::laterEdge(const AxisStep &step, const std::vector<Shift> &shifts, Index row, const Real *from, Index size,
-                                    Real *to)
+void Recursion<Semiring>::advance(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
+                                  const FrameJoin &join)
+    requires std::same_as<Semiring, MaxPlus<float>>
 {
-    m_sources.clear();
-    for (const Shift &shift : shifts)
-        if (const Index source = sourceRow(row, shift.cells, step.cells, step.cyclic); source >= 0)
-            m_sources.push_back({from + shift.fromPlane * size + source * step.inner, shift.weight});
-    const Index period = step.cells * step.inner;
-    for (Index block = 0; block < size; block += period) {
-        if (step.inner == 1) { // a few cells at a time: not worth a call
-            Real sum = nothing<Semiring>();
-            for (const ShiftedPlane<Real> &source : m_sources) {
-                if constexpr (Semiring::logarithmic)
-                    sum = MaxJoin().next(sum, source.from[block], source.weight);
-                else
-                    sum = SumJoin().next(sum, source.from[block], source.weight);
+    scores = prepare(scores);
+    fillMargins(scores);
+    RunContext context;
+    const Index work = m_planeSize * m_planeCount * std::ssize(frames.continued);
+    context.threads = static_cast<int>(std::clamp<Index>(work / worthAThread, 1, m_threads));
+    if (std::ssize(frames.continued) == 1)
+        advanceOne(scores, next, frames, likelihood, join, context);
+    else
+        advanceMany(scores, next, frames, likelihood, join, context);
+}
+
+template <class Semiring>
+void Recursion<Semiring>::advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames,
+                                     const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
+    requires std::same_as<Semiring, MaxPlus<float>>
+{
+    m_tileContinued.assign(m_tiles.size(), {});
+    const auto doTile = [&](Index number, Scratch &own) {
+        const TileRows rows = m_tiles[static_cast<std::size_t>(number)];
+        const Index firstCell = rows.first * m_first.inner;
+        const Index n = rows.count * m_first.inner;
+        likelihood.apply(frames.y.subspan(static_cast<std::size_t>(firstCell), static_cast<std::size_t>(n)),
+                         std::span(own.lambda).first(static_cast<std::size_t>(n)));
+        Continued &continued = m_tileContinued[static_cast<std::size_t>(number)];
+        goThroughTile(scores, rows, own, [&](Index firstPlane) {
+            own.targets.clear();
+            for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
+                float *const to = next.data() + (firstPlane + static_cast<Index>(k)) * m_planeSize;
+                own.targets.push_back({own.sourcesOf(k), to});
+                if (firstCell + 2 * n <= m_planeSize)
+                    fetch<true>(to + firstCell + n, n * static_cast<Index>(sizeof(float)));
             }
-            to[block + row] = sum;
-        } else {
-            joinSources<Semiring>(to + block + row * step.inner, step.inner, m_sources);
-            for (ShiftedPlane<Real> &source : m_sources)
-                source.from += period;
-        }
+            FrameJoin joined = join;
+            joined.isFresh = firstPlane == 0;
+            const Continued part = finishMax(own.targets, n, 0, firstCell, own.lambda.data(), joined, frames.statistic.data() + firstCell);
+            continued.count += part.count;
+            continued.sum += part.sum;
+        });
+    };
+    const Index count = std::ssize(m_tiles);
+    if (context.threads == 1) {
+        for (Index number = 0; number < count; ++number)
+            doTile(number, scratch(0));
+    } else {
+        scratch(static_cast<std::size_t>(context.threads) - 1);
+        std::atomic<std::size_t> taken = 0;
+        parallelFor(count, context, "recursion", [&] {
+            return [&, own = m_scratch[taken++].get()](Index number) { doTile(number, *own); };
+        });
     }
+    for (const Continued &part : m_tileContinued) { // in this order: a sum in floating point
+        frames.continued.front().count += part.count;
+        frames.continued.front().sum += part.sum;
+    }
+}
+
+/// A stretch of cells, from … end-1, that one thread takes through several frames; what goes in begins at low and ends at high.
+template <class Semiring>
+struct Recursion<Semiring>::Stretch {
+    std::span<const float> scores;
+    std::span<float> next;
+    const Frames &frames;
+    const Likelihood &likelihood;
+    const FrameJoin &join;
+    Index from;
+    Index end;
+    Index low;
+    Index high;
+    std::vector<Continued> continued{};
+};
+
+template <class Semiring>
+void Recursion<Semiring>::advanceMany(std::span<const float> scores, std::span<float> next, const Frames &frames,
+                                      const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
+    requires std::same_as<Semiring, MaxPlus<float>>
+{
+    const Index cells = m_first.cells;
+    const Index overlap = (std::ssize(frames.continued) - 1) * m_reach;
+    std::vector<Stretch> stretches;
+    for (Index i = 0; i < context.threads; ++i) {
+        const Index from = i * cells / context.threads;
+        const Index end = (i + 1) * cells / context.threads;
+        stretches.push_back({scores, next, frames, likelihood, join, from, end, std::max<Index>(0, from - overlap),
+                             std::min(cells, end + overlap), std::vector<Continued>(frames.continued.size())});
+    }
+    scratch(stretches.size() - 1);
+    parallelFor(std::ssize(stretches), context, "recursion", [&] {
+        return [&](Index i) { slant(stretches[static_cast<std::size_t>(i)], *m_scratch[static_cast<std::size_t>(i)]); };
+    });
+    for (const Stretch &stretch : stretches)
+        for (std::size_t frame = 0; frame < stretch.continued.size(); ++frame)
+            frames.continued[frame].count += stretch.continued[frame].count;
+}
+
+/// The targets of the only axis, with sources `reach` cells on from where the planes start.
+template <class Semiring>
+void Recursion<Semiring>::listPlanes(Planes from, float *to, Index toStride, PlaneList &list) const
+    requires std::same_as<Semiring, MaxPlus<float>>
+{
+    list.sources.clear();
+    list.targets.clear();
+    std::vector<std::size_t> ends;
+    for (Index rate = 0; rate < m_groups; ++rate) {
+        if (m_first.shifts.empty())
+            list.sources.push_back({from.start + rate * from.stride, 0.0f});
+        else
+            for (const Shift &shift : m_first.shifts[static_cast<std::size_t>(rate)])
+                list.sources.push_back({from.start + shift.from * from.stride + m_reach - shift.cells, shift.weight});
+        ends.push_back(list.sources.size());
+    }
+    std::size_t begin = 0;
+    for (Index rate = 0; rate < m_groups; ++rate) {
+        const std::size_t end = ends[static_cast<std::size_t>(rate)];
+        list.targets.push_back({std::span<const Source>(list.sources).subspan(begin, end - begin), to + rate * toStride});
+        begin = end;
+    }
+}
+
+template <class Semiring>
+void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
+    requires std::same_as<Semiring, MaxPlus<float>>
+{
+    constexpr float minus = -std::numeric_limits<float>::infinity();
+    const Index cells = m_first.cells;
+    const Index frameCount = std::ssize(s.continued);
+    const Index reach = m_reach;
+    const Index margin = (2 * reach + 15) / 16 * 16; // the targets lie on whole cache lines
+    const Index stride = margin + slantCells;
+    const Index haloSize = m_groups * 2 * reach;
+    own.windows.resize(static_cast<std::size_t>(2 * m_groups * stride + 16));
+    own.halo.assign(static_cast<std::size_t>(frameCount * haloSize), minus);
+    own.lambda.resize(static_cast<std::size_t>(std::max(slantCells, std::ssize(own.lambda))));
+    own.unused.resize(static_cast<std::size_t>(slantCells));
+    float *const windows = own.windows.data() + (16 - reinterpret_cast<std::uintptr_t>(own.windows.data()) / 4 % 16) % 16;
+    FrameJoin join = s.join;
+    join.isFresh = true;
+    const auto window = [&](Index time) { return windows + time % 2 * m_groups * stride; };
+
+    // From the scores, which begin, as all planes do here, `reach` cells before the first cell that is asked of them …
+    const Index edge = m_edgeRows;
+    const bool isWhole = edge == cells;
+    const Index marginRows = edge + 2 * reach;
+    const Index marginStride = isWhole ? marginRows : 2 * marginRows;
+    PlaneList fromLow;
+    PlaneList fromMiddle;
+    PlaneList fromHigh;
+    const float *const beyond = reach > 0 ? m_margins.data() : s.scores.data();
+    listPlanes({beyond, reach > 0 ? marginStride : m_planeSize}, window(0) + margin, stride, fromLow);
+    listPlanes({s.scores.data(), m_planeSize}, window(0) + margin, stride, fromMiddle);
+    listPlanes({beyond + (isWhole || reach == 0 ? 0 : marginRows), reach > 0 ? marginStride : m_planeSize}, window(0) + margin, stride,
+               fromHigh);
+    // … from one time's window to the next, and to the scores.
+    std::array<PlaneList, 2> between;
+    for (Index time = 0; time < 2; ++time)
+        listPlanes({window(time + 1) + margin - 2 * reach, stride}, window(time) + margin, stride, between[static_cast<std::size_t>(time)]);
+    PlaneList last;
+    listPlanes({window(frameCount) + margin - 2 * reach, stride}, s.next.data(), m_planeSize, last);
+
+    // What the next tile will touch, a share of it at each time.
+    const auto fetchAhead = [&](Index tile, Index begin, Index time) {
+        constexpr Index bytes = slantCells * static_cast<Index>(sizeof(float));
+        if (begin >= 0 && begin + slantCells <= cells) {
+            fetch<false>(s.frames.y.data() + time * cells + begin, bytes);
+            fetch<true>(s.frames.statistic.data() + time * cells + begin, bytes);
+        }
+        const Index end = tile - (frameCount - 1) * reach;
+        for (Index plane = time; plane < m_groups; plane += frameCount) {
+            if (tile + slantCells <= cells)
+                fetch<false>(s.scores.data() + plane * m_planeSize + tile, bytes);
+            if (end >= 0 && end + slantCells <= cells)
+                fetch<true>(s.next.data() + plane * m_planeSize + end, bytes);
+        }
+    };
+
+    for (Index tile = s.low; tile - (frameCount - 1) * reach < s.high; tile += slantCells)
+        for (Index time = 0; time < frameCount; ++time) {
+            const Index begin = tile - time * reach; // of the tile at this time
+            const Index from = std::max(begin, s.low);
+            const Index end = std::min(begin + slantCells, s.high);
+            const bool isLast = time + 1 == frameCount;
+            fetchAhead(tile + slantCells, begin + slantCells, time);
+            float *const to = window(time) + margin;
+            float *const halo = own.halo.data() + time * haloSize;
+            if (!isLast)
+                for (Index plane = 0; plane < m_groups; ++plane) {
+                    float *const own0 = to + plane * stride;
+                    std::copy_n(halo + plane * 2 * reach, 2 * reach, own0 - 2 * reach);
+                    std::fill(own0, own0 + std::clamp<Index>(s.low - begin, 0, slantCells), minus);
+                    std::fill(own0 + std::clamp<Index>(end - begin, 0, slantCells), own0 + slantCells, minus);
+                }
+            if (from < end)
+                s.likelihood.apply(s.frames.y.subspan(static_cast<std::size_t>(time * cells + from), static_cast<std::size_t>(end - from)),
+                                   own.lambda);
+            const auto go = [&](Index x, Index xEnd, const PlaneList &list, Index sourceBegin) {
+                // What lies outside of the stretch is the neighbour's to count and to show.
+                const std::array<Index, 4> cuts{x, std::clamp(s.from, x, xEnd), std::clamp(s.end, x, xEnd), xEnd};
+                for (std::size_t part = 0; part < 3; ++part) {
+                    const Index first = cuts[part];
+                    const Index n = cuts[part + 1] - first;
+                    const bool isOwn = part == 1;
+                    if (n <= 0 || (isLast && !isOwn))
+                        continue;
+                    float *const statistic = isOwn ? s.frames.statistic.data() + time * cells + first : own.unused.data();
+                    const Continued more = finishMax(list.targets, n, first - sourceBegin, isLast ? first : first - begin,
+                                                     own.lambda.data() + (first - from), join, statistic);
+                    if (isOwn)
+                        s.continued[static_cast<std::size_t>(time)].count += more.count;
+                }
+            };
+            if (time > 0) {
+                go(from, std::max(from, end), isLast ? last : between[static_cast<std::size_t>(time % 2)], begin);
+            } else if (reach == 0) {
+                go(from, std::max(from, end), fromMiddle, 0);
+            } else {
+                const Index lowEnd = std::clamp(edge, from, std::max(from, end));
+                const Index highBegin = isWhole ? std::max(from, end) : std::clamp(cells - edge, lowEnd, std::max(from, end));
+                go(from, lowEnd, fromLow, 0);
+                go(lowEnd, highBegin, fromMiddle, reach);
+                go(highBegin, std::max(from, end), fromHigh, cells - edge);
+            }
+            if (!isLast)
+                for (Index plane = 0; plane < m_groups; ++plane)
+                    std::copy_n(to + plane * stride + slantCells - 2 * reach, 2 * reach, halo + plane * 2 * reach);
+        }
 }
 
 template class Recursion<MaxPlus<float>>;

@@ -1,8 +1,13 @@
 #pragma once
 
+#include "base/RunContext.h"
+#include "detect/joinKernels.h"
+#include "model/Likelihood.h"
 #include "model/StateSpace.h"
 
+#include <concepts>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,13 +25,6 @@ struct SumProduct {
     static constexpr bool logarithmic = false;
 };
 
-/// A source plane, moved to where its values are needed.
-template <class Real>
-struct ShiftedPlane {
-    const Real *from;
-    Real weight;
-};
-
 /// One step of dynamic programming over a kinematic state space, before the new data are added:
 ///
 ///   M(n) = ⊕_m F(m) ⊗ P(n | m)
@@ -34,14 +32,21 @@ struct ShiftedPlane {
 /// Every detector of the program stands on this one recursion; they differ in ⊕ (max of logarithms, or sum of weights),
 /// in what they join to M (a reset, or nothing) and in how they decide. The axes are independent, so P is a product and
 /// ⊕ is taken one axis at a time: a target plane is the join of shifted source planes, all of them in one sweep.
-/// The cells are gone through in tiles of the slowest axis; within one, all axes' steps are done while it is in cache.
+///
+/// The cells are gone through in tiles of the slowest axis; within one, all axes' steps are done while it is in cache. A tile that reaches
+/// beyond the axis's ends works on a copy with margins, neutral or wrapped round, and later axes on shifted copies of the tile's planes: no
+/// inner loop knows an edge. Of equal weights, the maximum over four rates and more is taken from maxima over two and four planes that
+/// neighbouring targets share: with r' - r = δ, planes r and r + 2 reach a target a cell apart.
+///
+/// Several frames at once, along one axis that is bounded: tiles slant by the largest displacement R a frame, so that what they need of
+/// the frame before lies in the tile itself and in the last 2R cells of the tile before, and T frames cost one reading and one writing of
+/// all scores. Threads take tiles, or stretches that overlap by (T-1)·R cells.
 ///
 /// What differs from cell to cell (a renormalised walk's departures, a full matrix) is ⊗-joined to the scores beforehand: P of an
 /// axis is (departure of the source) ⊗ (law of the displacement), and the departures of one axis do not mind the moves of another.
 ///
 /// Unreached states hold ⊕'s neutral element (-∞, or 0). Cost: states × Σ over axes of moves per target rate; memory is
-/// read once and, where the caller takes the tiles as they come, written once. Oracle: enumeration of all paths.
-/// Scratch memory belongs to this object: one object per thread.
+/// read once and written once. Oracle: enumeration of all paths. Scratch memory belongs to this object: one object per thread.
 template <class Semiring>
 class Recursion
 {
@@ -49,6 +54,9 @@ public:
     using Real = typename Semiring::Real;
 
     explicit Recursion(const StateSpace &space, double transitionScale = 1.0);
+    ~Recursion();
+    Recursion(Recursion &&) noexcept;
+    Recursion &operator=(Recursion &&) noexcept;
 
     /// ⊕ over predecessors of `scores` (stateCount values). The answer stays valid until the next call.
     std::span<Real> predict(std::span<const Real> scores);
@@ -56,11 +64,29 @@ public:
     /// Takes M of the states of one plane in cells firstCell, firstCell + 1, …
     using Tile = std::function<void(Index plane, Index firstCell, std::span<const Real> predicted)>;
 
-    /// The same, handed over tile by tile: each state once, planes ascending within a tile, tiles ascending. `scores` must stay
-    /// as they are until the end.
+    /// The same, handed over tile by tile: each state once, tiles ascending. `scores` must stay as they are until the end.
     void predict(std::span<const Real> scores, const Tile &take);
 
+    /// Frames to go through: as many as `continued` holds.
+    struct Frames {
+        std::span<const float> y;
+        std::span<float> statistic;     ///< D of every frame and cell
+        std::span<Continued> continued; ///< of every frame
+    };
+
+    /// M joined with frames at once: u = λ + max(M + ln K, floor), D = max over rates. `scores` → `next`, which are not the same memory.
+    /// Up to `framesAtOnce()`; any number of frames, cut in any way, on any number of threads gives the same bytes.
+    void advance(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
+                 const FrameJoin &join)
+        requires std::same_as<Semiring, MaxPlus<float>>;
+    Index framesAtOnce() const;
+
+    /// For `advance`.
+    void useThreads(int threads) { m_threads = threads; }
+
 private:
+    using Source = ShiftedPlane<Real>;
+
     /// An axis with a full matrix; inner: cells of the axes after it.
     struct MatrixStep {
         Index cells;
@@ -68,14 +94,20 @@ private:
         std::vector<Real> weights; ///< from × to
     };
 
-    void preparePlaces(const StateSpace &space, double transitionScale);
-    std::span<const Real> prepare(std::span<const Real> scores);
-    void apply(const MatrixStep &step, std::span<const Real> from, std::span<Real> to) const;
-
     struct Shift {
-        Index fromPlane;
+        Index from; ///< first axis: a rate, or a maximum (numbered on from the rates); later axes: a plane, or a shifted copy
         Index cells;
         Real weight; ///< ln P or P
+    };
+
+    /// max(of(cell), other(cell - back)) of two rates or maxima, wanted at shifts smallest … largest.
+    struct Slide {
+        Index number;
+        Index of;
+        Index other;
+        Index back;
+        Index smallest;
+        Index largest;
     };
 
     /// How one axis moves. Planes are numbered within the group of those that share the rates of the axes before.
@@ -83,23 +115,70 @@ private:
         Index cells;
         Index inner; ///< cells of the axes after
         bool cyclic;
-        std::vector<std::vector<Shift>> shifts; ///< of each target plane, lowest source rate first
+        std::vector<std::vector<Shift>> shifts; ///< of each target plane, lowest source rate first; empty: nothing moves
+        std::vector<Shift> copies{};            ///< of a later axis: planes that are wanted shifted, numbered on from the planes
     };
 
-    void firstAxis(const Real *scores, Index targetRate, Index firstRow, Index rows, Real *to);
-    void laterAxis(const AxisStep &step, const Real *from, Index size, Real *to);
-    void laterEdge(const AxisStep &step, const std::vector<Shift> &shifts, Index row, const Real *from, Index size, Real *to);
+    /// Cells of the first axis that are dealt with at a time.
+    struct TileRows {
+        Index first;
+        Index count;
+    };
+
+    struct Scratch;
+    struct Stretch;
+    struct Planes;
+    struct PlaneList;
+
+    void addFirstAxis(const KinematicAxis &axis, Index inner, double transitionScale);
+    void addLaterAxis(const KinematicAxis &axis, Index inner, Index before, Index after, double transitionScale);
+    void prepareSlides();
+    void prepareTiles();
+    void preparePlaces(const StateSpace &space, double transitionScale);
+    std::span<const Real> prepare(std::span<const Real> scores);
+    void apply(const MatrixStep &step, std::span<const Real> from, std::span<Real> to) const;
+
+    void fillMargins(std::span<const Real> scores);
+    const Real *rowsOf(std::span<const Real> scores, Index plane, Index firstRow) const;
+    void listFirst(std::span<const Real> scores, Index rate, Index group, TileRows rows, Scratch &scratch) const;
+    Index slotOf(Index number, Index group) const;
+    void slide(std::span<const Real> scores, const Slide &slide, Index group, TileRows rows, Scratch &scratch) const;
+    void makeCopies(const AxisStep &step, Index size, Scratch &scratch) const;
+    template <class Finish>
+    void goThroughTile(std::span<const Real> scores, TileRows rows, Scratch &scratch, Finish finish) const;
+    Scratch &scratch(std::size_t number);
+
+    void advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
+                    const FrameJoin &join, const RunContext &context)
+        requires std::same_as<Semiring, MaxPlus<float>>;
+    void advanceMany(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
+                     const FrameJoin &join, const RunContext &context)
+        requires std::same_as<Semiring, MaxPlus<float>>;
+    void joinListed(Index size, Scratch &scratch) const;
+    void listPlanes(Planes from, float *to, Index toStride, PlaneList &list) const
+        requires std::same_as<Semiring, MaxPlus<float>>;
+    void slant(Stretch &stretch, Scratch &scratch) const
+        requires std::same_as<Semiring, MaxPlus<float>>;
 
     Index m_planeSize;
     Index m_planeCount;
-    Index m_groups;     ///< rates of the first axis
-    Index m_groupSize;  ///< planes that share one of them
-    Index m_tileRows;   ///< cells of the first axis that are dealt with at a time
-    AxisStep m_first;   ///< no shifts: it does not move
+    Index m_groups;    ///< rates of the first axis
+    Index m_groupSize; ///< planes that share one of them
+    Index m_reach = 0; ///< largest displacement along the first axis
+    AxisStep m_first;
     std::vector<AxisStep> m_later;
-    std::vector<Real> m_tile;
-    std::vector<Real> m_otherTile;
-    std::vector<ShiftedPlane<Real>> m_sources;
+    std::vector<std::vector<Slide>> m_slides; ///< before each target rate, in the order they are made in
+    Index m_slideRing = 0; ///< rates whose maxima are kept at a time; 0: there are none
+    Index m_slotSize = 0;
+    std::vector<Index> m_largest; ///< shift that each maximum is wanted at
+    bool m_isSlantable = false;
+    std::vector<Continued> m_tileContinued;
+    std::vector<TileRows> m_tiles;
+    Index m_tileRows = 1; ///< of the largest tile
+    Index m_edgeRows = 0; ///< tiles that begin nearer to an end of the first axis, or end there, use the margins
+    std::vector<Real> m_margins; ///< of each plane: the rows round either end, or all of them
+    int m_threads = 1;
+    std::vector<std::unique_ptr<Scratch>> m_scratch;
     std::vector<Real> m_result; ///< empty until it is asked for
     std::vector<Real> m_departures; ///< of every cell; empty where the law is the same everywhere
     std::vector<MatrixStep> m_matrices;

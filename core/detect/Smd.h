@@ -48,6 +48,8 @@ public:
     Smd(const MarkovModel &model, const ResetRule &rule);
 
     void update(std::span<const float> y, std::span<float> statistic) override;
+    void updateBlock(std::span<const float> y, std::span<float> statistic, Index cells) override;
+    void useThreads(int threads) override { m_recursion.useThreads(threads); }
     void forget(const Grid &grid, const CellBox &box) override;
     void inhibit(std::span<const Index> cells) override { m_inhibited.assign(cells.begin(), cells.end()); }
     std::span<const float> scores() const override { return m_scores; }
@@ -68,13 +70,9 @@ public:
     void restore(const Memory &memory);
 
 private:
-    /// What of the states in some cells went on.
-    struct Continued {
-        Index count = 0;
-        double sum = 0.0; ///< Σ max(M + ln K, 0)
-    };
-
-    Continued inhibitedPart(Index firstCell, std::span<const float> predicted) const;
+    void start(std::span<const float> y, std::span<float> statistic);
+    void advance(std::span<const float> y, std::span<float> statistic, std::span<Continued> continued);
+    Continued inhibitedPart(std::span<const float> y) const;
     void regulate(double continuedFraction, double meanContinued);
 
     StateSpace m_space;
@@ -83,7 +81,6 @@ private:
     Recursion<MaxPlus<float>> m_recursion;
     std::vector<float> m_scores;
     std::vector<float> m_next; ///< the scores being written
-    std::vector<float> m_lambda;
     double m_lnK;
     double m_offset = 0.0;
     bool m_isFirst = true;

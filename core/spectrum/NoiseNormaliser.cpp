@@ -1,9 +1,13 @@
 #include "spectrum/NoiseNormaliser.h"
 
+#include "base/fastmath.h"
+#include "base/multiversion.h"
 #include "spectrum/levels.h"
+#include "spectrum/medians.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -15,69 +19,28 @@ namespace {
     constexpr int framesPerBlock = 512; // longer blocks are looked at here and there
     constexpr Index largestBlockCount = 1024;
     constexpr float largestRatio = 1e30f;
-    constexpr Index pivotCells = 5;      // at the band's edges, about which the sequence is continued
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
     constexpr double roundingFloor = 1e-13;
     constexpr double roundingMargin = 4.0; // of ln power: what lies no higher above the floor does not tell the noise's level
 
-    /// Running median of a sequence over ±half, continued by point reflection about its robust ends.
-    std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
-    {
-        const Index n = std::ssize(sequence);
-        half = std::min(half, n - 1);
-        const auto pivot = [&](Index from) {
-            std::vector<float> few;
-            for (Index i = from; i < std::min(from + pivotCells, n); ++i)
-                few.push_back(sequence[static_cast<std::size_t>(i)]);
-            return medianOf(few);
-        };
-        const float low = pivot(0);
-        const float high = pivot(std::max<Index>(0, n - pivotCells));
-        const auto at = [&](Index i) {
-            if (i < 0)
-                return 2.0f * low - sequence[static_cast<std::size_t>(std::min(-i, n - 1))];
-            if (i >= n)
-                return 2.0f * high - sequence[static_cast<std::size_t>(std::max<Index>(0, 2 * (n - 1) - i))];
-            return sequence[static_cast<std::size_t>(i)];
-        };
-        // A sorted window that one value enters and one leaves.
-        std::vector<float> window;
-        for (Index i = -half; i <= half; ++i)
-            window.push_back(at(i));
-        std::sort(window.begin(), window.end());
-        std::vector<float> medians(sequence.size());
-        for (Index i = 0; i < n; ++i) {
-            medians[static_cast<std::size_t>(i)] = window[static_cast<std::size_t>(half)];
-            const auto leaving = std::lower_bound(window.begin(), window.end(), at(i - half));
-            window.erase(leaving);
-            const float entering = at(i + half + 1);
-            window.insert(std::upper_bound(window.begin(), window.end(), entering), entering);
-        }
-        return medians;
-    }
-
     /// Mean of ratio e^(value-median) over the cells within ±half that are not lines; answers which are not.
     std::vector<bool> refine(const std::vector<float> &values, std::vector<float> &medians, Index half, double mostRatio)
     {
-        const Index n = std::ssize(values);
-        std::vector<double> sum(static_cast<std::size_t>(n) + 1, 0.0);
-        std::vector<double> count(static_cast<std::size_t>(n) + 1, 0.0);
-        std::vector<bool> isNoise(static_cast<std::size_t>(n));
-        for (Index i = 0; i < n; ++i) {
-            const auto k = static_cast<std::size_t>(i);
+        constexpr double fewestCells = 3.0;
+        std::vector<double> ratios(values.size());
+        std::vector<double> weights(values.size());
+        std::vector<bool> isNoise(values.size());
+        for (std::size_t k = 0; k < values.size(); ++k) {
             const double ratio = std::exp(static_cast<double>(values[k] - medians[k]));
             isNoise[k] = ratio < mostRatio && ratio > 1.0 / mostRatio;
-            sum[k + 1] = sum[k] + (isNoise[k] ? ratio : 0.0);
-            count[k + 1] = count[k] + (isNoise[k] ? 1.0 : 0.0);
+            ratios[k] = isNoise[k] ? ratio : 0.0;
+            weights[k] = isNoise[k] ? 1.0 : 0.0;
         }
-        for (Index i = 0; i < n; ++i) {
-            const auto from = static_cast<std::size_t>(std::max<Index>(0, i - half));
-            const auto to = static_cast<std::size_t>(std::min(n, i + half + 1));
-            const double cells = count[to] - count[from];
-            if (cells >= 3.0)
-                medians[static_cast<std::size_t>(i)] += static_cast<float>(std::log((sum[to] - sum[from]) / cells));
-        }
+        std::vector<double> mean(values.size());
+        runningMean(ratios, weights, half, mean, fewestCells);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            medians[k] += static_cast<float>(std::log(mean[k]));
         return isNoise;
     }
 
@@ -91,28 +54,25 @@ namespace {
     BlockBackground blockBackground(const std::vector<float> &frames, Index cells, Index half)
     {
         const Index frameCount = std::ssize(frames) / cells;
-        std::vector<Index> loud;
+        std::vector<float> loud; // the frames that are no digital silence
         double strongest = 0.0;
         for (Index frame = 0; frame < frameCount; ++frame) {
             const auto row = frames.begin() + frame * cells;
             const float peak = *std::max_element(row, row + cells);
             strongest = std::max(strongest, static_cast<double>(peak));
             if (peak > 0.0f)
-                loud.push_back(frame);
+                loud.insert(loud.end(), row, row + cells);
         }
         std::vector<float> ln(static_cast<std::size_t>(cells), silence);
         if (loud.empty())
             return {std::move(ln), std::vector<bool>(static_cast<std::size_t>(cells), true)};
-        const int used = static_cast<int>(loud.size());
+        const auto used = static_cast<int>(std::ssize(loud) / cells);
         const double bias = std::log(medianMean(used));
         const double floor = std::log(strongest * roundingFloor);
-        std::vector<float> column(loud.size());
-        for (Index cell = 0; cell < cells; ++cell) {
-            for (std::size_t i = 0; i < loud.size(); ++i)
-                column[i] = frames[static_cast<std::size_t>(loud[i] * cells + cell)];
-            const double power = static_cast<double>(medianOf(column));
-            ln[static_cast<std::size_t>(cell)] =
-                static_cast<float>(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
+        columnMedians(loud, ln);
+        for (float &value : ln) {
+            const auto power = static_cast<double>(value);
+            value = static_cast<float>(std::max(floor, power > 0.0 ? std::log(power) - bias : floor));
         }
         std::vector<float> background = runningMedian(ln, half);
         std::vector<bool> isNoise = refine(ln, background, half, 1.0 + 5.0 / std::sqrt(static_cast<double>(used)));
@@ -360,6 +320,92 @@ namespace {
         return result;
     }
 
+    // What every frame goes through, cell by cell and bin by bin.
+
+    /// Between two blocks' ln powers, as `betweenBlocks`.
+    FAINTLINE_MULTIVERSION
+    void interpolateBlocks(const float *early, const float *late, float fraction, std::size_t cells, float *ln)
+    {
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const float a = early[cell];
+            const float b = late[cell];
+            const float least = a < b ? a : b;
+            const float most = a < b ? b : a;
+            const float mixed = a + fraction * (b - a);
+            ln[cell] = least <= silence ? most : mixed;
+        }
+    }
+
+    FAINTLINE_MULTIVERSION
+    void addLine(float *values, std::int32_t count, float start, float step)
+    {
+        for (std::int32_t i = 0; i < count; ++i)
+            values[i] += start + step * static_cast<float>(i);
+    }
+
+    /// Adds levels of sub-bands of equal width, interpolated between their middles, constant beyond the outer ones.
+    void addBetweenBands(std::span<float> ln, const std::vector<float> &levels)
+    {
+        const double perCell = static_cast<double>(levels.size()) / static_cast<double>(ln.size());
+        std::size_t cell = 0;
+        for (std::size_t upper = 0; upper <= levels.size(); ++upper) { // from the middle of the band before to that of this one
+            const double middle = (static_cast<double>(upper) + 0.5) / perCell - 0.5;
+            std::size_t end = ln.size();
+            if (upper < levels.size())
+                end = std::clamp(static_cast<std::size_t>(std::ceil(middle)), cell, end);
+            const double low = static_cast<double>(levels[upper == 0 ? 0 : upper - 1]);
+            const double high = static_cast<double>(levels[std::min(upper, levels.size() - 1)]);
+            const double slope = (high - low) * perCell;
+            const double start = high + (static_cast<double>(cell) - middle) * slope;
+            addLine(ln.data() + cell, static_cast<std::int32_t>(end - cell), static_cast<float>(start), static_cast<float>(slope));
+            cell = end;
+        }
+    }
+
+    /// ln power → 1/power, 0 in silence.
+    FAINTLINE_MULTIVERSION
+    void invertPower(float *values, std::size_t cells)
+    {
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const float inverse = fastExp(-values[cell]);
+            values[cell] = values[cell] <= 0.5f * silence ? 0.0f : inverse;
+        }
+    }
+
+    /// y ← y/B, 1/B interpolated between cells; one value more than there are cells is given.
+    FAINTLINE_MULTIVERSION
+    void divideByBackground(float *y, std::size_t bins, const float *inverse, double start, double perBin, double lastCell)
+    {
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            double position = start + static_cast<double>(static_cast<std::int32_t>(bin)) * perBin;
+            position = position > 0.0 ? position : 0.0;
+            position = position < lastCell ? position : lastCell;
+            const auto lower = static_cast<std::int32_t>(position);
+            const auto fraction = static_cast<float>(position - static_cast<double>(lower));
+            const float ratio = y[bin] * (inverse[lower] + fraction * (inverse[lower + 1] - inverse[lower]));
+            y[bin] = ratio < largestRatio ? ratio : largestRatio;
+        }
+    }
+
+    /// The same where bins are cells.
+    FAINTLINE_MULTIVERSION
+    void divideBinByBin(float *y, std::size_t bins, const float *inverse)
+    {
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            const float ratio = y[bin] * inverse[bin];
+            y[bin] = ratio < largestRatio ? ratio : largestRatio;
+        }
+    }
+
+    FAINTLINE_MULTIVERSION
+    Index countAbove(const float *values, Index count, float limit)
+    {
+        std::int32_t above = 0;
+        for (Index i = 0; i < count; ++i)
+            above += values[i] > limit ? 1 : 0;
+        return above;
+    }
+
 } // namespace
 
 const std::vector<Field<NormaliserSettings>> &NormaliserSettings::fields()
@@ -461,38 +507,35 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
 {
     m_spectrogram->read(first, count, out);
     const auto cells = static_cast<std::size_t>(grid().size());
+    std::vector<float> inverse;
     for (Index i = 0; i < count; ++i)
-        normalise(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells));
+        normalise(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells), inverse);
 }
 
-void NormalisedSpectrogram::normalise(Index frame, std::span<float> values) const
+void NormalisedSpectrogram::normalise(Index frame, std::span<float> values, std::vector<float> &inverse) const
 {
     const NoiseBackground &b = *m_background;
     const Between t = between(b.time, time().value(static_cast<double>(frame)));
     const float *early = b.lnPower.data() + t.lower * b.frequency.count;
     const float *late = b.lnPower.data() + std::min(t.lower + 1, b.time.count - 1) * b.frequency.count;
-    std::vector<float> inverse(static_cast<std::size_t>(b.frequency.count));
-    for (std::size_t cell = 0; cell < inverse.size(); ++cell)
-        inverse[cell] = betweenBlocks(early[cell], late[cell], t.fraction);
-    addLevels(time().value(static_cast<double>(frame)), inverse);
-    for (float &value : inverse)
-        value = value <= 0.5f * silence ? 0.0f : std::exp(-value);
+    const auto cells = static_cast<std::size_t>(b.frequency.count);
+    inverse.resize(cells + 1);
+    interpolateBlocks(early, late, static_cast<float>(t.fraction), cells, inverse.data());
+    addLevels(time().value(static_cast<double>(frame)), std::span(inverse).first(cells));
+    invertPower(inverse.data(), cells);
+    inverse[cells] = inverse[cells - 1];
     const Axis &axis = grid().axes[0];
     const double start = b.frequency.position(axis.first);
     const double perBin = axis.step / b.frequency.step;
-    const double lastCell = static_cast<double>(b.frequency.count - 1);
-    for (std::size_t bin = 0; bin < values.size(); ++bin) {
-        const double position = std::clamp(start + static_cast<double>(bin) * perBin, 0.0, lastCell);
-        const auto lower = std::min(static_cast<std::size_t>(position), inverse.size() - 1);
-        const auto upper = std::min(lower + 1, inverse.size() - 1);
-        const auto fraction = static_cast<float>(position - static_cast<double>(lower));
-        values[bin] = std::min(values[bin] * (inverse[lower] + fraction * (inverse[upper] - inverse[lower])), largestRatio);
-    }
+    if (start == 0.0 && perBin == 1.0 && values.size() <= cells)
+        divideBinByBin(values.data(), values.size(), inverse.data());
+    else
+        divideByBackground(values.data(), values.size(), inverse.data(), start, perBin, static_cast<double>(b.frequency.count - 1));
     if (m_settings.followLevel)
         guardAgainstClicks(values);
 }
 
-void NormalisedSpectrogram::addLevels(double seconds, std::vector<float> &ln) const
+void NormalisedSpectrogram::addLevels(double seconds, std::span<float> ln) const
 {
     const NoiseBackground &b = *m_background;
     if (b.bandCount == 0)
@@ -504,17 +547,12 @@ void NormalisedSpectrogram::addLevels(double seconds, std::vector<float> &ln) co
         };
         return (1.0 - t.fraction) * at(t.lower) + t.fraction * at(t.lower + 1);
     };
-    std::vector<double> levels;
+    std::vector<float> levels;
     for (Index band = 0; band < b.bandCount; ++band)
-        levels.push_back(level(band));
-    if (std::all_of(levels.begin(), levels.end(), [](double value) { return value == 0.0; }))
+        levels.push_back(static_cast<float>(level(band)));
+    if (std::all_of(levels.begin(), levels.end(), [](float value) { return value == 0.0f; }))
         return;
-    const Axis bands{"band", "", 0.5 / static_cast<double>(b.bandCount), 1.0 / static_cast<double>(b.bandCount), b.bandCount, false};
-    for (std::size_t cell = 0; cell < ln.size(); ++cell) {
-        const Between f = between(bands, (static_cast<double>(cell) + 0.5) / static_cast<double>(ln.size()));
-        const auto upper = static_cast<std::size_t>(std::min(f.lower + 1, b.bandCount - 1));
-        ln[cell] += static_cast<float>((1.0 - f.fraction) * levels[static_cast<std::size_t>(f.lower)] + f.fraction * levels[upper]);
-    }
+    addBetweenBands(ln, levels);
 }
 
 void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const
@@ -530,7 +568,7 @@ void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const
     for (std::size_t band = 0; band < bands; ++band) {
         const auto from = static_cast<std::ptrdiff_t>(band * values.size() / bands);
         const auto to = static_cast<std::ptrdiff_t>((band + 1) * values.size() / bands);
-        isLoud = isLoud || 2 * std::count_if(values.begin() + from, values.begin() + to, [limit](float y) { return y > limit; }) > to - from;
+        isLoud = isLoud || 2 * countAbove(values.data() + from, to - from, limit) > to - from;
     }
     if (!isLoud)
         return;

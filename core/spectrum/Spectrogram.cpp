@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/multiversion.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,8 @@
 namespace faintline {
 
 namespace {
+
+    constexpr Index runSamples = 1 << 17; ///< read at a time: little enough to be in the cache when they are transformed
 
     FAINTLINE_MULTIVERSION
     void applyWindow(const float *samples, const float *window, std::size_t n, float *out)
@@ -143,24 +146,35 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     }
 }
 
-void Spectrogram::read(Index first, Index count, std::span<float> out) const
+void Spectrogram::read(Index first, Index count, std::span<float> out, const RunContext &context) const
+{
+    // Samples of a run of frames are read once; a run is bounded so that memory does not grow with the request.
+    const auto bins = static_cast<std::size_t>(m_frequency.count);
+    const Index share = (count + context.threads - 1) / context.threads;
+    const Index framesPerRun = std::clamp<Index>(runSamples / m_hopSamples, 1, std::max<Index>(share, 1));
+    const Index runs = (count + framesPerRun - 1) / framesPerRun;
+    parallelFor(runs, context, "spectrogram", [&] {
+        const std::shared_ptr<Fft::Buffer> buffer = m_fft->buffer();
+        return [&, buffer, samples = std::vector<float>()](Index run) mutable {
+            const Index done = run * framesPerRun;
+            const Index frames = std::min(framesPerRun, count - done);
+            readRun(first + done, frames, samples, *buffer,
+                    out.subspan(static_cast<std::size_t>(done) * bins, static_cast<std::size_t>(frames) * bins));
+        };
+    });
+}
+
+void Spectrogram::readRun(Index first, Index count, std::vector<float> &samples, Fft::Buffer &buffer, std::span<float> out) const
 {
     const std::size_t floats = m_recording->info().isComplex ? 2 : 1;
     const auto bins = static_cast<std::size_t>(m_frequency.count);
-    const auto buffer = m_fft->buffer();
-    // Samples of a run of frames are read once; a run is bounded so that memory does not grow with the request.
-    const Index framesPerRun = std::max<Index>(1, (1 << 20) / m_hopSamples);
-    std::vector<float> samples;
-    for (Index done = 0; done < count; done += framesPerRun) {
-        const Index run = std::min(framesPerRun, count - done);
-        const Index sampleCount = (run - 1) * m_hopSamples + m_windowSamples;
-        samples.resize(static_cast<std::size_t>(sampleCount) * floats);
-        m_recording->read(m_selection.channel, m_firstSample + (first + done) * m_hopSamples, sampleCount, samples);
-        for (Index frame = 0; frame < run; ++frame) {
-            const std::size_t offset = static_cast<std::size_t>(frame * m_hopSamples) * floats;
-            transformFrame(std::span(samples).subspan(offset, static_cast<std::size_t>(m_windowSamples) * floats), *buffer,
-                           out.subspan(static_cast<std::size_t>(done + frame) * bins, bins));
-        }
+    const Index sampleCount = (count - 1) * m_hopSamples + m_windowSamples;
+    samples.resize(static_cast<std::size_t>(sampleCount) * floats);
+    m_recording->read(m_selection.channel, m_firstSample + first * m_hopSamples, sampleCount, samples);
+    for (Index frame = 0; frame < count; ++frame) {
+        const std::size_t offset = static_cast<std::size_t>(frame * m_hopSamples) * floats;
+        transformFrame(std::span(samples).subspan(offset, static_cast<std::size_t>(m_windowSamples) * floats), buffer,
+                       out.subspan(static_cast<std::size_t>(frame) * bins, bins));
     }
 }
 

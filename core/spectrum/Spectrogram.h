@@ -2,6 +2,7 @@
 
 #include "base/Field.h"
 #include "base/Grid.h"
+#include "base/RunContext.h"
 #include "recording/Recording.h"
 #include "spectrum/Fft.h"
 #include "spectrum/Window.h"
@@ -64,14 +65,16 @@ public:
     /// Bins per resolution cell as realised: transform length over window length.
     double binsPerCell() const { return static_cast<double>(m_fft->length()) / m_windowSamples; }
 
-    /// Computes frames first … first+count-1 into `out`, count × frequency().count values, row by row.
-    void read(Index first, Index count, std::span<float> out) const;
+    /// Computes frames first … first+count-1 into `out`, count × frequency().count values, row by row, on as many threads as
+    /// the context allows.
+    void read(Index first, Index count, std::span<float> out, const RunContext &context = {}) const;
 
     /// T_FT for a recording nobody said anything about: 3·√(duration/rate), rounded to 1, 2 or 5 · 10ⁿ seconds, which
     /// gives about as many cells as frames.
     static double automaticWindowSeconds(const RecordingInfo &info);
 
 private:
+    void readRun(Index first, Index count, std::vector<float> &samples, Fft::Buffer &buffer, std::span<float> out) const;
     void transformFrame(std::span<const float> samples, Fft::Buffer &buffer, std::span<float> out) const;
 
     RecordingPointer m_recording;

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "model/MarkovModel.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+// The recursion u = λ + max(ln K + max_m [ln P(n|m) + u(m)], 0), D = max over rates, written as one first would: what the fast form is
+// timed against and, at the same time, checked against. λ is y itself. For one or two axes with rates.
+
+/// In double precision, state by state, predecessor by predecessor. Not for axes with a law that differs from cell to cell.
+class FormulaRecursion
+{
+public:
+    FormulaRecursion(const StateSpace &space, double lnK);
+
+    void update(std::span<const float> y, std::span<float> statistic);
+    std::span<const double> scores() const { return m_scores; }
+
+private:
+    double bestOfLine(const std::vector<KinematicAxis::Move> &moves, Index cell) const;
+    double bestOfPlane(const std::vector<KinematicAxis::Move> &alongFirst, const std::vector<KinematicAxis::Move> &alongSecond, Index row,
+                       Index column) const;
+
+    StateSpace m_space;
+    std::array<std::vector<std::vector<KinematicAxis::Move>>, 2> m_moves; ///< of each axis, by target rate
+    double m_lnK;
+    std::vector<double> m_scores;
+    std::vector<double> m_next;
+    bool m_isFirst = true;
+};
+
+/// In single precision, as Eigen expressions over whole planes: the maximum of shifted arrays, whose margins hold what is not there
+/// (-∞) or what wraps round.
+class EigenRecursion
+{
+public:
+    EigenRecursion(const StateSpace &space, float lnK);
+
+    void update(std::span<const float> y, std::span<float> statistic);
+    float score(Index plane, Index cell) const;
+
+private:
+    using Plane = Eigen::ArrayXXf; ///< cells of the second axis × cells of the first, with margins
+
+    struct Source {
+        std::size_t plane;
+        std::array<Index, 2> shift;
+        float weight;
+    };
+    using Step = std::vector<std::vector<Source>>; ///< of each target plane
+
+    auto inner(Plane &plane, std::array<Index, 2> shift) const
+    {
+        return plane.block(m_margin[1] - shift[1], m_margin[0] - shift[0], m_cells[1], m_cells[0]);
+    }
+    void join(const std::vector<Source> &sources, Plane &to);
+    void fillMargins(Plane &plane) const;
+
+    std::array<Index, 2> m_rates{};
+    std::array<Index, 2> m_cells{};
+    std::array<bool, 2> m_cyclic{};
+    std::array<Index, 2> m_margin{};
+    std::vector<Step> m_steps; ///< one axis after the other, or both at once
+    float m_lnK;
+    std::vector<Plane> m_scores;
+    std::vector<Plane> m_next;
+    bool m_isFirst = true;
+};
+
+/// Reads, changes and writes every value once: what the memory alone costs.
+void sweep(std::span<float> values);
+
+/// u = e^λ Pu with P written out, the scaled form of the sum-product recursion: a matrix times a vector.
+class DenseSumProduct
+{
+public:
+    explicit DenseSumProduct(const StateSpace &space);
+    void update(std::vector<double> &weights);
+
+private:
+    std::size_t m_states;
+    std::vector<double> m_probabilities; ///< P(to, from), row by row
+    std::vector<double> m_product;
+};
+
+} // namespace faintline

@@ -1,0 +1,114 @@
+#include "spectrum/medians.h"
+
+#include "base/multiversion.h"
+#include "spectrum/levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t lanes = 32; ///< columns at a time, in a few registers
+    using Bits = std::int32_t __attribute__((vector_size(64)));
+    using UnalignedBits = std::int32_t __attribute__((vector_size(64), aligned(4), may_alias));
+
+    /// The value of a rank in every one of `lanes` columns, found bit by bit: floats that are not negative are ordered as their bits are.
+    FAINTLINE_MULTIVERSION
+    void ranked(const float *columns, std::size_t rows, std::int32_t rank, float *out)
+    {
+        Bits foundA{};
+        Bits foundB{};
+        for (std::int32_t bit = 1 << 30; bit > 0; bit >>= 1) {
+            const Bits candidateA = foundA | bit;
+            const Bits candidateB = foundB | bit;
+            Bits smallerA{};
+            Bits smallerB{};
+            for (std::size_t row = 0; row < rows; ++row) {
+                const auto *values = reinterpret_cast<const UnalignedBits *>(columns + row * lanes);
+                smallerA -= values[0] < candidateA;
+                smallerB -= values[1] < candidateB;
+            }
+            foundA = smallerA <= rank ? candidateA : foundA;
+            foundB = smallerB <= rank ? candidateB : foundB;
+        }
+        auto *to = reinterpret_cast<UnalignedBits *>(out);
+        to[0] = foundA;
+        to[1] = foundB;
+    }
+
+} // namespace
+
+void columnMedians(std::span<const float> frames, std::span<float> out)
+{
+    const std::size_t cells = out.size();
+    const std::size_t rows = frames.size() / cells;
+    const auto rank = static_cast<std::int32_t>((rows - 1) / 2);
+    // In a copy that lies together: rows whose distance is a power of two would push one another out of the cache.
+    std::vector<float> columns(rows * lanes, 0.0f);
+    std::array<float, lanes> medians;
+    for (std::size_t cell = 0; cell < cells; cell += lanes) {
+        const std::size_t count = std::min(lanes, cells - cell);
+        for (std::size_t row = 0; row < rows; ++row)
+            std::copy_n(frames.data() + row * cells + cell, count, columns.data() + row * lanes);
+        ranked(columns.data(), rows, rank, medians.data());
+        std::copy_n(medians.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(cell));
+    }
+}
+
+std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
+{
+    const Index n = std::ssize(sequence);
+    half = std::min(half, n - 1);
+    const auto pivot = [&](Index from) {
+        std::vector<float> few;
+        for (Index i = from; i < std::min(from + pivotCells, n); ++i)
+            few.push_back(sequence[static_cast<std::size_t>(i)]);
+        return medianOf(few);
+    };
+    const float low = pivot(0);
+    const float high = pivot(std::max<Index>(0, n - pivotCells));
+    const auto at = [&](Index i) {
+        if (i < 0)
+            return 2.0f * low - sequence[static_cast<std::size_t>(std::min(-i, n - 1))];
+        if (i >= n)
+            return 2.0f * high - sequence[static_cast<std::size_t>(std::max<Index>(0, 2 * (n - 1) - i))];
+        return sequence[static_cast<std::size_t>(i)];
+    };
+    // A sorted window that one value enters and one leaves.
+    std::vector<float> window;
+    for (Index i = -half; i <= half; ++i)
+        window.push_back(at(i));
+    std::sort(window.begin(), window.end());
+    std::vector<float> medians(sequence.size());
+    for (Index i = 0; i < n; ++i) {
+        medians[static_cast<std::size_t>(i)] = window[static_cast<std::size_t>(half)];
+        const auto leaving = std::lower_bound(window.begin(), window.end(), at(i - half));
+        window.erase(leaving);
+        const float entering = at(i + half + 1);
+        window.insert(std::upper_bound(window.begin(), window.end(), entering), entering);
+    }
+    return medians;
+}
+
+void runningMean(std::span<const double> values, std::span<const double> weights, Index half, std::span<double> out, double least)
+{
+    const std::size_t n = values.size();
+    std::vector<double> sum(n + 1, 0.0);
+    std::vector<double> weight(n + 1, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+        sum[i + 1] = sum[i] + weights[i] * values[i];
+        weight[i + 1] = weight[i] + weights[i];
+    }
+    const auto reach = static_cast<std::size_t>(half);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t from = i < reach ? 0 : i - reach;
+        const std::size_t to = std::min(n, i + reach + 1);
+        const double total = weight[to] - weight[from];
+        out[i] = total >= least ? (sum[to] - sum[from]) / total : 1.0;
+    }
+}
+
+} // namespace faintline
