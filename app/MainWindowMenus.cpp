@@ -8,7 +8,7 @@
 #include "app/KeysOverlay.h"
 #include "app/Panels.h"
 #include "app/PingBench.h"
-#include "app/ScenarioCard.h"
+#include "app/scenarios.h"
 #include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
 #include "app/WelcomePage.h"
@@ -213,8 +213,8 @@ void MainWindow::buildToolBar()
         ->setToolTip(tr("Open a recording, a scenario or a session (Ctrl+O)"));
 
     auto *scenarioMenu = new QMenu(this);
-    for (ScenarioCard *card : m_welcome->cards())
-        scenarioMenu->addAction(card->scenario().title, this, [this, card] { openScenario(card); });
+    for (const Scenario &scenario : scenarios())
+        scenarioMenu->addAction(scenario.title, this, [this, path = scenario.path] { open(path); });
     scenarioMenu->addAction(tr("A radar that looks until it is sure"), this, [this] { open(radarScenarioPath()); });
     auto *scenarioButton = new QToolButton;
     scenarioButton->setText(tr("Scenario"));

@@ -53,6 +53,8 @@ WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_scanCard(new Scan
     auto *cards = new QHBoxLayout;
     cards->setSpacing(16);
     for (const Scenario &scenario : scenarios()) {
+        if (!scenario.isWelcome)
+            continue;
         auto *card = new ScenarioCard(scenario);
         m_cards.push_back(card);
         cards->addWidget(card, 1);

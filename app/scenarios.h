@@ -11,6 +11,7 @@ struct Scenario {
     QString title;
     QString sentence; ///< what is to be seen
     QString path;     ///< of its JSON among the program's resources
+    bool isWelcome = false; ///< whether the welcome page shows it at work
 };
 
 /// The scenarios that come with the program, the most telling one first.
