@@ -18,24 +18,14 @@ void interrupt(int)
     interrupted.request_stop();
 }
 
-int complain(const std::string &message, int code)
-{
-    std::fprintf(stderr, "error: %s\n", message.c_str());
-    return code;
-}
+constexpr auto programName = "faintline-cli";
+constexpr auto description = "Faintline: track-before-detect for what is too faint to see.";
 
-} // namespace
-
-int main(int argc, char **argv)
+void addCommands(CLI::App &app, faintline::cli::Common &common)
 {
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
-    CLI::App app{"Faintline: track-before-detect for what is too faint to see.", "faintline-cli"};
     app.set_version_flag("--version", "faintline-cli " FAINTLINE_VERSION);
     app.require_subcommand(1);
     app.fallthrough();
-    faintline::cli::Common common;
-    common.stop = interrupted.get_token();
     app.add_option("--threads", common.threads, "Threads to use; never changes a byte of a result")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
@@ -46,8 +36,35 @@ int main(int argc, char **argv)
                            faintline::cli::addStatistic, faintline::cli::addExplain, faintline::cli::addSimulate,
                            faintline::cli::addReproduce, faintline::cli::addEvaluate, faintline::cli::addMerge,
                            faintline::cli::addCalibrate, faintline::cli::addInject, faintline::cli::addSequential,
-                           faintline::cli::addBench})
+                           faintline::cli::addReplay, faintline::cli::addBench})
         add(app, common);
+}
+
+int complain(const std::string &message, int code)
+{
+    std::fprintf(stderr, "error: %s\n", message.c_str());
+    return code;
+}
+
+} // namespace
+
+void faintline::cli::runCommandLine(const std::vector<std::string> &arguments, Common common)
+{
+    common.arguments = arguments;
+    CLI::App app{description, programName};
+    addCommands(app, common);
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // it takes them from the back
+}
+
+int main(int argc, char **argv)
+{
+    std::signal(SIGINT, interrupt);
+    std::signal(SIGTERM, interrupt);
+    faintline::cli::Common common;
+    common.stop = interrupted.get_token();
+    common.arguments.assign(argv + 1, argv + argc);
+    CLI::App app{description, programName};
+    addCommands(app, common);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError &error) {

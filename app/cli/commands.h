@@ -21,6 +21,8 @@ struct Common {
     std::stop_token stop;
     int threads = 2;
     std::string progress = "auto";
+    std::vector<std::string> arguments; ///< of this run, for the provenance of what it writes
+    bool keepsProvenance = true;
 
     /// Shows progress on standard error as asked for.
     RunContext context() const;
@@ -56,6 +58,10 @@ void addMerge(CLI::App &app, Common &common);
 void addCalibrate(CLI::App &app, Common &common);
 void addInject(CLI::App &app, Common &common);
 void addSequential(CLI::App &app, Common &common);
+void addReplay(CLI::App &app, Common &common);
+
+/// Does what a command line asks for. Throws CLI::ParseError, Error, Cancelled.
+void runCommandLine(const std::vector<std::string> &arguments, Common common);
 void addBench(CLI::App &app, Common &common);
 
 /// The simulated pings of a scene file whose kind is "pings"; nothing if the file is another.

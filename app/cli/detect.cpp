@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/provenance.h"
 
 #include "analysis/analyse.h"
 #include "analysis/explain.h"
@@ -168,6 +169,8 @@ namespace {
             writeEvents(conventionally(*analysis), options.conventional);
         if (writer)
             writer->finish();
+        writeProvenance(common, {options.analysis.file, options.frames, options.grid, options.model, options.analysis.session},
+                        {options.events, options.tracks, options.statistic, options.conventional});
         if (options.summary)
             printSummary(*analysis);
         if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/provenance.h"
 
 #include "analysis/lineInNoise.h"
 #include "base/AtomicFile.h"
@@ -49,6 +50,7 @@ void addInject(CLI::App &app, Common &common)
         writeRecording(made, options->out, options->type == "int16" ? WrittenType::Int16 : WrittenType::Float32, common.context().part(0.3, 1.0));
         if (!options->truth.empty())
             writeTextFile(options->truth, toJson(made.truth()).dump(2) + "\n");
+        writeProvenance(common, {options->analysis.file, options->analysis.session}, {options->out, options->truth});
     });
 }
 

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/provenance.h"
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
@@ -61,10 +62,6 @@ namespace {
         writer.finish();
     }
 
-} // namespace
-
-void addSimulate(CLI::App &app, Common &common)
-{
     struct Options {
         std::string scene;
         std::string out;
@@ -72,6 +69,31 @@ void addSimulate(CLI::App &app, Common &common)
         int seed = -1;
         std::string type = "float32";
     };
+
+    void simulate(const Options &options, const Common &common)
+    {
+        const Json json = readJsonFile(options.scene);
+        if (json.is_object() && json.value("kind", Json()) == "scans") {
+            simulateScans(scanSceneFromJson(json), options.seed, options.out, options.truth, common.context());
+            return;
+        }
+        if (isPingScene(json)) {
+            simulatePings(pingSceneFromJson(json), options.seed, options.out, options.truth, common.context());
+            return;
+        }
+        LineScene scene = lineSceneFromJson(json);
+        if (options.seed >= 0)
+            scene.seed = options.seed;
+        const SimulatedRecording recording(scene);
+        writeRecording(recording, options.out, options.type == "int16" ? WrittenType::Int16 : WrittenType::Float32, common.context());
+        if (!options.truth.empty())
+            writeTextFile(options.truth, toJson(recording.truth()).dump(2) + "\n");
+    }
+
+} // namespace
+
+void addSimulate(CLI::App &app, Common &common)
+{
     const auto options = std::make_shared<Options>();
     CLI::App *command =
         app.add_subcommand("simulate", "Make a recording of known lines in noise, or pings with known targets, and its truth");
@@ -81,22 +103,8 @@ void addSimulate(CLI::App &app, Common &common)
     command->add_option("--seed", options->seed, "Seed in place of the scene's own")->check(CLI::Range(0, 2147483647));
     command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
     command->callback([options, &common] {
-        const Json json = readJsonFile(options->scene);
-        if (json.is_object() && json.value("kind", Json()) == "scans") {
-            simulateScans(scanSceneFromJson(json), options->seed, options->out, options->truth, common.context());
-            return;
-        }
-        if (isPingScene(json)) {
-            simulatePings(pingSceneFromJson(json), options->seed, options->out, options->truth, common.context());
-            return;
-        }
-        LineScene scene = lineSceneFromJson(json);
-        if (options->seed >= 0)
-            scene.seed = options->seed;
-        const SimulatedRecording recording(scene);
-        writeRecording(recording, options->out, options->type == "int16" ? WrittenType::Int16 : WrittenType::Float32, common.context());
-        if (!options->truth.empty())
-            writeTextFile(options->truth, toJson(recording.truth()).dump(2) + "\n");
+        simulate(*options, common);
+        writeProvenance(common, {options->scene}, {options->out, options->truth});
     });
 }
 

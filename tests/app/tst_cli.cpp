@@ -29,6 +29,7 @@ private slots:
     void infoAsJson();
     void describesEverySetting();
     void simulatesTheSameAgain();
+    void resultsAreMadeAgain();
     void findsTheLine();
     void statisticHasTheFramesShape();
     void threadsChangeNoByte();
@@ -236,6 +237,32 @@ void tst_cli::simulatesTheSameAgain()
     QCOMPARE(truth["lines"].size(), std::size_t(1));
     QCOMPARE(truth["lines"][0]["snrDb"].get<double>(), 9.0);
     QCOMPARE(truth["lines"][0]["startSeconds"].get<double>(), 8.0);
+}
+
+void tst_cli::resultsAreMadeAgain()
+{
+    QCOMPARE(run(m_folder, QStringList{"detect", "line.wav", "--events", "again.csv", "--statistic=again.npy"} + settings).code, 0);
+    Outcome replayed = run(m_folder, {"replay", "again.csv"});
+    QCOMPARE(replayed.err, QByteArray());
+    QCOMPARE(replayed.out, QByteArray("again.csv: the same bytes\nagain.npy: the same bytes\n"));
+    QCOMPARE(replayed.code, 0);
+
+    // What was changed by hand is told from what was made.
+    QByteArray changed = content("again.csv");
+    changed[changed.size() - 2] = changed[changed.size() - 2] == '1' ? '2' : '1';
+    writeBytes(pathOf("again.csv"), changed);
+    replayed = run(m_folder, {"replay", "again.csv.provenance.json"});
+    QCOMPARE(replayed.code, 1);
+    QVERIFY2(replayed.err.contains("again.csv"), replayed.err.constData());
+
+    // So is an input that is another one by now, and a file of which nothing is known.
+    QCOMPARE(run(m_folder, {"simulate", "scene.json", "--out", "input.wav", "--seed", "5"}).code, 0);
+    QCOMPARE(run(m_folder, QStringList{"detect", "input.wav", "--events", "input.csv"} + settings).code, 0);
+    QCOMPARE(run(m_folder, {"simulate", "scene.json", "--out", "input.wav", "--seed", "6"}).code, 0);
+    replayed = run(m_folder, {"replay", "input.csv"});
+    QCOMPARE(replayed.code, 2);
+    QVERIFY2(replayed.err.contains("input.wav"), replayed.err.constData());
+    QCOMPARE(run(m_folder, {"replay", "scene.json"}).code, 2);
 }
 
 void tst_cli::findsTheLine()

@@ -1,0 +1,151 @@
+#include "app/cli/commands.h"
+#include "app/cli/provenance.h"
+
+#include "base/AtomicFile.h"
+#include "base/Error.h"
+#include "base/json.h"
+#include "recording/openRecording.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+namespace faintline::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+    const std::string suffix = ".provenance.json";
+
+    struct Provenance {
+        std::string version;
+        fs::path folder;
+        std::vector<std::string> arguments;
+        std::vector<std::pair<std::string, std::string>> inputs; ///< name, hash
+        std::vector<std::string> outputs;
+    };
+
+    Provenance readProvenance(const std::string &path)
+    {
+        const Json json = readJsonFile(path);
+        try {
+            Provenance provenance{json.at("faintline"), json.at("folder").get<std::string>(), json.at("arguments"), {}, json.at("outputs")};
+            for (const Json &input : json.at("inputs"))
+                provenance.inputs.emplace_back(input.at("file"), input.at("hash"));
+            return provenance;
+        } catch (const Json::exception &) {
+            throw Error(path, "is no provenance: it needs faintline, folder, arguments, inputs and outputs");
+        }
+    }
+
+    /// A folder that goes with everything in it.
+    class TemporaryFolder
+    {
+    public:
+        TemporaryFolder()
+        {
+            std::string name = (fs::temp_directory_path() / "faintline-replay-XXXXXX").string();
+            if (!mkdtemp(name.data()))
+                throw Error(name, "cannot be made", Error::Kind::Failure);
+            m_path = name;
+        }
+        ~TemporaryFolder()
+        {
+            std::error_code ignored;
+            fs::remove_all(m_path, ignored);
+        }
+        TemporaryFolder(const TemporaryFolder &) = delete;
+        TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+        const fs::path &path() const { return m_path; }
+
+    private:
+        fs::path m_path;
+    };
+
+    bool sameBytes(const fs::path &a, const fs::path &b)
+    {
+        std::ifstream first(a, std::ios::binary);
+        std::ifstream second(b, std::ios::binary);
+        if (!first || !second)
+            return false;
+        return std::equal(std::istreambuf_iterator<char>(first), {}, std::istreambuf_iterator<char>(second), {});
+    }
+
+    void replay(const std::string &result, const Common &common)
+    {
+        const fs::path asked = fs::absolute(result);
+        const fs::path path = fs::absolute(result.ends_with(suffix) ? result : result + suffix);
+        if (!fs::exists(path))
+            throw Error(result, "has no provenance: there is no " + path.filename().string() + " beside it");
+        const Provenance provenance = readProvenance(path.string());
+        if (provenance.version != FAINTLINE_VERSION)
+            std::printf("made with version %s, this is %s\n", provenance.version.c_str(), FAINTLINE_VERSION);
+        // Where the results are now, in the order in which they were named.
+        const TemporaryFolder folder;
+        std::vector<fs::path> kept;
+        std::vector<fs::path> remade;
+        std::vector<std::string> arguments = provenance.arguments;
+        for (const std::string &output : provenance.outputs) {
+            kept.push_back(path.parent_path() / fs::path(output).filename());
+            remade.push_back(folder.path() / (std::to_string(remade.size()) + "-" + fs::path(output).filename().string()));
+            for (std::string &argument : arguments) {
+                if (argument == output)
+                    argument = remade.back().string();
+                else if (argument.starts_with("--") && argument.ends_with("=" + output))
+                    argument = argument.substr(0, argument.size() - output.size()) + remade.back().string();
+            }
+        }
+        if (!fs::is_directory(provenance.folder))
+            throw Error(provenance.folder.string(), "is the folder it was made in, and is not there any more");
+        fs::current_path(provenance.folder);
+        for (const auto &[file, hash] : provenance.inputs)
+            if (!fs::exists(file) || recordingHash(file) != hash)
+                throw Error(file, "is not what " + result + " was made from");
+        Common quiet = common;
+        quiet.keepsProvenance = false;
+        runCommandLine(arguments, quiet);
+        std::string different;
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+            if (!fs::exists(kept[i]) && kept[i] != asked)
+                continue; // another file of the same run, kept elsewhere
+            const bool isSame = sameBytes(kept[i], remade[i]);
+            std::printf("%s: %s\n", kept[i].filename().c_str(), isSame ? "the same bytes" : "differs");
+            if (!isSame && different.empty())
+                different = kept[i].string();
+        }
+        if (!different.empty())
+            throw Error(different, "is not what its provenance makes", Error::Kind::Failure);
+    }
+
+} // namespace
+
+void writeProvenance(const Common &common, const std::vector<std::string> &inputs, const std::vector<std::string> &outputs)
+{
+    if (!common.keepsProvenance)
+        return;
+    Json json = {{"faintline", FAINTLINE_VERSION}, {"folder", fs::current_path().string()}, {"arguments", common.arguments}};
+    json["inputs"] = Json::array();
+    for (const std::string &input : inputs)
+        if (!input.empty())
+            json["inputs"].push_back({{"file", input}, {"hash", recordingHash(input)}});
+    json["outputs"] = Json::array();
+    for (const std::string &output : outputs)
+        if (!output.empty() && fs::is_regular_file(output)) // nothing is kept beside /dev/null
+            json["outputs"].push_back(output);
+    for (const Json &output : json["outputs"])
+        writeTextFile(output.get<std::string>() + suffix, json.dump(2) + "\n");
+}
+
+void addReplay(CLI::App &app, Common &common)
+{
+    const auto result = std::make_shared<std::string>();
+    CLI::App *command = app.add_subcommand("replay", "Make a result again from its own provenance, and compare");
+    command->add_option("RESULT", *result, "A file written by detect, simulate or inject, with its .provenance.json beside it")->required();
+    command->callback([result, &common] { replay(*result, common); });
+}
+
+} // namespace faintline::cli
