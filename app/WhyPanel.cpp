@@ -141,7 +141,10 @@ void WhyPanel::explainCursor()
 {
     const auto &analysis = m_document.analysis();
     const auto cursor = m_document.viewport().cursor();
-    if (!analysis || !cursor || analysis->grid().axes.size() != 1) {
+    const bool isOneAxis = analysis && analysis->grid().axes.size() == 1;
+    if (analysis && !isOneAxis)
+        m_sentence->setText(tr("Of pings the ladder is on the command line: faintline-cli explain with --time, --range and --bearing."));
+    if (!isOneAxis || !cursor) {
         emit settled();
         return;
     }
