@@ -249,6 +249,7 @@ void WaterfallView::layAxes()
     m_overlay->isTimeVertical = isTimeVertical();
     m_overlay->colours = Theme::colours(*this);
     m_sentence->colour = m_overlay->colours.faintText;
+    updateLayout(); // titles and scales of another size
     followSpan();
     updateContent();
 }
