@@ -41,7 +41,6 @@
 #include "widgets/ReadOut.h"
 #include "widgets/WalkPlot.h"
 
-#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDateTime>
@@ -55,7 +54,6 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 namespace faintline {

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -36,6 +37,12 @@ namespace {
             Provenance provenance{json.at("faintline"), json.at("folder").get<std::string>(), json.at("arguments"), {}, json.at("outputs")};
             for (const Json &input : json.at("inputs"))
                 provenance.inputs.emplace_back(input.at("file"), input.at("hash"));
+            // What was not written by one of these might do anything, or call itself.
+            const auto is = [&](const char *command) {
+                return std::find(provenance.arguments.begin(), provenance.arguments.end(), command) != provenance.arguments.end();
+            };
+            if (provenance.outputs.empty() || is("replay") || !(is("detect") || is("simulate") || is("inject")))
+                throw Error(path, "is no provenance of something that detect, simulate or inject wrote");
             return provenance;
         } catch (const Json::exception &) {
             throw Error(path, "is no provenance: it needs faintline, folder, arguments, inputs and outputs");
@@ -92,12 +99,16 @@ namespace {
         for (const std::string &output : provenance.outputs) {
             kept.push_back(path.parent_path() / fs::path(output).filename());
             remade.push_back(folder.path() / (std::to_string(remade.size()) + "-" + fs::path(output).filename().string()));
+            bool isNamed = false;
             for (std::string &argument : arguments) {
-                if (argument == output)
-                    argument = remade.back().string();
-                else if (argument.starts_with("--") && argument.ends_with("=" + output))
-                    argument = argument.substr(0, argument.size() - output.size()) + remade.back().string();
+                const bool isOption = argument.starts_with("--") && argument.ends_with("=" + output);
+                if (argument != output && !isOption)
+                    continue;
+                argument = argument.substr(0, argument.size() - output.size()) + remade.back().string();
+                isNamed = true;
             }
+            if (!isNamed)
+                throw Error(path.string(), "tells of " + output + ", which its own command line does not name");
         }
         if (!fs::is_directory(provenance.folder))
             throw Error(provenance.folder.string(), "is the folder it was made in, and is not there any more");

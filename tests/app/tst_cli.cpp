@@ -263,6 +263,17 @@ void tst_cli::resultsAreMadeAgain()
     QCOMPARE(replayed.code, 2);
     QVERIFY2(replayed.err.contains("input.wav"), replayed.err.constData());
     QCOMPARE(run(m_folder, {"replay", "scene.json"}).code, 2);
+
+    // A provenance that somebody made up runs nothing.
+    const std::string head = R"({"faintline": "0", "folder": ".", "inputs": [], )";
+    for (const char *tail : {R"("arguments": ["replay", "made.up"], "outputs": ["made.up"]})", R"("arguments": ["detect"], "outputs": []})",
+                             R"("arguments": ["detect", "line.wav", "--summary"], "outputs": ["made.up"]})", R"("arguments": 7, "outputs": []})"}) {
+        writeBytes(pathOf("made.up.provenance.json"), QByteArray::fromStdString(head + tail));
+        replayed = run(m_folder, {"replay", "made.up"});
+        QCOMPARE(replayed.code, 2);
+        QVERIFY2(replayed.err.contains("made.up.provenance.json"), replayed.err.constData());
+        QCOMPARE(replayed.out.count('\n') <= 1, true);
+    }
 }
 
 void tst_cli::findsTheLine()
