@@ -14,7 +14,7 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t blockBytes = std::size_t(1) << 20;
-    constexpr std::size_t pictureBytes = std::size_t(100) << 20; ///< of each of two: an hour at 48 kHz then takes less than 300 MiB
+    constexpr std::size_t pictureBytes = std::size_t(64) << 20; ///< of each of two: an hour at 48 kHz then takes less than 300 MiB
 
     /// Reads blocks of frames one ahead of their use, on another thread if there is one to spare.
     class FrameStream

@@ -182,9 +182,21 @@ namespace {
         });
     }
 
-    /// Goes from frame `first` to `last`; all paths start inside the corridor.
+    /// The corridor's part of the scores of all states.
+    void take(std::span<const float> all, const MarkovModel &model, const Corridor &corridor, std::span<float> scores)
+    {
+        const Index cells = corridor.space.cellCount();
+        for (Index plane = 0; plane < corridor.space.planeCount(); ++plane) {
+            const Index first = corridor.toGlobal(model.space, plane * cells) - corridor.cells().front();
+            for (Index i = 0; i < cells; ++i)
+                scores[static_cast<std::size_t>(plane * cells + i)] =
+                    all[static_cast<std::size_t>(first + corridor.cells()[static_cast<std::size_t>(i)])];
+        }
+    }
+
+    /// Goes from frame `first` to `last`, from the scores of all states after `first` or, where there are none, with paths that start then.
     CorridorScores runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, const Corridor &corridor,
-                               Index first, Index last, Storage &storage)
+                               Index first, std::span<const float> firstScores, Index last, Storage &storage)
     {
         const Index cells = corridor.space.cellCount();
         Recursion<MaxPlus<float>> recursion(corridor.space, model.transitionScale);
@@ -196,7 +208,9 @@ namespace {
             for (std::size_t i = 0; i < y.size(); ++i)
                 y[i] = whole[static_cast<std::size_t>(corridor.cells()[i])];
             const std::span<float> scores = history.append();
-            if (frame == first) {
+            if (frame == first && !firstScores.empty()) {
+                take(firstScores, model, corridor, scores);
+            } else if (frame == first) {
                 model.likelihood.apply(y, scores);
                 for (Index plane = 1; plane < corridor.space.planeCount(); ++plane)
                     std::copy_n(scores.begin(), cells, scores.begin() + plane * cells);
@@ -241,18 +255,24 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
     bool isReset = false;
     for (Index length = shortestCorridor; !isReset;) {
         const Index known = frame - record.firstFrame + 1;
-        const Index used = std::min(length, known);
+        const RecursionRecord::Checkpoint checkpoint = record.checkpoint ? record.checkpoint(frame) : RecursionRecord::Checkpoint{};
+        const bool isFromCheckpoint = checkpoint.frame >= std::max(record.firstFrame, frame - 2 * length);
+        const Index used = isFromCheckpoint ? frame - checkpoint.frame + 1 : std::min(length, known);
         const Index first = frame - used + 1;
         const Corridor corridor(model, grid, state, used - 1);
-        const CorridorScores history = runCorridor(model, grid, record, corridor, first, frame, storage);
+        const CorridorScores history = runCorridor(model, grid, record, corridor, first,
+                                                   isFromCheckpoint ? checkpoint.scores : std::span<const float>{}, frame, storage);
 
         Index local = corridor.toLocal(model.space, state);
         // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's score.
-        if (used < known && static_cast<double>(history.at(frame)[static_cast<std::size_t>(local)]) < detectorScore - scoreTolerance) {
+        if (!isFromCheckpoint && used < known
+            && static_cast<double>(history.at(frame)[static_cast<std::size_t>(local)]) < detectorScore - scoreTolerance) {
             length *= 2;
             continue;
         }
         while (!isReset) {
+            if (isFromCheckpoint && frame == first)
+                break; // what came before it, from the checkpoint before
             PathStep step;
             step.frame = frame;
             step.state = corridor.toGlobal(model.space, local);

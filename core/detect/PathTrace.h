@@ -25,12 +25,21 @@ struct RecursionRecord {
     std::function<std::span<const float>(Index frame)> frame;              ///< y as the detector saw it
     std::function<double(Index frame)> lnK;                                ///< in force for the step into that frame
     std::function<std::span<const CellBox>(Index frame)> forgotten;        ///< boxes forgotten after that frame
+
+    /// The scores of all states after a frame, before anything was forgotten.
+    struct Checkpoint {
+        Index frame = -1; ///< -1: there is none
+        std::span<const float> scores{};
+    };
+    /// The latest that was kept of the frames before `frame`. May be empty: none are kept.
+    std::function<Checkpoint(Index frame)> checkpoint{};
 };
 
 /// The best path that ends in `state` at `frame`, from its last reset on, oldest step first.
 ///
-/// Goes through the recursion again in a corridor that grows until it finds the detector's own `score` for that state, so the
-/// detector itself keeps no back-pointers. A path older than the record begins with the record.
+/// Goes through the recursion again in a corridor that grows until it begins at a checkpoint or finds the detector's own `score` for
+/// that state, so the detector itself keeps no back-pointers. From one checkpoint to the next the cost is the same however long the path
+/// is. A path older than the record begins with the record.
 /// Source: Billon 2005 section 3 (τₙ, the latest reset). Oracle: enumeration of all paths.
 std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, Index frame,
                                 Index state, double score);

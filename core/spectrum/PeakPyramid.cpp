@@ -1,8 +1,10 @@
 #include "spectrum/PeakPyramid.h"
 
+#include "base/fastmath.h"
 #include "base/multiversion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace faintline {
@@ -16,6 +18,36 @@ namespace {
     {
         for (Index i = 0; i < n; ++i)
             to[i] = std::max(to[i], from[i]);
+    }
+
+    FAINTLINE_MULTIVERSION
+    void encodePower(const float *values, std::uint8_t *bytes, Index n)
+    {
+        constexpr float stepsPerNeper = 8.6858896381f;                      // 2 · 10 / ln 10
+        constexpr auto lowest = std::bit_cast<std::int32_t>(0.0316227766f); // -15 dB
+        for (Index i = 0; i < n; ++i) {
+            // As whole numbers, positive floats have the same order; a comparison of floats keeps the compiler from vector code.
+            const std::int32_t bits = std::max(std::bit_cast<std::int32_t>(values[i]), lowest);
+            const auto byte = static_cast<std::int32_t>(stepsPerNeper * fastLn(std::bit_cast<float>(bits)) + 30.5f);
+            bytes[i] = static_cast<std::uint8_t>(std::min(byte, 255));
+        }
+    }
+
+    constexpr int endOfEven = 200; ///< of a score's bytes, the first that is not ¼ nat above the one before
+
+    /// Returns whether there are scores beyond the even part; their bytes are `endOfEven`.
+    FAINTLINE_MULTIVERSION
+    bool encodeEvenScores(const float *values, std::uint8_t *bytes, Index n)
+    {
+        std::int32_t most = 0;
+        for (Index i = 0; i < n; ++i) {
+            const float position = 4.0f * (values[i] + 4.0f) + 0.5f;
+            const float inside = position > 0.0f ? position : 0.0f; // NaN as well
+            const auto byte = static_cast<std::int32_t>(inside < static_cast<float>(endOfEven) ? inside : static_cast<float>(endOfEven));
+            bytes[i] = static_cast<std::uint8_t>(byte);
+            most = std::max(most, byte);
+        }
+        return most >= endOfEven;
     }
 
 } // namespace
@@ -44,23 +76,22 @@ std::uint8_t ByteScale::byte(double value) const
 
 void ByteScale::encode(std::span<const float> values, std::span<std::uint8_t> bytes) const
 {
-    // Both scales have an even part that covers nearly all cells; the rest goes the long way.
     if (m_kind == Kind::PowerDb) {
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const float position = 2.0f * (10.0f * std::log10(std::max(values[i], 1e-3f)) + 15.0f) + 0.5f;
-            bytes[i] = static_cast<std::uint8_t>(std::clamp(position, 0.0f, 255.0f));
-        }
+        encodePower(values.data(), bytes.data(), std::ssize(values));
         return;
     }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const float position = 4.0f * (values[i] + 4.0f) + 0.5f;
-        bytes[i] = position < 200.0f ? static_cast<std::uint8_t>(std::max(position, 0.0f)) : byte(static_cast<double>(values[i]));
-    }
+    // The even part of the scale covers nearly all cells; the rest goes the long way.
+    if (!encodeEvenScores(values.data(), bytes.data(), std::ssize(values)))
+        return;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (bytes[i] >= endOfEven)
+            bytes[i] = byte(static_cast<double>(values[i]));
 }
 
 PeakPyramid::PeakPyramid(Axis time, Index cells, ByteScale scale, std::size_t byteBudget)
     : m_time(std::move(time)), m_cells(cells), m_scale(std::move(scale)), m_byteBudget(byteBudget), m_levels(1), m_pending(1)
 {
+    reserve();
 }
 
 void PeakPyramid::append(std::span<const float> frames)
@@ -111,7 +142,15 @@ void PeakPyramid::coarsen()
     first.count = first.count * (m_baseFrames / branching);
     m_pending.erase(m_pending.begin());
     m_pending[0] = std::move(first);
-    m_levels[0].shrink_to_fit();
+    reserve();
+}
+
+/// A vector that grows by moving holds its rows twice while it does; memory that is only set aside costs nothing.
+void PeakPyramid::reserve()
+{
+    const auto rows = static_cast<std::size_t>(std::max<Index>(0, m_time.count) / m_baseFrames + 1);
+    const std::size_t most = m_byteBudget + static_cast<std::size_t>(m_cells);
+    m_levels[0].reserve(std::min(most, rows * static_cast<std::size_t>(m_cells)));
 }
 
 std::size_t PeakPyramid::bytes() const

@@ -65,6 +65,7 @@ public:
 private:
     void push(int level, std::span<const std::uint8_t> row);
     void coarsen();
+    void reserve();
     std::size_t bytes() const;
 
     Axis m_time;

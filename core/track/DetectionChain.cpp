@@ -9,10 +9,19 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t recordBytes = std::size_t(32) << 20;
+    constexpr std::size_t recordBytes = std::size_t(32) << 20; ///< of frames, and as many of checkpoints
+    constexpr Index checkpointFrames = 32; ///< from one to the next
     constexpr int framesUntilDuplicate = 3;
     constexpr double skirtLevel = 8.0; ///< y that noise seldom reaches
     constexpr Index largestSkirtSteps = 16;
+
+    std::size_t checkpointsOf(const std::vector<MarkovModel> &models)
+    {
+        std::size_t states = 0;
+        for (const MarkovModel &model : models)
+            states += static_cast<std::size_t>(model.space.stateCount());
+        return recordBytes / (sizeof(float) * states);
+    }
 
     /// A path usually comes to its signal over some frames of noise that happened to suit it. The signal begins where the score
     /// begins to grow: the change point between no growth and half the path's own mean growth.
@@ -43,7 +52,7 @@ DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid
                                ChainSettings settings)
     : m_models(std::move(models)), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
       m_seenLimit(std::clamp<std::size_t>(recordBytes / (sizeof(float) * static_cast<std::size_t>(grid.size())), 16, 4096)),
-      m_lambda(static_cast<std::size_t>(grid.size()))
+      m_checkpointLimit(checkpointsOf(m_models)), m_lambda(static_cast<std::size_t>(grid.size()))
 {
     for (const MarkovModel &model : m_models)
         m_trackerModels.push_back(std::make_unique<TrackerModel>(model, grid, m_settings.track, m_settings.threshold));
@@ -79,13 +88,7 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
     m_detector->update(seen.y, statistic);
     for (std::size_t i = 0; i < m_detector->memberCount(); ++i)
         seen.lnK.push_back(m_detector->member(i).regulation().stepLnK);
-    if (m_seen.size() == m_seenLimit) {
-        m_seen.pop_front();
-        ++m_firstSeen;
-    }
-    if (m_seen.empty())
-        m_firstSeen = frame;
-    m_seen.push_back(std::move(seen));
+    remember(frame, std::move(seen));
 
     const auto clusters = findClusters(m_grid, statistic, m_settings.threshold, m_settings.shoulder, m_settings.linkCells);
     for (const Cluster &cluster : clusters)
@@ -94,6 +97,33 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         m_seen.back().forgotten = forgottenBoxes();
     for (const HmmTracker &tracker : m_trackers)
         tracker.paint(statistic);
+}
+
+void DetectionChain::remember(Index frame, Seen seen)
+{
+    if (m_seen.size() == m_seenLimit) {
+        m_seen.pop_front();
+        ++m_firstSeen;
+    }
+    if (m_seen.empty())
+        m_firstSeen = frame;
+    m_seen.push_back(std::move(seen));
+
+    if (m_checkpointLimit == 0 || frame % checkpointFrames != 0)
+        return;
+    // The oldest one's memory is used again: fresh pages cost as much as what is written to them.
+    Checkpoint checkpoint;
+    if (m_checkpoints.size() == m_checkpointLimit) {
+        checkpoint = std::move(m_checkpoints.front());
+        m_checkpoints.pop_front();
+    }
+    checkpoint.frame = frame;
+    checkpoint.scores.resize(m_models.size());
+    for (std::size_t i = 0; i < m_models.size(); ++i) {
+        const std::span<const float> scores = m_detector->member(i).scores();
+        checkpoint.scores[i].assign(scores.begin(), scores.end());
+    }
+    m_checkpoints.push_back(std::move(checkpoint));
 }
 
 const std::vector<CellBox> &DetectionChain::forgottenBoxes() const
@@ -270,6 +300,12 @@ RecursionRecord DetectionChain::record(std::size_t model) const
     result.frame = [at](Index frame) { return std::span<const float>(at(frame).y); };
     result.lnK = [at, model](Index frame) { return at(frame).lnK[model]; };
     result.forgotten = [at](Index frame) { return std::span<const CellBox>(at(frame).forgotten); };
+    result.checkpoint = [this, model](Index before) {
+        const auto latest = std::find_if(m_checkpoints.rbegin(), m_checkpoints.rend(),
+                                        [before](const Checkpoint &checkpoint) { return checkpoint.frame < before; });
+        return latest == m_checkpoints.rend() ? RecursionRecord::Checkpoint{}
+                                             : RecursionRecord::Checkpoint{latest->frame, latest->scores[model]};
+    };
     return result;
 }
 

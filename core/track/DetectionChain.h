@@ -93,6 +93,13 @@ private:
         std::vector<CellBox> forgotten;
     };
 
+    /// The scores of all states after a frame.
+    struct Checkpoint {
+        Index frame;
+        std::vector<std::vector<float>> scores; ///< of each model
+    };
+
+    void remember(Index frame, Seen seen);
     const std::vector<CellBox> &forgottenBoxes() const;
     void keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y);
     void updateTrackers(Index frame, std::span<const float> y);
@@ -117,6 +124,8 @@ private:
     std::deque<Seen> m_seen;
     Index m_firstSeen = 0;
     std::size_t m_seenLimit;
+    std::deque<Checkpoint> m_checkpoints;
+    std::size_t m_checkpointLimit;
     int m_nextId = 1;
     std::vector<float> m_lambda;
 };

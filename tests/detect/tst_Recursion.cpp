@@ -245,8 +245,11 @@ void tst_Recursion::tracedTermsAddUp()
     const auto y = randomFrames(m.space.cellCount(), frames, 4);
     Smd detector(m, {ResetLaw::Fixed, lnK});
     std::vector<float> statistic(static_cast<std::size_t>(m.space.cellCount()));
-    for (const auto &frame : y)
+    std::vector<std::vector<float>> scores;
+    for (const auto &frame : y) {
         detector.update(frame, statistic);
+        scores.emplace_back(detector.scores().begin(), detector.scores().end());
+    }
     RecursionRecord record;
     record.frame = [&](Index t) { return std::span<const float>(y[static_cast<std::size_t>(t)]); };
     record.lnK = [&](Index) { return lnK; };
@@ -266,6 +269,18 @@ void tst_Recursion::tracedTermsAddUp()
             sum += path[i].logLikelihoodRatio + path[i].lnTransition + path[i].lnK;
         }
         QVERIFY(std::abs(sum - static_cast<double>(detector.scores()[static_cast<std::size_t>(state)])) < 1e-4);
+
+        // With checkpoints in every fifth frame, the newest forgotten: the same path.
+        RecursionRecord cut = record;
+        cut.checkpoint = [&](Index before) {
+            const Index at = std::min<Index>((before - 1) / 5 * 5, 30);
+            return before > at ? RecursionRecord::Checkpoint{at, scores[static_cast<std::size_t>(at)]} : RecursionRecord::Checkpoint{};
+        };
+        const std::vector<PathStep> again = tracePath(m, grid, cut, frames - 1, state,
+                                                       static_cast<double>(detector.scores()[static_cast<std::size_t>(state)]));
+        QCOMPARE(again.size(), path.size());
+        for (std::size_t i = 0; i < path.size(); ++i)
+            QCOMPARE(again[i].state, path[i].state);
     }
 }
 
