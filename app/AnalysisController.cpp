@@ -123,7 +123,13 @@ void AnalysisController::startAnalysis()
 {
     m_runner.start([this, opened = m_document.openedSource(), settings = m_document.settings(),
                     previous = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
-        auto analysis = analyse(opened, settings, context, previous.get());
+        // What is seen already is not taken away for a part of what comes.
+        PictureSink pictures;
+        if (!previous)
+            pictures = [this](const PicturesSoFar &sofar) {
+                m_runner.deliver([this, sofar] { emit m_document.picturesGrew(sofar); });
+            };
+        auto analysis = analyse(opened, settings, context, previous.get(), pictures);
         std::vector<Event> found = events(*analysis);
         return [this, analysis = std::move(analysis), found = std::move(found)] {
             m_document.setAnalysis(analysis, found);

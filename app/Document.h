@@ -75,6 +75,7 @@ public:
 signals:
     void opened();
     void settingsChanged();
+    void picturesGrew(const faintline::PicturesSoFar &pictures); ///< of a long recording, while its first analysis is still under way
     void analysisChanged();
     void shownThresholdChanged();
     void shownEventsChanged(); ///< the threshold passed one, or they are new

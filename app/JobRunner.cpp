@@ -61,6 +61,11 @@ void JobRunner::cancel()
     emit cancelled();
 }
 
+void JobRunner::deliver(std::function<void()> part)
+{
+    post(m_current, std::move(part));
+}
+
 void JobRunner::work(const std::stop_token &quit)
 {
     std::unique_lock lock(m_mutex);
@@ -74,6 +79,7 @@ void JobRunner::work(const std::stop_token &quit)
 
 void JobRunner::run(const Request &request)
 {
+    m_current = request.number;
     RunContext context;
     context.stop = request.stop.get_token();
     context.threads = threadCount();

@@ -33,6 +33,9 @@ public:
     void start(Job job);
     void cancel();
 
+    /// Called by a job, on the worker, to hand over what it has so far: like a delivery, but the job goes on.
+    void deliver(std::function<void()> part);
+
     /// From `start` until the newest job's end has been signalled.
     bool isRunning() const { return m_isRunning; }
 
@@ -57,7 +60,8 @@ private:
     /// Has `action` called on this object's thread, unless a newer job was started by then.
     void post(std::uint64_t number, std::function<void()> action);
 
-    std::uint64_t m_newest = 0; ///< of this object's thread
+    std::uint64_t m_newest = 0;  ///< of this object's thread
+    std::uint64_t m_current = 0; ///< of the worker: the job it runs
     bool m_isRunning = false;
 
     std::mutex m_mutex;

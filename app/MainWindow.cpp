@@ -230,6 +230,10 @@ void MainWindow::connectDocument()
         offerIq();
         showHint();
     });
+    connect(&m_document, &Document::picturesGrew, this, [this](const PicturesSoFar &pictures) {
+        m_overview->setPicture(pictures.glance ? pictures.glance : pictures.input, pictures.frequency);
+        showWorkbench();
+    });
     connect(&m_document, &Document::analysisChanged, this, &MainWindow::showAnalysis);
     connect(&m_document, &Document::shownThresholdChanged, m_threshold,
             [this] { m_threshold->setThreshold(m_document.shownThreshold()); });

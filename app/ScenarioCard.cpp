@@ -68,7 +68,7 @@ void ScenarioCard::setResult(const OpenedSource &opened, std::shared_ptr<const A
     const bool hasPings = !m_analysis->inputAlong.empty(); // range against time, the best of all bearings
     const Axis &frequency = m_analysis->grid().axes.front();
     const auto &input = hasPings ? m_analysis->inputAlong.front() : m_analysis->input;
-    const Viewport::Box full = WaterfallView::extents(*input, frequency);
+    const Viewport::Box full = WaterfallView::extents(input->time(), frequency);
     m_viewport.setExtents(full.time, full.frequency);
     m_input->setPicture(input, frequency);
     m_statistic->setPicture(hasPings ? m_analysis->statisticAlong.front() : m_analysis->statistic, frequency);

@@ -108,9 +108,10 @@ AnalysisSettings firstSettings(const OpenedSource &opened)
 }
 
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context,
-                                        const Analysis *previous)
+                                        const Analysis *previous, const PictureSink &pictures)
 {
-    return opened.frames ? analyse(opened.frames, settings, context, previous) : analyse(opened.recording, settings, context, previous);
+    return opened.frames ? analyse(opened.frames, settings, context, previous)
+                         : analyse(opened.recording, settings, context, previous, {}, pictures);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace faintline {
 
@@ -122,7 +123,8 @@ Workbench::Workbench(Document &document, QWidget *parent)
     m_output->setObjectName(QStringLiteral("output"));
     linkViews();
 
-    connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
+    connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = m_isFirstPicture = true; });
+    connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
     connect(&document, &Document::analysisChanged, this, &Workbench::showAnalysis);
     connect(&document, &Document::shownThresholdChanged, this, &Workbench::showThreshold);
     connect(&document, &Document::shownEventsChanged, this, &Workbench::showEvents);
@@ -180,7 +182,7 @@ void Workbench::showAnalysis()
     const QString unit = statisticUnit(analysis.settings);
     m_output->setStatisticUnit(unit, tr("Statistic D (%1)").arg(unit));
     m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
-    followExtents(analysis, isFirst);
+    followExtents(analysis.time(), frequency);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
     m_input->setPicture(analysis.input, frequency);
     m_output->setPicture(analysis.statistic, frequency);
@@ -196,6 +198,20 @@ void Workbench::showAnalysis()
     if (isFirst)
         placeCursor();
     readCursor();
+}
+
+void Workbench::showPictures(const PicturesSoFar &pictures)
+{
+    followExtents(pictures.time, pictures.frequency);
+    // The glance has all of the recording, what has been gone through has all of the detail.
+    const Axis &time = pictures.time;
+    const double reached =
+        pictures.input ? time.value(static_cast<double>(pictures.input->frameCount()) - 0.5) : -std::numeric_limits<double>::infinity();
+    const bool isReached = !pictures.glance || m_document.viewport().visible().time.high <= reached;
+    m_input->setPicture(isReached ? pictures.input : pictures.glance, pictures.frequency);
+    m_output->setPicture(pictures.statistic, pictures.frequency);
+    if (!pictures.statistic)
+        m_output->setEmptySentence(tr("The detector listens to the noise first, then its statistic appears here as it goes."));
 }
 
 void Workbench::showThreshold()
@@ -218,18 +234,18 @@ void Workbench::showEvents()
     }
 }
 
-void Workbench::followExtents(const Analysis &analysis, bool isFirst)
+void Workbench::followExtents(const Axis &time, const Axis &frequency)
 {
+    const Viewport::Box full = WaterfallView::extents(time, frequency);
     Viewport &viewport = m_document.viewport();
-    const Viewport::Box full = WaterfallView::extents(*analysis.input, analysis.grid().axes.back());
+    const bool isFirst = std::exchange(m_isFirstPicture, false);
     if (!isFirst && full == viewport.full())
         return;
     const bool showedAll = isFirst || viewport.showsAll();
     const Viewport::Box visible = viewport.visible();
     const std::optional<Viewport::Point> cursor = viewport.cursor();
     constexpr double fewestCells = 8.0;
-    viewport.setExtents(full.time, full.frequency, fewestCells * analysis.time().step,
-                        fewestCells * analysis.grid().axes.back().step);
+    viewport.setExtents(full.time, full.frequency, fewestCells * time.step, fewestCells * frequency.step);
     if (!showedAll)
         viewport.zoomTo(visible.time, visible.frequency);
     if (cursor && !isFirst)

@@ -51,9 +51,10 @@ signals:
 private:
     void linkViews();
     void showAnalysis();
+    void showPictures(const PicturesSoFar &pictures);
     void showThreshold();
     void showEvents();
-    void followExtents(const Analysis &analysis, bool isFirst);
+    void followExtents(const Axis &time, const Axis &frequency);
     void placeCursor();
     void read(const Viewport::Point &point);
     void readCursor();
@@ -70,6 +71,7 @@ private:
     QSplitter *m_rows;
     QTimer m_player;
     bool m_isFirstAnalysis = true; ///< of what is open
+    bool m_isFirstPicture = true;
 };
 
 } // namespace faintline

@@ -108,7 +108,7 @@ void OverviewStrip::render()
         const double ratio = devicePixelRatioF();
         const QSize size(static_cast<int>(std::lround(rect.width() * ratio)),
                          static_cast<int>(std::lround(rect.height() * ratio)));
-        const Viewport::Box box = WaterfallView::extents(*m_picture, m_frequency);
+        const Viewport::Box box = WaterfallView::extents(m_picture->time(), m_frequency);
         const double frames = static_cast<double>(m_picture->frameCount()) / size.width();
         const double cells = static_cast<double>(m_frequency.count) / size.height();
         RasterItem raster;

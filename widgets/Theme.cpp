@@ -93,6 +93,7 @@ namespace {
         draw.setTickLength(QwtScaleDiv::MediumTick, 2);
         draw.setTickLength(QwtScaleDiv::MajorTick, 4);
         draw.setSpacing(3);
+        widget.setLabelRotation(draw.labelRotation()); // has it measure the scale anew
     }
 
 } // namespace

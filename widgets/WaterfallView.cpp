@@ -151,10 +151,9 @@ bool WaterfallView::hasTime() const
     return !m_picture || measuresTime(m_picture->time());
 }
 
-Viewport::Box WaterfallView::extents(const PeakPyramid &picture, const Axis &frequency)
+Viewport::Box WaterfallView::extents(const Axis &time, const Axis &frequency)
 {
-    const Axis &time = picture.time();
-    return {{time.value(-0.5), time.value(static_cast<double>(picture.frameCount()) - 0.5)},
+    return {{time.value(-0.5), time.value(static_cast<double>(time.count) - 0.5)},
             {frequency.value(-0.5), frequency.value(static_cast<double>(frequency.count) - 0.5)}};
 }
 
@@ -183,10 +182,12 @@ std::optional<double> WaterfallView::valueAt(double seconds, double hz) const
 {
     if (!m_picture || m_picture->rowCount(0) == 0)
         return {};
-    const Viewport::Box box = extents(*m_picture, m_frequency);
+    const Viewport::Box box = extents(m_picture->time(), m_frequency);
     if (!box.time.contains(seconds) || !box.frequency.contains(hz))
         return {};
     const double frame = std::floor(m_picture->time().position(seconds) + 0.5);
+    if (frame > static_cast<double>(m_picture->frameCount()))
+        return {}; // still to come
     const Index row =
         std::clamp<Index>(static_cast<Index>(frame) / m_picture->framesPerRow(0), 0, m_picture->rowCount(0) - 1);
     return m_picture->scale().value(m_picture->row(0, row)[static_cast<std::size_t>(m_frequency.nearest(hz))]);
@@ -196,7 +197,7 @@ Viewport::Box WaterfallView::full() const
 {
     if (m_viewport && !m_viewport->isEmpty())
         return m_viewport->full();
-    return m_picture ? extents(*m_picture, m_frequency) : Viewport::Box{{0.0, 1.0}, {0.0, 1.0}};
+    return m_picture ? extents(m_picture->time(), m_frequency) : Viewport::Box{{0.0, 1.0}, {0.0, 1.0}};
 }
 
 Viewport::Box WaterfallView::visible() const
@@ -251,6 +252,7 @@ void WaterfallView::layAxes()
     m_sentence->colour = m_overlay->colours.faintText;
     updateLayout(); // titles and scales of another size
     followSpan();
+    updateLayout(); // and labels
     updateContent();
 }
 

@@ -72,7 +72,7 @@ public:
     const Axis &frequencyAxis() const { return m_frequency; }
 
     /// The box all cells of a picture fill: half a cell beyond the outermost frames and bins.
-    static Viewport::Box extents(const PeakPyramid &picture, const Axis &frequency);
+    static Viewport::Box extents(const Axis &time, const Axis &frequency);
 
     /// What stands on the canvas while there is no picture.
     void setEmptySentence(const QString &sentence);

@@ -76,7 +76,10 @@ void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow 
         std::fill(out.begin(), out.end(), std::uint8_t(0));
         return;
     }
-    const auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(picture.framesPerRow(level)), rowCount);
+    // Of a picture that is still being made, rows to come are empty.
+    const Index perRow = picture.framesPerRow(level);
+    const Index wholeCount = std::max(rowCount, (picture.time().count + perRow - 1) / perRow);
+    const auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(perRow), wholeCount);
     const auto cellsOfPixel = itemsOfPixels(cells, 1.0, picture.cells());
     const auto lowest = static_cast<std::size_t>(cellsOfPixel.front().begin);
     const auto width = static_cast<std::size_t>(cellsOfPixel.back().end) - lowest;
@@ -91,10 +94,14 @@ void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow 
             continue;
         }
         done = rows;
+        if (rows.begin >= rowCount) {
+            std::fill_n(line, cellsOfPixel.size(), std::uint8_t(0));
+            continue;
+        }
         const std::uint8_t *values = picture.row(level, rows.begin).data() + lowest;
         if (rows.end - rows.begin > 1) {
             std::copy_n(values, width, merged.data());
-            for (Index r = rows.begin + 1; r < rows.end; ++r)
+            for (Index r = rows.begin + 1; r < std::min(rows.end, rowCount); ++r)
                 raise(merged.data(), picture.row(level, r).data() + lowest, width);
             values = merged.data();
         }

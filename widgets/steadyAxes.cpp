@@ -19,6 +19,7 @@ void steadyAxes(QwtPlot &plot, const QString &left, const QString &bottom)
         QwtScaleDraw &draw = *plot.axisScaleDraw(axis);
         draw.setMinimumExtent(metrics.horizontalAdvance(left) + draw.spacing() + draw.maxTickLength());
         plot.axisWidget(axis)->setMinBorderDist(halfHeight, halfHeight);
+        plot.axisWidget(axis)->setLabelRotation(draw.labelRotation()); // has it measure the scale anew
     }
 }
 

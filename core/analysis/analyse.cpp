@@ -3,9 +3,11 @@
 #include "analysis/chain.h"
 #include "analysis/regulation.h"
 #include "spectrum/NoiseNormaliser.h"
+#include "spectrum/glance.h"
 #include "spectrum/pictureCuts.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <future>
 
@@ -78,8 +80,49 @@ namespace {
         return result;
     }
 
+    /// Shows pictures of a recording that takes long, and not so often that it takes longer.
+    class Showing
+    {
+    public:
+        Showing() = default;
+        Showing(const PictureSink &sink, const Axis &time, const Axis &frequency) : m_sink(sink)
+        {
+            constexpr double manyCells = 3e7;
+            m_isWanted = sink && static_cast<double>(time.count) * static_cast<double>(frequency.count) > manyCells;
+            m_pictures.time = time;
+            m_pictures.frequency = frequency;
+        }
+
+        void showGlance(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings, const RunContext &context)
+        {
+            if (!m_isWanted)
+                return;
+            m_pictures.glance = glance(std::move(spectrogram), settings, context);
+            m_sink(m_pictures);
+        }
+
+        void show(const std::shared_ptr<PeakPyramid> &input, const PeakPyramid &statistic)
+        {
+            const auto now = std::chrono::steady_clock::now();
+            if (!m_isWanted || now - m_last < interval)
+                return;
+            m_last = now;
+            m_pictures.input = input ? std::make_shared<const PeakPyramid>(input->soFar()) : nullptr;
+            m_pictures.statistic = std::make_shared<const PeakPyramid>(statistic.soFar());
+            m_sink(m_pictures);
+        }
+
+    private:
+        static constexpr std::chrono::milliseconds interval{400};
+
+        PictureSink m_sink;
+        PicturesSoFar m_pictures;
+        bool m_isWanted = false;
+        std::chrono::steady_clock::time_point m_last{};
+    };
+
     /// Streams the frames through the chain and fills in the rest of the analysis.
-    void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink)
+    void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink, Showing &showing)
     {
         const NormalisedFrames &frames = *analysis.frames;
         const Index cells = frames.grid().size();
@@ -118,6 +161,7 @@ namespace {
             if (input)
                 input->append(block);
             statistic->append(scores);
+            showing.show(input, *statistic);
             if (sink)
                 sink(first, scores);
         }
@@ -205,7 +249,7 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
 }
 
 std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
-                                        const Analysis *previous, const StatisticSink &sink)
+                                        const Analysis *previous, const StatisticSink &sink, const PictureSink &pictures)
 {
     checkSettings(settings);
     auto analysis = std::make_shared<Analysis>();
@@ -214,20 +258,24 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
 
     const bool sameRecording = previous && previous->recording == recording;
     const Stage stale = sameRecording ? firstStale(previous->settings, settings) : Stage::Spectrogram;
+    Showing showing;
     if (stale >= Stage::Detector) {
+        showing = Showing(pictures, previous->time(), previous->grid().axes.front());
         analysis->frames = previous->frames;
         analysis->background = previous->background;
         analysis->input = previous->input;
     } else {
         const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
-        analysis->background = estimateBackground(*spectrogram, settings.noise, context.part(0.0, 0.2));
+        showing = Showing(pictures, spectrogram->time(), spectrogram->frequency());
+        showing.showGlance(spectrogram, settings.noise, context.part(0.0, 0.01));
+        analysis->background = estimateBackground(*spectrogram, settings.noise, context.part(0.01, 0.2));
         analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
     }
     analysis->model = makeModel(settings.model, analysis->grid());
     analysis->calibration = calibrate(settings, context.part(0.2, 0.5));
     analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
     analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
-    run(*analysis, context.part(0.5, 1.0), sink);
+    run(*analysis, context.part(0.5, 1.0), sink, showing);
     return analysis;
 }
 
@@ -272,7 +320,8 @@ namespace {
             analysis.lnKBand = previous->lnKBand;
         else if (const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector))
             analysis.lnKBand = regulationBand(analysis.model, resetRule(*smd, analysis.calibration->lnK), context.part(0.0, 0.1));
-        run(analysis, context.part(0.1, 1.0), sink);
+        Showing nothing;
+        run(analysis, context.part(0.1, 1.0), sink, nothing);
     }
 
     std::shared_ptr<const Analysis> analyseOneModel(NormalisedFramesPointer frames, const MarkovModel &model,

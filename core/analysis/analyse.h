@@ -76,13 +76,25 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
 /// Called with every block of frames' statistic, in order: first frame, frames × cells values.
 using StatisticSink = std::function<void(Index firstFrame, std::span<const float> statistic)>;
 
+/// What is there to be seen of a long recording before all of it has been gone through.
+struct PicturesSoFar {
+    std::shared_ptr<const PeakPyramid> glance;    ///< y in dB at some times of the whole recording
+    std::shared_ptr<const PeakPyramid> input;     ///< y in dB as far as the chain got; null before it starts
+    std::shared_ptr<const PeakPyramid> statistic; ///< D in nats, likewise
+    Axis time;                                    ///< of all frames
+    Axis frequency;
+};
+
+/// Called by the thread that computes, a few times a second, if the recording is long. Changes no byte of the result.
+using PictureSink = std::function<void(const PicturesSoFar &)>;
+
 /// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.
 ///
 /// Every caller, window, command line and library, comes through here. `previous`, if given, lends what is still valid.
 /// Streams: memory is bounded whatever the recording's length. Throws Error, Cancelled.
 std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
-                                        const StatisticSink &sink = {});
+                                        const StatisticSink &sink = {}, const PictureSink &pictures = {});
 
 /// The same from ready-made frames on any grid, with the settings' own model or bank of models (`previous` lends its picture of the
 /// input and the band of ln K) …

@@ -17,6 +17,7 @@ namespace faintline {
 namespace {
 
     constexpr int framesPerBlock = 512; // longer blocks are looked at here and there
+    constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
     constexpr float largestRatio = 1e30f;
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
@@ -437,8 +438,9 @@ double NoiseBackground::lnPowerAt(double seconds, double hz) const
 }
 
 std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram, const NormaliserSettings &settings,
-                                                          const RunContext &context)
+                                                          const RunContext &context, BackgroundDepth depth)
 {
+    const bool isSketch = depth == BackgroundDepth::Sketch;
     SpectrogramSettings coarse = spectrogram.settings();
     coarse.windowSeconds = spectrogram.windowSamples() / spectrogram.recording().info().sampleRateHz;
     coarse.stepsPerWindow = 1;
@@ -456,7 +458,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     const Index cells = frames.frequency().count;
     const Index framesWanted = std::max(static_cast<Index>(std::llround(settings.blockWindows)),
                                         (frameCount + largestBlockCount - 1) / largestBlockCount);
-    const Index blockCount = std::max<Index>(1, frameCount / framesWanted);
+    const Index blockCount = isSketch ? 1 : std::max<Index>(1, frameCount / framesWanted);
     const double blockFrames = static_cast<double>(frameCount) / static_cast<double>(blockCount);
 
     auto background = std::make_shared<NoiseBackground>();
@@ -466,10 +468,10 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     background->lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
 
     // Frames looked at lie on one even raster over all blocks, every frame where there are not too many of them.
-    const Index stride = static_cast<Index>(std::ceil(blockFrames / framesPerBlock));
+    const Index stride = static_cast<Index>(std::ceil(blockFrames / (isSketch ? sketchFrames : framesPerBlock)));
     background->levelTime = {"time", "s", frames.time().first, static_cast<double>(stride) * frames.time().step,
                              (frameCount + stride - 1) / stride, false};
-    background->bandCount = settings.followLevel ? subBandCount(static_cast<double>(cells)) : 0;
+    background->bandCount = settings.followLevel && !isSketch ? subBandCount(static_cast<double>(cells)) : 0;
     std::vector<float> levels;
     std::vector<float> rows;
     std::vector<float> block;

@@ -44,10 +44,14 @@ struct NoiseBackground {
     double lnPowerAt(double seconds, double hz) const;
 };
 
+/// How closely to look: a sketch takes no more than 64 frames of all, and one background for all time.
+enum class BackgroundDepth { Whole, Sketch };
+
 /// One pass over the recording at one frame per window and one bin per cell: a fraction 1/(k_t·k_f) of the detector's own
 /// transforms. Memory: at most 1024 blocks.
 std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram, const NormaliserSettings &settings,
-                                                          const RunContext &context = {});
+                                                          const RunContext &context = {},
+                                                          BackgroundDepth depth = BackgroundDepth::Whole);
 
 /// A spectrogram over its noise background: y(t, f) = |S(t, f)|² / B(t, f), mean 1 on noise; 0 in digital silence.
 class NormalisedSpectrogram final : public NormalisedFrames

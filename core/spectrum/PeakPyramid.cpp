@@ -12,6 +12,7 @@ namespace faintline {
 namespace {
 
     constexpr Index branching = 4;
+    constexpr Index chunkBytes = Index(1) << 18;
 
     FAINTLINE_MULTIVERSION
     void raise(std::uint8_t *to, const std::uint8_t *from, Index n)
@@ -89,9 +90,9 @@ void ByteScale::encode(std::span<const float> values, std::span<std::uint8_t> by
 }
 
 PeakPyramid::PeakPyramid(Axis time, Index cells, ByteScale scale, std::size_t byteBudget)
-    : m_time(std::move(time)), m_cells(cells), m_scale(std::move(scale)), m_byteBudget(byteBudget), m_levels(1), m_pending(1)
+    : m_time(std::move(time)), m_cells(cells), m_scale(std::move(scale)), m_byteBudget(static_cast<Index>(byteBudget)),
+      m_chunkRows(std::max<Index>(1, chunkBytes / std::max<Index>(1, cells))), m_levels(1), m_pending(1)
 {
-    reserve();
 }
 
 void PeakPyramid::append(std::span<const float> frames)
@@ -124,7 +125,7 @@ void PeakPyramid::push(int level, std::span<const std::uint8_t> row)
     if (++pending.count < (level == 0 ? m_baseFrames : branching))
         return;
     pending.count = 0;
-    m_levels[l].insert(m_levels[l].end(), pending.row.begin(), pending.row.end());
+    add(m_levels[l], pending.row);
     const std::vector<std::uint8_t> whole = pending.row; // the vectors may move
     push(level + 1, whole);
     if (level == 0 && bytes() > m_byteBudget)
@@ -134,7 +135,7 @@ void PeakPyramid::push(int level, std::span<const std::uint8_t> row)
 void PeakPyramid::coarsen()
 {
     // Level 1 becomes level 0; the rows of level 0 not yet in it are what its pending row holds.
-    if (m_levels.size() < 2 || m_levels[1].empty())
+    if (m_levels.size() < 2 || m_levels[1].rows == 0)
         return;
     m_baseFrames *= branching;
     m_levels.erase(m_levels.begin());
@@ -142,23 +143,37 @@ void PeakPyramid::coarsen()
     first.count = first.count * (m_baseFrames / branching);
     m_pending.erase(m_pending.begin());
     m_pending[0] = std::move(first);
-    reserve();
 }
 
-/// A vector that grows by moving holds its rows twice while it does; memory that is only set aside costs nothing.
-void PeakPyramid::reserve()
+void PeakPyramid::add(Level &level, std::span<const std::uint8_t> row) const
 {
-    const auto rows = static_cast<std::size_t>(std::max<Index>(0, m_time.count) / m_baseFrames + 1);
-    const std::size_t most = m_byteBudget + static_cast<std::size_t>(m_cells);
-    m_levels[0].reserve(std::min(most, rows * static_cast<std::size_t>(m_cells)));
+    const Index place = level.rows++ % m_chunkRows;
+    if (place == 0)
+        level.chunks.push_back(std::make_shared_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(m_chunkRows * m_cells)));
+    std::copy(row.begin(), row.end(), level.chunks.back().get() + place * m_cells);
 }
 
-std::size_t PeakPyramid::bytes() const
+Index PeakPyramid::bytes() const
 {
-    std::size_t sum = 0;
-    for (const auto &level : m_levels)
-        sum += level.size();
-    return sum;
+    Index rows = 0;
+    for (const Level &level : m_levels)
+        rows += level.rows;
+    return rows * m_cells;
+}
+
+PeakPyramid PeakPyramid::soFar() const
+{
+    PeakPyramid copy = *this;
+    for (Level &level : copy.m_levels) {
+        const Index shared = level.rows % m_chunkRows;
+        if (shared == 0)
+            continue; // the next row goes to a chunk of its own
+        const auto own = std::make_shared_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(m_chunkRows * m_cells));
+        std::copy_n(level.chunks.back().get(), shared * m_cells, own.get());
+        level.chunks.back() = own;
+    }
+    copy.finish();
+    return copy;
 }
 
 void PeakPyramid::finish()
@@ -168,7 +183,7 @@ void PeakPyramid::finish()
             continue;
         const std::vector<std::uint8_t> row = m_pending[level].row;
         m_pending[level].count = 0;
-        m_levels[level].insert(m_levels[level].end(), row.begin(), row.end());
+        add(m_levels[level], row);
         if (level + 1 < m_levels.size()) {
             Pending &above = m_pending[level + 1];
             if (above.count++ == 0)
@@ -177,7 +192,7 @@ void PeakPyramid::finish()
                 raise(above.row.data(), row.data(), m_cells);
         }
     }
-    while (m_levels.size() > 1 && m_levels.back().empty())
+    while (m_levels.size() > 1 && m_levels.back().rows == 0)
         m_levels.pop_back();
 }
 
@@ -191,8 +206,8 @@ Index PeakPyramid::framesPerRow(int level) const
 
 std::span<const std::uint8_t> PeakPyramid::row(int level, Index row) const
 {
-    const auto &values = m_levels[static_cast<std::size_t>(level)];
-    return std::span(values).subspan(static_cast<std::size_t>(row * m_cells), static_cast<std::size_t>(m_cells));
+    const auto &chunks = m_levels[static_cast<std::size_t>(level)].chunks;
+    return {chunks[static_cast<std::size_t>(row / m_chunkRows)].get() + row % m_chunkRows * m_cells, static_cast<std::size_t>(m_cells)};
 }
 
 int PeakPyramid::levelFor(double frames) const

@@ -3,6 +3,7 @@
 #include "base/Axis.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,10 @@ public:
     /// Closes the last, incomplete rows. Nothing may be appended afterwards.
     void finish();
 
+    /// What there is so far, finished, while this one goes on: shares all but the newest rows with it, so it costs little. What is
+    /// still to come are rows that it does not have.
+    PeakPyramid soFar() const;
+
     const Axis &time() const { return m_time; } ///< of frames
     Index cells() const { return m_cells; }
     const ByteScale &scale() const { return m_scale; }
@@ -56,7 +61,7 @@ public:
 
     int levelCount() const { return static_cast<int>(m_levels.size()); }
     Index framesPerRow(int level) const;
-    Index rowCount(int level) const { return std::ssize(m_levels[static_cast<std::size_t>(level)]) / m_cells; }
+    Index rowCount(int level) const { return m_levels[static_cast<std::size_t>(level)].rows; }
     std::span<const std::uint8_t> row(int level, Index row) const;
 
     /// Coarsest level whose rows hold no more than `frames` frames each.
@@ -65,16 +70,23 @@ public:
 private:
     void push(int level, std::span<const std::uint8_t> row);
     void coarsen();
-    void reserve();
-    std::size_t bytes() const;
+    Index bytes() const;
+
+    /// Rows in chunks that never move: what is there already may be shared, and read, while more are added.
+    struct Level {
+        std::vector<std::shared_ptr<std::uint8_t[]>> chunks;
+        Index rows = 0;
+    };
+    void add(Level &level, std::span<const std::uint8_t> row) const;
 
     Axis m_time;
     Index m_cells;
     ByteScale m_scale;
-    std::size_t m_byteBudget;
+    Index m_byteBudget;
+    Index m_chunkRows;
     Index m_baseFrames = 1; ///< frames per row of level 0
     Index m_frameCount = 0;
-    std::vector<std::vector<std::uint8_t>> m_levels;
+    std::vector<Level> m_levels;
     struct Pending {
         std::vector<std::uint8_t> row;
         Index count = 0;

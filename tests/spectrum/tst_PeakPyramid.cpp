@@ -26,6 +26,7 @@ private slots:
     void piecesMakeTheSamePyramid();
     void budgetKeepsMaximaAndGeometry_data();
     void budgetKeepsMaximaAndGeometry();
+    void soFarIsAPictureOfItsOwn();
     void levelForAZoom();
     void oneFrameAndNone();
 };
@@ -237,6 +238,31 @@ void tst_PeakPyramid::budgetKeepsMaximaAndGeometry()
     QVERIFY(bytes <= budget + 3 * (pyramid.levelCount() + 1)); // the last rows close after the budget was kept
     if (frames * 3 * 5 / 4 < budget)
         QCOMPARE(pyramid.framesPerRow(0), Index(1)); // nothing is merged without need
+}
+
+void tst_PeakPyramid::soFarIsAPictureOfItsOwn()
+{
+    // What was taken on the way has the maxima of its frames, and keeps them while the picture goes on and is coarsened.
+    const Index cells = 300;
+    const Index frames = 5000;
+    const std::vector<float> values = someScores(frames, cells, 9);
+    PeakPyramid pyramid(timeOf(frames), cells, ByteScale(ByteScale::Kind::ScoreNats), 400'000);
+    std::vector<PeakPyramid> taken;
+    const std::vector<Index> ends = {0, 1, 7, 873, 874, 1333, 3001, 4999, 5000};
+    Index done = 0;
+    for (Index end : ends) {
+        pyramid.append(std::span(values).subspan(static_cast<std::size_t>(done * cells), static_cast<std::size_t>((end - done) * cells)));
+        done = end;
+        taken.push_back(pyramid.soFar());
+    }
+    pyramid.finish();
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        QCOMPARE(taken[i].frameCount(), ends[i]);
+        const std::vector<float> seen(values.begin(), values.begin() + ends[i] * cells);
+        QVERIFY(hasTheMaxima(taken[i], seen, ends[i], cells));
+    }
+    QVERIFY(hasTheMaxima(pyramid, values, frames, cells));
+    QVERIFY(pyramid.framesPerRow(0) > taken[2].framesPerRow(0));
 }
 
 void tst_PeakPyramid::levelForAZoom()

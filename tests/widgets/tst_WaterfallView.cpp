@@ -50,7 +50,7 @@ void tst_WaterfallView::init()
 {
     const auto picture = test::picture(100, 200, [](Index f, Index c) { return f == 40 && c == 50 ? 30.0f : 1.0f; });
     const Axis hz = test::hzAxis(200);
-    const Viewport::Box box = WaterfallView::extents(*picture, hz);
+    const Viewport::Box box = WaterfallView::extents(picture->time(), hz);
     m_viewport.setExtents(box.time, box.frequency, 2.0, 4.0);
     m_view = std::make_unique<WaterfallView>("Statistic");
     m_view->setViewport(&m_viewport);
