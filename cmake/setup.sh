@@ -1,6 +1,7 @@
 #!/bin/sh
 # Makes a Debian machine ready to build Faintline: installs the packages that are missing, and where no Qwt for Qt 6 is
 # installed, lays the source of Qwt into build/qwt/source. Where all is there, needs neither the network nor root.
+# setup.sh [PACKAGE …]: packages that would be good to have besides; that they cannot be had is no failure.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -52,6 +53,21 @@ installPackages() {
         whatAptSaid
         fail "packages could not be installed:$missing (the whole story: $log)"
     }
+}
+
+# What cannot be had is asked for once.
+wishFor() {
+    missing=
+    for package in "$@"; do
+        isInstalled "$package" || [ -e "build/setup.$package.missed" ] || missing="$missing $package"
+    done
+    [ -n "$missing" ] && [ "$(id -u)" -eq 0 ] || return 0
+    echo "Installing$missing, if it can be had"
+    export DEBIAN_FRONTEND=noninteractive
+    quietly apt-get update || true
+    for package in $missing; do
+        quietly apt-get install --yes --no-install-recommends -o DPkg::Lock::Timeout=300 "$package" || touch "build/setup.$package.missed"
+    done
 }
 
 # The machine's "deb" lines, one stanza each.
@@ -156,3 +172,4 @@ if ! command -v dpkg-query >/dev/null; then
 fi
 installPackages
 provideQwt
+wishFor "$@"
