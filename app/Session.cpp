@@ -148,7 +148,7 @@ namespace {
 
     Session sessionFromJson(const Json &json, const QString &path)
     {
-        checkKeys(json, "", {"faintline", "recording", "settings", "view"});
+        checkKeys(json, "", {"faintline", "recording", "settings", "view", "annotations"});
         if (json.value("faintline", 0) != formatVersion)
             throw Error("faintline",
                         "must be " + std::to_string(formatVersion) + ", the version of the format this program reads");
@@ -161,6 +161,8 @@ namespace {
             session.settings = settingsFromJson(json["settings"].dump(), "settings");
         if (json.contains("view"))
             session.view = viewFromJson(json["view"]);
+        if (json.contains("annotations"))
+            session.annotations = annotationsFromJson(json["annotations"], "annotations");
         return session;
     }
 
@@ -188,10 +190,12 @@ void writeSession(const QString &path, Session session)
 {
     if (!session.source.isSimulated() && session.recordingHash.empty())
         session.recordingHash = recordingHash(session.source.path.toStdString());
-    const Json json = {{"faintline", formatVersion},
-                       {"recording", toJson(session.source, session.recordingHash, folderOf(path))},
-                       {"settings", Json::parse(settingsToJson(session.settings))},
-                       {"view", toJson(session.view)}};
+    Json json = {{"faintline", formatVersion},
+                 {"recording", toJson(session.source, session.recordingHash, folderOf(path))},
+                 {"settings", Json::parse(settingsToJson(session.settings))},
+                 {"view", toJson(session.view)}};
+    if (!session.annotations.isEmpty())
+        json["annotations"] = toJson(session.annotations);
     writeTextFile(path.toStdString(), json.dump(2) + "\n");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
+#include "analysis/Review.h"
 #include "app/Source.h"
 #include "widgets/Viewport.h"
 
@@ -30,6 +31,7 @@ struct Session {
     std::string recordingHash; ///< empty for a scenario
     AnalysisSettings settings;
     ViewState view;
+    Annotations annotations{};
 };
 
 /// Whether a path names a session (".faintline").
