@@ -19,7 +19,7 @@
 namespace faintline {
 
 EventReviews::EventReviews(Document &document, EventTable &table, std::vector<WaterfallView *> views, QWidget *window)
-    : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window)
+    : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window), m_provenance(document)
 {
     m_eventActions << add(tr("&Accept"), Qt::Key_Y, tr("This is a signal"), &EventReviews::accept)
                    << add(tr("Re&ject"), Qt::Key_X, tr("This is none: it is drawn faint from now on"), &EventReviews::reject)
@@ -35,7 +35,7 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
 
     for (QAction *action : m_eventActions)
         m_table.table()->addAction(action);
-    connect(&m_table, &EventTable::noteRequested, this, &EventReviews::setNote);
+    connect(&m_table, &EventTable::noteRequested, this, &EventReviews::editNote);
     connect(m_table.table()->selectionModel(), &QItemSelectionModel::selectionChanged, this, &EventReviews::enable);
     connect(&m_document.viewport(), &Viewport::selectionChanged, this, &EventReviews::enable);
     connect(&m_document, &Document::opened, this, &EventReviews::show);
@@ -44,6 +44,7 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
     for (WaterfallView *view : m_views)
         connect(view, &WaterfallView::contextMenuRequested, this,
                 [this](QMenu *menu, double seconds, double hz) { fillContextMenu(*menu, seconds, hz); });
+    connect(&m_provenance, &Provenance::failed, this, &EventReviews::failed);
     enable();
 }
 
@@ -100,16 +101,25 @@ void EventReviews::separate()
 
 void EventReviews::setNote(int id, const QString &note)
 {
-    if (m_document.analysis())
+    const std::vector<Event> events = m_document.shownEvents();
+    if (std::any_of(events.begin(), events.end(), [id](const Event &event) { return event.id == id; }))
         setReviews(withNote(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), id, oneLine(note.toStdString())),
                    tr("Note on event %1").arg(id));
 }
 
 void EventReviews::editNote()
 {
-    for (QWidget *parent = m_table.parentWidget(); parent && !m_table.isVisible(); parent = parent->parentWidget())
-        parent->show();
-    m_table.editNote();
+    const int id = m_table.selectedEvent();
+    if (id == 0 || !m_document.analysis())
+        return;
+    QString before;
+    for (const EventReview &one : eventReviews(*m_document.analysis(), m_document.shownEvents(), m_document.annotations().reviews))
+        if (one.event == id)
+            before = QString::fromStdString(one.note);
+    bool isGiven = false;
+    const QString note = QInputDialog::getText(m_window, tr("Note on event %1").arg(id), tr("What there is to say about it:"), QLineEdit::Normal, before, &isGiven);
+    if (isGiven && m_document.analysis())
+        setNote(id, note);
 }
 
 void EventReviews::annotateSelection(const QString &label)
@@ -162,10 +172,18 @@ void EventReviews::importFrom(const QString &path)
     emit told(QFileInfo(path).fileName(), tr("%1 annotation(s) imported; Ctrl+Z takes them back.").arg(boxes.size()));
 }
 
-void EventReviews::exportTo(const QString &path) const
+void EventReviews::exportTo(const QString &path)
 {
-    if (m_document.analysis())
-        writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), path.toStdString());
+    if (!m_document.analysis())
+        return;
+    writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), path.toStdString());
+    m_provenance.with([this, path](const std::string &json) {
+        try {
+            writeProvenanceBeside(path, json);
+        } catch (const Error &error) {
+            emit failed(error);
+        }
+    });
 }
 
 void EventReviews::askForImport()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/Document.h"
+#include "app/Provenance.h"
 
 #include <QObject>
 
@@ -39,7 +40,9 @@ public:
 
     /// Throws Error.
     void importFrom(const QString &path);
-    void exportTo(const QString &path) const;
+    void exportTo(const QString &path);
+
+    Provenance &provenance() { return m_provenance; }
 
 signals:
     void failed(const faintline::Error &error);
@@ -67,6 +70,7 @@ private:
     QList<QAction *> m_actions;      ///< null: a separator
     QList<QAction *> m_eventActions; ///< need a selected event
     QAction *m_addBox = nullptr;
+    Provenance m_provenance;
 };
 
 } // namespace faintline

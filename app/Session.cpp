@@ -186,17 +186,22 @@ Session readSession(const QString &path)
     }
 }
 
-void writeSession(const QString &path, Session session)
+std::string sessionText(const Session &session, const QString &folder)
 {
-    if (!session.source.isSimulated() && session.recordingHash.empty())
-        session.recordingHash = recordingHash(session.source.path.toStdString());
     Json json = {{"faintline", formatVersion},
-                 {"recording", toJson(session.source, session.recordingHash, folderOf(path))},
+                 {"recording", toJson(session.source, session.recordingHash, QDir(folder))},
                  {"settings", Json::parse(settingsToJson(session.settings))},
                  {"view", toJson(session.view)}};
     if (!session.annotations.isEmpty())
         json["annotations"] = toJson(session.annotations);
-    writeTextFile(path.toStdString(), json.dump(2) + "\n");
+    return json.dump(2) + "\n";
+}
+
+void writeSession(const QString &path, Session session)
+{
+    if (!session.source.isSimulated() && session.recordingHash.empty())
+        session.recordingHash = recordingHash(session.source.path.toStdString());
+    writeTextFile(path.toStdString(), sessionText(session, folderOf(path).path()));
 }
 
 QString recordingMismatch(const Session &session)

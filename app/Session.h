@@ -40,6 +40,9 @@ bool isSessionPath(const QString &path);
 /// Throws Error naming the file and the key.
 Session readSession(const QString &path);
 
+/// The session as the file holds it, with the recording's path relative to that folder.
+std::string sessionText(const Session &session, const QString &folder);
+
 /// Takes the recording's hash where none is given, and writes, completely or not at all. Throws Error.
 void writeSession(const QString &path, Session session);
 

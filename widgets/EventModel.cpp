@@ -78,22 +78,6 @@ QString EventModel::reviewText(const EventReview &review)
     return words.join(QStringLiteral(", "));
 }
 
-bool EventModel::setData(const QModelIndex &index, const QVariant &value, int role)
-{
-    if (role != Qt::EditRole || index.column() != Note || index.row() >= rowCount())
-        return false;
-    const Event &event = m_events[static_cast<std::size_t>(index.row())];
-    if (value.toString() != QString::fromStdString(review(event).note))
-        emit noteRequested(event.id, value.toString());
-    return true;
-}
-
-Qt::ItemFlags EventModel::flags(const QModelIndex &index) const
-{
-    const Qt::ItemFlags flags = QAbstractTableModel::flags(index);
-    return index.column() == Note ? flags | Qt::ItemIsEditable : flags;
-}
-
 int EventModel::rowOf(int id) const
 {
     for (std::size_t row = 0; row < m_events.size(); ++row)
@@ -155,8 +139,6 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
     const Event &event = m_events[static_cast<std::size_t>(index.row())];
     switch (role) {
     case Qt::DisplayRole:
-        return text(event, index.column());
-    case Qt::EditRole:
         return text(event, index.column());
     case Qt::ForegroundRole:
         return review(event).verdict == Verdict::Rejected ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText)) : QVariant();

@@ -80,9 +80,8 @@ void EventTable::setUpTable()
     });
     connect(m_table, &QTableView::doubleClicked, this, [this](const QModelIndex &index) {
         if (index.column() == EventModel::Note)
-            m_table->edit(index);
+            emit noteRequested();
     });
-    connect(m_model, &EventModel::noteRequested, this, &EventTable::noteRequested);
     m_table->setContextMenuPolicy(Qt::ActionsContextMenu);
 }
 
@@ -114,16 +113,6 @@ std::vector<int> EventTable::selectedEvents() const
         ids.push_back(m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(index).row())].id);
     std::sort(ids.begin(), ids.end());
     return ids;
-}
-
-void EventTable::editNote()
-{
-    if (selectedEvent() == 0)
-        return;
-    const QModelIndex note = m_table->currentIndex().siblingAtColumn(EventModel::Note);
-    m_table->setCurrentIndex(note);
-    m_table->scrollTo(note);
-    m_table->edit(note);
 }
 
 void EventTable::setStatisticUnit(const QString &unit)

@@ -37,7 +37,6 @@ public:
     int selectedEvent() const;         ///< 0: none
     std::vector<int> selectedEvents() const; ///< several, chosen with Shift or Ctrl
     std::vector<int> shownIds() const; ///< in the order shown
-    void editNote();                   ///< of the selected event, in place
     QTableView *table() const { return m_table; }
     QLineEdit *filter() const { return m_filter; }
 
@@ -52,7 +51,7 @@ public slots:
 signals:
     /// Chosen by click, Enter, N or Shift+N: views should go there.
     void eventActivated(int id);
-    void noteRequested(int id, const QString &note);
+    void noteRequested(); ///< by a double click where notes stand: on the selected event
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;

@@ -9,12 +9,15 @@
 #include "widgets/EventModel.h"
 #include "widgets/EventTable.h"
 
+#include <QApplication>
 #include <QFile>
+#include <QInputDialog>
 #include <QLineEdit>
 #include <QSignalSpy>
 #include <QTableView>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
 
 using namespace faintline;
 
@@ -117,15 +120,19 @@ private slots:
         QCOMPARE(m_window->eventTable().shownIds().size(), std::size_t(0));
     }
 
-    void aNoteIsWrittenInTheTable()
+    void aNoteIsWritten()
     {
         choose({2});
-        m_window->eventTable().editNote();
-        auto *editor = m_window->eventTable().table()->findChild<QLineEdit *>();
-        QVERIFY(editor);
-        QTest::keyClicks(editor, "yes");
-        QTest::keyClick(editor, Qt::Key_Return);
+        QTimer::singleShot(0, this, [] {
+            auto *dialog = qobject_cast<QInputDialog *>(QApplication::activeModalWidget());
+            QVERIFY(dialog);
+            dialog->setTextValue("yes");
+            dialog->accept();
+        });
+        emit m_window->eventTable().noteRequested();
         QCOMPARE(document().annotations().reviews.front().note, std::string("yes"));
+        m_window->reviews().setNote(77, "of an event that is gone");
+        QCOMPARE(document().undoStack().count(), 1);
     }
 
     void severalAreMerged()
@@ -162,6 +169,10 @@ private slots:
         m_window->reviews().judge(Verdict::Rejected);
         const QString file = m_folder.filePath("out.selections.txt");
         m_window->reviews().exportTo(file);
+        const Json provenance = readJsonFile(file.toStdString() + ".provenance.json");
+        QVERIFY(provenance["recording"].contains("scenario"));
+        QCOMPARE(provenance["annotations"]["reviews"].size(), std::size_t(1));
+        QVERIFY(!provenance["version"].get<std::string>().empty());
         const auto events = document().shownEvents().size();
         const auto boxes = readAnnotations(file.toStdString(), document().recording()->info());
         QCOMPARE(boxes.size(), events);
