@@ -53,12 +53,20 @@ AnalysisController::AnalysisController(Document &document, QObject *parent) : QO
 
 void AnalysisController::open(const QString &path, const OpenOptions &options, const Adjust &adjust)
 {
+    open(path, options, adjust, {});
+}
+
+/// With what is already annotated, where a recording is read anew.
+void AnalysisController::open(const QString &path, const OpenOptions &options, const Adjust &adjust, const Annotations &annotations)
+{
     m_isOpening = true;
-    m_runner.start([this, path, options, adjust](const RunContext &context) -> JobRunner::Delivery {
+    m_runner.start([this, path, options, adjust, annotations](const RunContext &context) -> JobRunner::Delivery {
         context.checkpoint(0.0, "opening");
         Opening opening = openNow(path, options);
         if (adjust)
             adjust(opening.settings);
+        if (opening.annotations.isEmpty())
+            opening.annotations = annotations;
         return [this, opening = std::move(opening)] { deliver(opening); };
     });
 }
@@ -66,7 +74,7 @@ void AnalysisController::open(const QString &path, const OpenOptions &options, c
 void AnalysisController::reopen(const OpenOptions &options)
 {
     open(m_document.source().path, options,
-         [now = m_document.settings()](AnalysisSettings &settings) { settings = now; });
+         [now = m_document.settings()](AnalysisSettings &settings) { settings = now; }, m_document.annotations());
 }
 
 void AnalysisController::adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
@@ -185,14 +193,14 @@ AnalysisController::Opening AnalysisController::openNow(const QString &path, con
         return {std::move(opened), settings, {}, {}, {}};
     }
     const Session session = readSession(path);
-    return {openSource(session.source), session.settings, session.view, path, recordingMismatch(session)};
+    return {openSource(session.source), session.settings, session.view, path, recordingMismatch(session), session.annotations};
 }
 
 void AnalysisController::deliver(const Opening &opening)
 {
     m_isOpening = false;
     m_pendingView = opening.view;
-    m_document.setOpened(opening.opened, opening.settings, opening.sessionPath);
+    m_document.setOpened(opening.opened, opening.settings, opening.sessionPath, opening.annotations);
     if (!opening.warning.isEmpty())
         emit warned(m_document.source().name(), opening.warning);
     startAnalysis();

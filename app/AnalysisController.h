@@ -67,8 +67,10 @@ private:
         std::optional<ViewState> view;
         QString sessionPath;
         QString warning;
+        Annotations annotations{};
     };
     static Opening openNow(const QString &path, const OpenOptions &options);
+    void open(const QString &path, const OpenOptions &options, const Adjust &adjust, const Annotations &annotations);
     void deliver(const Opening &opening);
     void startAnalysis();
     void end();

@@ -39,7 +39,7 @@ public:
             return false;
         m_after = next.m_after;
         m_age.restart();
-        setObsolete(m_after.settings == m_before.settings);
+        setObsolete(m_after.settings == m_before.settings && m_after.annotations == m_before.annotations);
         return true;
     }
 
@@ -56,10 +56,11 @@ Document::Document(QObject *parent) : QObject(parent)
     connect(&m_undoStack, &QUndoStack::cleanChanged, this, &Document::sessionChanged);
 }
 
-void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath)
+void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath, Annotations annotations)
 {
     m_opened = std::move(opened);
     m_settings = settings;
+    m_annotations = std::move(annotations);
     m_sessionPath = sessionPath;
     m_analysis.reset();
     m_events.clear();
@@ -72,12 +73,18 @@ void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, 
 void Document::edit(const AnalysisSettings &after, const QString &text, const QString &field)
 {
     if (after != m_settings)
-        m_undoStack.push(new Edit(*this, {m_opened, after}, text, field));
+        m_undoStack.push(new Edit(*this, {m_opened, after, m_annotations}, text, field));
 }
 
 void Document::replaceOpened(OpenedSource opened, const QString &text)
 {
-    m_undoStack.push(new Edit(*this, {std::move(opened), m_settings}, text, {}));
+    m_undoStack.push(new Edit(*this, {std::move(opened), m_settings, m_annotations}, text, {}));
+}
+
+void Document::annotate(Annotations after, const QString &text)
+{
+    if (after != m_annotations)
+        m_undoStack.push(new Edit(*this, {m_opened, m_settings, std::move(after)}, text, {}));
 }
 
 void Document::setSaved(const QString &sessionPath)
@@ -147,9 +154,16 @@ const Track *Document::track(int id) const
 
 void Document::apply(const State &state)
 {
+    const bool isReread = state.opened.recording != m_opened.recording || state.opened.frames != m_opened.frames;
+    const bool isRerun = isReread || state.settings != m_settings;
+    const bool isAnnotated = state.annotations != m_annotations;
     m_opened = state.opened;
     m_settings = state.settings;
-    emit settingsChanged();
+    m_annotations = state.annotations;
+    if (isRerun || !isAnnotated)
+        emit settingsChanged();
+    if (isAnnotated)
+        emit annotationsChanged();
 }
 
 } // namespace faintline

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/Review.h"
 #include "analysis/analyse.h"
 #include "app/Source.h"
 #include "widgets/Viewport.h"
@@ -25,7 +26,8 @@ public:
     explicit Document(QObject *parent = nullptr);
 
     /// Something else is open from now on; forgets undo history, session and analysis.
-    void setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath = {});
+    void setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath = {},
+                   Annotations annotations = {});
 
     bool isEmpty() const { return !m_opened.recording && !m_opened.frames; }
     const Source &source() const { return m_opened.source; }
@@ -48,6 +50,12 @@ public:
     /// One undoable step. Steps that name the same field and follow each other at once, as those of a held key or a
     /// dragged value, become one.
     void edit(const AnalysisSettings &after, const QString &text, const QString &field = {});
+
+    // ---- annotations ---------------------------------------------------------------------------------------------
+
+    const Annotations &annotations() const { return m_annotations; }
+    /// One undoable step; detection has nothing to do with it.
+    void annotate(Annotations after, const QString &text);
 
     // ---- session -------------------------------------------------------------------------------------------------
 
@@ -76,6 +84,7 @@ signals:
     void opened();
     void settingsChanged();
     void picturesGrew(const faintline::PicturesSoFar &pictures); ///< of a long recording, while its first analysis is still under way
+    void annotationsChanged();
     void analysisChanged();
     void shownThresholdChanged();
     void shownEventsChanged(); ///< the threshold passed one, or they are new
@@ -86,16 +95,18 @@ private:
     struct State {
         OpenedSource opened;
         AnalysisSettings settings;
+        Annotations annotations;
     };
     class Edit;
 
-    State state() const { return {m_opened, m_settings}; }
+    State state() const { return {m_opened, m_settings, m_annotations}; }
     void apply(const State &state);
     bool isShown(const Event &event) const { return event.statistic >= m_shownThreshold; }
     std::ptrdiff_t shownCount() const;
 
     OpenedSource m_opened;
     AnalysisSettings m_settings;
+    Annotations m_annotations;
     QString m_sessionPath;
     Viewport m_viewport;
     std::shared_ptr<const Analysis> m_analysis;

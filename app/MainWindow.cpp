@@ -3,6 +3,7 @@
 #include "app/ActivityBar.h"
 #include "app/CommandPalette.h"
 #include "app/EvaluatePanel.h"
+#include "app/EventReviews.h"
 #include "app/ExperimentForm.h"
 #include "app/ExperimentsPanel.h"
 #include "app/FileDrop.h"
@@ -154,6 +155,7 @@ void MainWindow::buildDocks()
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     m_events = new EventTable;
     m_events->setEmptySentence(tr("No event at this threshold."));
+    m_reviews = new EventReviews(m_document, *m_events, {m_workbench->input(), m_workbench->output()}, this);
     m_why = new WhyPanel(m_document);
     m_info = new InfoPanel(m_document);
     m_noiseFit = new NoiseFitPanel(m_document);
@@ -282,6 +284,10 @@ void MainWindow::connectViews()
         connect(one, &Bench::thresholdStepRequested, &m_controller, &AnalysisController::stepThreshold);
     }
     connect(m_events, &EventTable::eventActivated, this, goTo);
+    connect(m_reviews, &EventReviews::failed, this, &MainWindow::showError);
+    connect(m_reviews, &EventReviews::told, this, [this](const QString &where, const QString &what) {
+        m_messages->showMessage(MessageBar::Kind::Notice, where, what);
+    });
     connect(m_workbench, &Workbench::readingChanged, m_readOut, &ReadOut::setReading);
     connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
             [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });

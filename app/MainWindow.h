@@ -22,6 +22,7 @@ class ActivityBar;
 class Bench;
 class CommandPalette;
 class EvaluatePanel;
+class EventReviews;
 class EventTable;
 class ExceedancePlot;
 class ExperimentsPanel;
@@ -70,6 +71,7 @@ public:
     MessageBar &messages() { return *m_messages; }
     ExceedancePlot &thresholdPlot() { return *m_threshold; }
     EventTable &eventTable() { return *m_events; }
+    EventReviews &reviews() { return *m_reviews; }
     Experiments &experiments() { return m_experiments; }
     EvaluatePanel &evaluation() { return *m_evaluate; }
     ExperimentsPanel &experimentList() { return *m_experimentList; }
@@ -116,6 +118,7 @@ private:
     void buildEditMenu();
     void buildViewMenu();
     void buildDetectMenu();
+    void buildReviewMenu();
     void buildEvaluateMenu();
     void buildReproduceMenu();
     void buildHelpMenu();
@@ -168,6 +171,7 @@ private:
     PipelinePanel *m_pipeline = nullptr;
     ExceedancePlot *m_threshold = nullptr;
     EventTable *m_events = nullptr;
+    EventReviews *m_reviews = nullptr;
     WhyPanel *m_why = nullptr;
     InfoPanel *m_info = nullptr;
     EvaluatePanel *m_evaluate = nullptr;

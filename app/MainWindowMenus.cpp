@@ -4,6 +4,7 @@
 
 #include "app/CommandPalette.h"
 #include "app/EvaluatePanel.h"
+#include "app/EventReviews.h"
 #include "app/ExperimentsPanel.h"
 #include "app/KeysOverlay.h"
 #include "app/Panels.h"
@@ -30,6 +31,7 @@ void MainWindow::buildMenus()
     buildEditMenu();
     buildViewMenu();
     buildDetectMenu();
+    buildReviewMenu();
     buildEvaluateMenu();
     buildReproduceMenu();
     buildHelpMenu();
@@ -149,6 +151,13 @@ void MainWindow::buildDetectMenu()
     addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { bench().stepFrames(1); });
     menu->addSeparator();
     addViewAction(*menu, tr("&State space of pings"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] { showStates(); });
+}
+
+void MainWindow::buildReviewMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Annotate"));
+    menu->setToolTipsVisible(true);
+    m_reviews->addActionsTo(*menu);
 }
 
 void MainWindow::buildEvaluateMenu()

@@ -28,6 +28,7 @@ Recovery::Recovery(Document &document, std::function<ViewState()> view, const QS
     m_pause.setInterval(pauseMs);
     connect(&m_pause, &QTimer::timeout, this, &Recovery::keep);
     connect(&document, &Document::settingsChanged, this, &Recovery::follow);
+    connect(&document, &Document::annotationsChanged, this, &Recovery::follow);
     connect(&document, &Document::sessionChanged, this, &Recovery::follow);
 }
 
@@ -80,7 +81,7 @@ void Recovery::keep()
     const QString source = m_document.source().path;
     if (source != m_hashed)
         m_hash.clear();
-    const Session session{m_document.source(), m_hash, m_document.settings(), m_view()};
+    const Session session{m_document.source(), m_hash, m_document.settings(), m_view(), m_document.annotations()};
     m_runner.start([this, source, session](const RunContext &) -> JobRunner::Delivery {
         writeSession(m_path, session);
         std::string hash = session.recordingHash.empty() ? readSession(m_path).recordingHash : session.recordingHash;

@@ -148,7 +148,7 @@ namespace {
 
     Session sessionFromJson(const Json &json, const QString &path)
     {
-        checkKeys(json, "", {"faintline", "recording", "settings", "view"});
+        checkKeys(json, "", {"faintline", "recording", "settings", "view", "annotations"});
         if (json.value("faintline", 0) != formatVersion)
             throw Error("faintline",
                         "must be " + std::to_string(formatVersion) + ", the version of the format this program reads");
@@ -161,6 +161,8 @@ namespace {
             session.settings = settingsFromJson(json["settings"].dump(), "settings");
         if (json.contains("view"))
             session.view = viewFromJson(json["view"]);
+        if (json.contains("annotations"))
+            session.annotations = annotationsFromJson(json["annotations"], "annotations");
         return session;
     }
 
@@ -184,15 +186,22 @@ Session readSession(const QString &path)
     }
 }
 
+std::string sessionText(const Session &session, const QString &folder)
+{
+    Json json = {{"faintline", formatVersion},
+                 {"recording", toJson(session.source, session.recordingHash, QDir(folder))},
+                 {"settings", Json::parse(settingsToJson(session.settings))},
+                 {"view", toJson(session.view)}};
+    if (!session.annotations.isEmpty())
+        json["annotations"] = toJson(session.annotations);
+    return json.dump(2) + "\n";
+}
+
 void writeSession(const QString &path, Session session)
 {
     if (!session.source.isSimulated() && session.recordingHash.empty())
         session.recordingHash = recordingHash(session.source.path.toStdString());
-    const Json json = {{"faintline", formatVersion},
-                       {"recording", toJson(session.source, session.recordingHash, folderOf(path))},
-                       {"settings", Json::parse(settingsToJson(session.settings))},
-                       {"view", toJson(session.view)}};
-    writeTextFile(path.toStdString(), json.dump(2) + "\n");
+    writeTextFile(path.toStdString(), sessionText(session, folderOf(path).path()));
 }
 
 QString recordingMismatch(const Session &session)

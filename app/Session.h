@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
+#include "analysis/Review.h"
 #include "app/Source.h"
 #include "widgets/Viewport.h"
 
@@ -30,6 +31,7 @@ struct Session {
     std::string recordingHash; ///< empty for a scenario
     AnalysisSettings settings;
     ViewState view;
+    Annotations annotations{};
 };
 
 /// Whether a path names a session (".faintline").
@@ -37,6 +39,9 @@ bool isSessionPath(const QString &path);
 
 /// Throws Error naming the file and the key.
 Session readSession(const QString &path);
+
+/// The session as the file holds it, with the recording's path relative to that folder.
+std::string sessionText(const Session &session, const QString &folder);
 
 /// Takes the recording's hash where none is given, and writes, completely or not at all. Throws Error.
 void writeSession(const QString &path, Session session);

@@ -37,11 +37,11 @@ void SessionSaver::saveAs()
 
 void SessionSaver::saveTo(const QString &path)
 {
-    const Session session{m_document.source(), {}, m_document.settings(), m_view()};
+    const Session session{m_document.source(), {}, m_document.settings(), m_view(), m_document.annotations()};
     m_runner.start([this, path, session](const RunContext &) -> JobRunner::Delivery {
         writeSession(path, session);
-        return [this, path, settings = session.settings] {
-            if (settings == m_document.settings())
+        return [this, path, settings = session.settings, annotations = session.annotations] {
+            if (settings == m_document.settings() && annotations == m_document.annotations())
                 m_document.setSaved(path);
             emit saved(path);
             if (std::exchange(m_isClosing, false))

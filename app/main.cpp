@@ -2,6 +2,7 @@
 
 #include "app/MainWindow.h"
 #include "app/Recovery.h"
+#include "app/comparePictures.h"
 #include "app/renderCommand.h"
 
 #include <CLI/CLI.hpp>
@@ -77,6 +78,16 @@ namespace {
         return command;
     }
 
+    CLI::App *addCheckPictures(CLI::App &program, CheckOptions &options)
+    {
+        CLI::App *command = program.add_subcommand("check-pictures", "Compare pictures pixel for pixel; exit code 1 where one differs");
+        command->add_option("EXPECTED", options.expected, "A PNG, or a folder of them")->required();
+        command->add_option("ACTUAL", options.actual, "A PNG, or a folder of them")->required();
+        command->add_option("--out", options.out, "Folder for expected, actual and difference of what differs, and index.html");
+        command->add_flag("--tolerate-rasters", options.toleratesRasters, "Let 1e-5 of the pixels be the next colour of a colour map");
+        return command;
+    }
+
     /// A screen for programs without one; the default of 800 × 800 would cut off windows.
     std::unique_ptr<QTemporaryFile> useScreenOf(QSize size)
     {
@@ -145,12 +156,18 @@ namespace {
         RenderOptions rendering;
         std::string size = "1600x1000";
         const CLI::App *renderCommand = addRender(program, rendering, size);
+        CheckOptions checking;
+        const CLI::App *checkCommand = addCheckPictures(program, checking);
         try {
             program.parse(argc, argv);
         } catch (const CLI::ParseError &error) {
             if (error.get_exit_code() == 0)
                 return program.exit(error);
             return fail("command line", std::string(error.what()) + " (faintline --help tells more)", 2);
+        }
+        if (checkCommand->parsed()) {
+            runCheckPictures(checking);
+            return 0;
         }
         if (!renderCommand->parsed())
             return runWindow(argc, argv, files, opening);

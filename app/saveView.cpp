@@ -1,5 +1,6 @@
 #include "app/saveView.h"
 
+#include "app/Provenance.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 
@@ -16,16 +17,19 @@ namespace faintline {
 
 namespace {
 
-    QByteArray png(QWidget &view)
+    QByteArray png(QWidget &view, const QString &provenance)
     {
         QByteArray bytes;
         QBuffer buffer(&bytes);
         buffer.open(QIODevice::WriteOnly);
-        view.grab().toImage().save(&buffer, "PNG");
+        QImage image = view.grab().toImage();
+        if (!provenance.isEmpty())
+            image.setText(QStringLiteral("provenance"), provenance);
+        image.save(&buffer, "PNG");
         return bytes;
     }
 
-    QByteArray svg(QWidget &view)
+    QByteArray svg(QWidget &view, const QString &provenance)
     {
         QByteArray bytes;
         QBuffer buffer(&bytes);
@@ -34,6 +38,7 @@ namespace {
         generator.setSize(view.size());
         generator.setViewBox(view.rect());
         generator.setTitle(view.accessibleName());
+        generator.setDescription(provenance);
         generator.setResolution(96); // a pixel stays a pixel
         QPainter painter(&generator);
         view.render(&painter);
@@ -41,7 +46,7 @@ namespace {
         return bytes;
     }
 
-    QByteArray pdf(QWidget &view)
+    QByteArray pdf(QWidget &view, const QString &provenance)
     {
         constexpr int dotsPerInch = 96;
         QByteArray bytes;
@@ -52,6 +57,8 @@ namespace {
         writer.setPageSize(QPageSize(QSizeF(view.size()) / dotsPerInch, QPageSize::Inch));
         writer.setPageMargins({});
         writer.setTitle(view.accessibleName());
+        if (!provenance.isEmpty())
+            writer.addFileAttachment(QStringLiteral("provenance.json"), provenance.toUtf8(), QStringLiteral("application/json"));
         QPainter painter(&writer);
         view.render(&painter);
         painter.end();
@@ -60,21 +67,24 @@ namespace {
 
 } // namespace
 
-void saveView(QWidget &view, const std::string &csv, const QString &path)
+void saveView(QWidget &view, const std::string &csv, const QString &path, const std::string &provenance)
 {
+    const QString origin = QString::fromStdString(provenance);
     const QString extension = QFileInfo(path).suffix().toLower();
     QByteArray bytes;
     if (extension == QLatin1String("png"))
-        bytes = png(view);
+        bytes = png(view, origin);
     else if (extension == QLatin1String("svg"))
-        bytes = svg(view);
+        bytes = svg(view, origin);
     else if (extension == QLatin1String("pdf"))
-        bytes = pdf(view);
+        bytes = pdf(view, origin);
     else if (extension == QLatin1String("csv"))
         bytes = QByteArray::fromStdString(csv);
     else
         throw Error(path.toStdString(), "must end in .png, .svg, .pdf or .csv");
     writeTextFile(path.toStdString(), bytes.toStdString());
+    if (extension == QLatin1String("csv") && !provenance.empty())
+        writeProvenanceBeside(path, provenance);
 }
 
 QString saveViewFilter()

@@ -11,7 +11,7 @@ namespace faintline {
 namespace {
 
     using Quantity = std::function<double(const Event &)>;
-    using Condition = std::function<bool(const Event &)>;
+    using Condition = std::function<bool(const Event &, const EventReview &)>;
 
     const QHash<QString, Quantity> &quantities()
     {
@@ -42,26 +42,40 @@ namespace {
             return {};
         const QString sign = match.captured(2);
         if (sign == QLatin1String("<"))
-            return [=](const Event &e) { return of(e) < limit; };
+            return [=](const Event &e, const EventReview &) { return of(e) < limit; };
         if (sign == QLatin1String(">"))
-            return [=](const Event &e) { return of(e) > limit; };
+            return [=](const Event &e, const EventReview &) { return of(e) > limit; };
         if (sign == QLatin1String("="))
-            return [=](const Event &e) { return std::abs(of(e) - limit) < 1e-9; };
+            return [=](const Event &e, const EventReview &) { return std::abs(of(e) - limit) < 1e-9; };
         if (sign == QLatin1String("<=") || sign == QStringLiteral("≤"))
-            return [=](const Event &e) { return of(e) <= limit; };
-        return [=](const Event &e) { return of(e) >= limit; };
+            return [=](const Event &e, const EventReview &) { return of(e) <= limit; };
+        return [=](const Event &e, const EventReview &) { return of(e) >= limit; };
     }
 
     Condition state(const QString &term)
     {
         if (term.isEmpty())
             return {};
-        if (QStringLiteral("open").startsWith(term))
-            return [](const Event &e) { return e.isOpen; };
-        if (QStringLiteral("confirmed").startsWith(term))
-            return [](const Event &e) { return e.isConfirmed; };
-        if (QStringLiteral("tentative").startsWith(term))
-            return [](const Event &e) { return !e.isConfirmed; };
+        if (term.startsWith(QLatin1Char('!'))) {
+            const Condition opposite = state(term.mid(1));
+            if (!opposite)
+                return {};
+            return [opposite](const Event &e, const EventReview &review) { return !opposite(e, review); };
+        }
+        // The first word that begins so.
+        static const std::pair<QString, Condition> words[] = {
+            {QStringLiteral("open"), [](const Event &e, const EventReview &) { return e.isOpen; }},
+            {QStringLiteral("confirmed"), [](const Event &e, const EventReview &) { return e.isConfirmed; }},
+            {QStringLiteral("tentative"), [](const Event &e, const EventReview &) { return !e.isConfirmed; }},
+            {QStringLiteral("accepted"), [](const Event &, const EventReview &r) { return r.verdict == Verdict::Accepted; }},
+            {QStringLiteral("rejected"), [](const Event &, const EventReview &r) { return r.verdict == Verdict::Rejected; }},
+            {QStringLiteral("unreviewed"), [](const Event &, const EventReview &r) { return r.verdict == Verdict::None; }},
+            {QStringLiteral("merged"), [](const Event &, const EventReview &r) { return r.signal != r.event; }},
+            {QStringLiteral("noted"), [](const Event &, const EventReview &r) { return !r.note.empty(); }},
+        };
+        for (const auto &[word, condition] : words)
+            if (word.startsWith(term))
+                return condition;
         return {};
     }
 
@@ -82,9 +96,9 @@ EventFilter::EventFilter(const QString &text)
     }
 }
 
-bool EventFilter::accepts(const Event &event) const
+bool EventFilter::accepts(const Event &event, const EventReview &review) const
 {
-    return std::all_of(m_terms.begin(), m_terms.end(), [&](const Condition &condition) { return condition(event); });
+    return std::all_of(m_terms.begin(), m_terms.end(), [&](const Condition &condition) { return condition(event, review); });
 }
 
 } // namespace faintline

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analysis/Review.h"
 
 #include <QString>
 
@@ -11,7 +11,7 @@ namespace faintline {
 
 /// What a line of text lets through: words of the state and comparisons, all of which must hold.
 ///
-///     f>1000 drift<0 stat>=25 t<60 dur>5 id=3 open confirmed tentative
+///     f>1000 drift<0 stat>=25 t<60 dur>5 id=3 open confirmed tentative accepted rejected unreviewed merged noted !rejected
 ///
 /// A term that is not understood is reported, and lets everything through.
 class EventFilter
@@ -20,11 +20,11 @@ public:
     EventFilter() = default;
     explicit EventFilter(const QString &text);
 
-    bool accepts(const Event &event) const;
+    bool accepts(const Event &event, const EventReview &review = {}) const;
     const QString &misunderstood() const { return m_misunderstood; } ///< the first such term, or empty
 
 private:
-    std::vector<std::function<bool(const Event &)>> m_terms;
+    std::vector<std::function<bool(const Event &, const EventReview &)>> m_terms;
     QString m_misunderstood;
 };
 

@@ -2,7 +2,20 @@
 
 #include "widgets/quantities.h"
 
+#include <QGuiApplication>
+#include <QPalette>
+
 namespace faintline {
+
+namespace {
+
+    Qt::Alignment alignmentOf(int column)
+    {
+        const bool isWord = column == EventModel::State || column == EventModel::Judged;
+        return (isWord ? Qt::AlignHCenter : column == EventModel::Note ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
+    }
+
+} // namespace
 
 double EventModel::sortValue(const Event &event, int column) const
 {
@@ -23,6 +36,12 @@ double EventModel::sortValue(const Event &event, int column) const
         return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
     case Statistic:
         return event.statistic;
+    case Judged: {
+        const EventReview said = review(event);
+        return said.verdict == Verdict::Accepted ? 0.0 : said.verdict == Verdict::None ? 1.0 : 2.0;
+    }
+    case Note:
+        return review(event).note.empty() ? 1.0 : 0.0;
     default:
         return (event.isConfirmed ? 0.0 : 2.0) + (event.isOpen ? 1.0 : 0.0);
     }
@@ -33,6 +52,30 @@ void EventModel::setEvents(std::vector<Event> events)
     beginResetModel();
     m_events = std::move(events);
     endResetModel();
+}
+
+void EventModel::setReviews(const std::vector<EventReview> &reviews)
+{
+    m_reviews.clear();
+    for (const EventReview &one : reviews)
+        m_reviews.insert(one.event, one);
+    if (!m_events.empty())
+        emit dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
+}
+
+EventReview EventModel::review(const Event &event) const
+{
+    return m_reviews.value(event.id, EventReview{event.id, Verdict::None, {}, event.id});
+}
+
+QString EventModel::reviewText(const EventReview &review)
+{
+    QStringList words;
+    if (review.verdict != Verdict::None)
+        words << (review.verdict == Verdict::Accepted ? tr("accepted") : tr("rejected"));
+    if (review.signal != review.event)
+        words << tr("part of %1").arg(review.signal);
+    return words.join(QStringLiteral(", "));
 }
 
 int EventModel::rowOf(int id) const
@@ -80,6 +123,10 @@ QString EventModel::text(const Event &event, int column) const
         return powerText(sortValue(event, Drift), 3);
     case Statistic:
         return numberText(event.statistic, 1);
+    case Judged:
+        return reviewText(review(event));
+    case Note:
+        return QString::fromStdString(review(event).note);
     default:
         return stateText(event);
     }
@@ -93,11 +140,15 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
     switch (role) {
     case Qt::DisplayRole:
         return text(event, index.column());
+    case Qt::ForegroundRole:
+        return review(event).verdict == Verdict::Rejected ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText)) : QVariant();
+    case Qt::ToolTipRole:
+        return index.column() == Note ? text(event, Note) : QVariant();
     case SortRole:
         return sortValue(event, index.column());
     case Qt::TextAlignmentRole:
         return QVariant::fromValue(
-            Qt::Alignment((index.column() == State ? Qt::AlignHCenter : Qt::AlignRight) | Qt::AlignVCenter));
+            alignmentOf(index.column()));
     case Qt::AccessibleTextRole:
         return tr("%1: %2").arg(headerData(index.column(), Qt::Horizontal).toString(), text(event, index.column()));
     default:
@@ -122,8 +173,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
     if (orientation != Qt::Horizontal)
         return {};
     if (role == Qt::TextAlignmentRole)
-        return QVariant::fromValue(
-            Qt::Alignment((section == State ? Qt::AlignHCenter : Qt::AlignRight) | Qt::AlignVCenter));
+        return QVariant::fromValue(alignmentOf(section));
     const auto unit = [this](std::size_t axis) { return QString::fromStdString(m_axes[axis].unit); };
     const QString names[] = {tr("№"),
                              tr("Onset"),
@@ -133,7 +183,9 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                              hasBearing() ? tr("Bearing (%1)").arg(unit(1)) : tr("Bearing"),
                              hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
                              tr("D (%1)").arg(m_statisticUnit),
-                             tr("State")};
+                             tr("State"),
+                             tr("Review"),
+                             tr("Note")};
     const QString tips[] = {tr("Number, in order of detection"),
                             tr("Where the detecting path was last reset, from the first sample"),
                             tr("Where the statistic first exceeded the threshold"),
@@ -142,7 +194,9 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                             tr("Bearing at detection"),
                             tr("Straight-line slope of the track"),
                             tr("Largest statistic"),
-                            tr("Confirmed or tentative; open where the data ended first")};
+                            tr("Confirmed or tentative; open where the data ended first"),
+                            tr("Accepted or rejected: Y, X, and U to take it back; part of another event's signal"),
+                            tr("What you have to say about it: E writes")};
     if (section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::DisplayRole)

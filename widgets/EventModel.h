@@ -1,8 +1,9 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analysis/Review.h"
 
 #include <QAbstractTableModel>
+#include <QHash>
 
 #include <optional>
 #include <vector>
@@ -15,12 +16,15 @@ class EventModel : public QAbstractTableModel
     Q_OBJECT
 
 public:
-    enum Column { Id, Onset, Detection, End, Frequency, Bearing, Drift, Statistic, State, ColumnCount };
+    enum Column { Id, Onset, Detection, End, Frequency, Bearing, Drift, Statistic, State, Judged, Note, ColumnCount };
     static constexpr int SortRole = Qt::UserRole;
 
     using QAbstractTableModel::QAbstractTableModel;
 
     void setEvents(std::vector<Event> events);
+    /// What was said about them, in any order; what is not there has not been reviewed.
+    void setReviews(const std::vector<EventReview> &reviews);
+    EventReview review(const Event &event) const;
     void setStatisticUnit(const QString &unit);
     /// The axes of the events' positions; of two, the first one takes the frequency's place, the second one is the bearing.
     void setAxes(const std::vector<Axis> &axes);
@@ -29,6 +33,9 @@ public:
 
     /// Row of an event, -1 if there is none of that id.
     int rowOf(int id) const;
+
+    /// "accepted", "rejected", with the number of the signal it belongs to where that is another event's.
+    static QString reviewText(const EventReview &review);
 
     /// "confirmed", "tentative", with ", open" where the data ended first.
     static QString stateText(const Event &event);
@@ -43,6 +50,7 @@ private:
     double sortValue(const Event &event, int column) const;
 
     std::vector<Event> m_events;
+    QHash<int, EventReview> m_reviews;
     std::vector<Axis> m_axes;
     QString m_statisticUnit = QStringLiteral("nat");
 };

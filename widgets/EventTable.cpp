@@ -23,9 +23,10 @@ EventTable::EventTable(QWidget *parent)
       m_empty(new QLabel(tr("Events appear here when a recording has been analysed.")))
 {
     m_proxy->setSourceModel(m_model);
-    m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 open"));
+    m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 !rejected"));
     m_filter->setToolTip(
-        tr("Words and comparisons that must all hold: open, confirmed, tentative; id, t, end, dur, f, drift, stat with "
+        tr("Words and comparisons that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, with ! "
+           "their opposites; id, t, end, dur, f, drift, stat with "
            "<, >, =, <=, >="));
     m_filter->setClearButtonEnabled(true);
     m_filter->setAccessibleName(tr("Filter events"));
@@ -56,7 +57,7 @@ void EventTable::setUpTable()
 {
     m_table->setModel(m_proxy);
     m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    m_table->setSelectionMode(QAbstractItemView::SingleSelection);
+    m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
     m_table->setShowGrid(false);
     m_table->setAlternatingRowColors(true);
@@ -73,7 +74,15 @@ void EventTable::setUpTable()
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
     m_table->setColumnHidden(EventModel::Bearing, true);
-    connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) { activate(index.row()); });
+    connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
+        if (selectedEvents().size() == 1) // several are being chosen otherwise
+            activate(index.row());
+    });
+    connect(m_table, &QTableView::doubleClicked, this, [this](const QModelIndex &index) {
+        if (index.column() == EventModel::Note)
+            emit noteRequested();
+    });
+    m_table->setContextMenuPolicy(Qt::ActionsContextMenu);
 }
 
 void EventTable::setEvents(const std::vector<Event> &events)
@@ -85,6 +94,25 @@ void EventTable::setEvents(const std::vector<Event> &events)
         m_table->resizeColumnsToContents();
     setSelectedEvent(selected);
     updateCount();
+}
+
+void EventTable::setReviews(const std::vector<EventReview> &reviews)
+{
+    const int selected = selectedEvent();
+    m_model->setReviews(reviews);
+    m_proxy->setFilter(m_proxy->filter()); // it may ask for what has just been said
+    if (selected != 0 && selectedEvent() != selected)
+        setSelectedEvent(selected);
+    updateCount();
+}
+
+std::vector<int> EventTable::selectedEvents() const
+{
+    std::vector<int> ids;
+    for (const QModelIndex &index : m_table->selectionModel()->selectedRows())
+        ids.push_back(m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(index).row())].id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
 }
 
 void EventTable::setStatisticUnit(const QString &unit)
@@ -129,15 +157,21 @@ void EventTable::setSelectedEvent(int id)
         m_table->setCurrentIndex({});
         return;
     }
-    m_table->selectRow(index.row());
+    choose(index);
     m_table->scrollTo(index);
+}
+
+/// This row and no other, whatever keys are held.
+void EventTable::choose(const QModelIndex &row)
+{
+    m_table->selectionModel()->setCurrentIndex(row, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
 }
 
 void EventTable::activate(int proxyRow)
 {
     if (proxyRow < 0 || proxyRow >= m_proxy->rowCount())
         return;
-    m_table->selectRow(proxyRow);
+    choose(m_proxy->index(proxyRow, 0));
     emit eventActivated(selectedEvent());
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analysis/Review.h"
 
 #include <QString>
 #include <QWidget>
@@ -29,11 +29,13 @@ public:
 
     /// Keeps the selection where the event of that id still exists. Emits nothing.
     void setEvents(const std::vector<Event> &events);
+    void setReviews(const std::vector<EventReview> &reviews); ///< of these events
     void setStatisticUnit(const QString &unit);
     void setAxes(const std::vector<Axis> &axes); ///< of the events' positions
     void setEmptySentence(const QString &sentence);
 
     int selectedEvent() const;         ///< 0: none
+    std::vector<int> selectedEvents() const; ///< several, chosen with Shift or Ctrl
     std::vector<int> shownIds() const; ///< in the order shown
     QTableView *table() const { return m_table; }
     QLineEdit *filter() const { return m_filter; }
@@ -49,6 +51,7 @@ public slots:
 signals:
     /// Chosen by click, Enter, N or Shift+N: views should go there.
     void eventActivated(int id);
+    void noteRequested(); ///< by a double click where notes stand: on the selected event
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;
@@ -57,6 +60,7 @@ protected:
 private:
     void setUpTable();
     void step(int by);
+    void choose(const QModelIndex &row);
     void activate(int proxyRow);
     void applyFilter(const QString &text);
     void updateCount();

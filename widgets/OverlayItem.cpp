@@ -14,6 +14,7 @@ namespace faintline {
 
 namespace {
 
+    constexpr double faintOpacity = 0.3;
     constexpr std::size_t labelLimit = 40;   ///< more numbers than this at once say nothing
     constexpr std::size_t bracketLimit = 80; ///< nor do more brackets
     const QColor seam(0, 0, 0, 150);
@@ -190,6 +191,7 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
         drawLines(canvas, truth, linePen(colours.truth, 1.0, Qt::DashLine));
     if (hasTracks)
         drawLines(canvas, tracks, linePen(colours.track, 1.0));
+    drawBoxes(canvas);
     drawHarmonics(canvas);
     drawSelection(canvas);
     drawCursor(canvas);
@@ -202,6 +204,7 @@ void OverlayItem::drawLines(const Canvas &canvas, const std::vector<Line> &lines
 {
     const Span visible = canvas.visibleTime();
     for (const Line &line : lines) {
+        canvas.painter.setOpacity(isFaint(line.id) ? faintOpacity : 1.0);
         // The visible part with one point more at either end; a point a pixel is enough.
         const auto isBefore = [](const QPointF &point, double seconds) { return point.x() < seconds; };
         auto first = std::lower_bound(line.points.begin(), line.points.end(), visible.low, isBefore);
@@ -223,6 +226,30 @@ void OverlayItem::drawLines(const Canvas &canvas, const std::vector<Line> &lines
         canvas.painter.setPen(pen);
         canvas.painter.drawPolyline(polygon);
     }
+    canvas.painter.setOpacity(1.0);
+}
+
+bool OverlayItem::isFaint(int event) const
+{
+    return event != 0 && event != selectedEvent && std::find(faintEvents.begin(), faintEvents.end(), event) != faintEvents.end();
+}
+
+void OverlayItem::drawBoxes(const Canvas &canvas) const
+{
+    for (const Box &box : boxes) {
+        const QRectF rect = rectOf(box.box, canvas.x, canvas.y, isTimeVertical).intersected(canvas.rect.adjusted(-9, -9, 9, 9));
+        if (!rect.isValid())
+            continue;
+        canvas.painter.setOpacity(box.isFaint ? faintOpacity : 1.0);
+        canvas.stroke({{rect.topLeft(), rect.topRight()},
+                       {rect.topRight(), rect.bottomRight()},
+                       {rect.bottomRight(), rect.bottomLeft()},
+                       {rect.bottomLeft(), rect.topLeft()}},
+                      linePen(colours.cursor, 1.0));
+        if (!box.text.isEmpty())
+            canvas.label(rect.topLeft() + QPointF(2.0, 2.0), box.text, colours.cursor);
+    }
+    canvas.painter.setOpacity(1.0);
 }
 
 void OverlayItem::drawEvents(const Canvas &canvas) const
@@ -242,6 +269,7 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
         QColor colour = isSelected ? colours.selectedEvent : colours.event;
         if (!mark.isConfirmed && !isSelected)
             colour.setAlpha(150);
+        canvas.painter.setOpacity(isFaint(mark.id) ? faintOpacity : 1.0);
         canvas.stroke(corners(rect), linePen(colour, isSelected ? 2.0 : 1.4));
         if (!areLabelled && !isSelected)
             return;
@@ -257,6 +285,7 @@ void OverlayItem::drawEvents(const Canvas &canvas) const
     for (const Mark &mark : marks)
         if (mark.id == selectedEvent)
             drawOne(mark);
+    canvas.painter.setOpacity(1.0);
 }
 
 void OverlayItem::drawHarmonics(const Canvas &canvas) const

@@ -26,6 +26,12 @@ public:
         Viewport::Box box;
         bool isConfirmed = true;
     };
+    /// A box somebody drew.
+    struct Box {
+        Viewport::Box box;
+        QString text;
+        bool isFaint = false;
+    };
     /// A polyline, x in seconds, y in Hz.
     struct Line {
         int id = 0;
@@ -38,6 +44,8 @@ public:
     std::vector<Mark> marks;
     std::vector<Line> tracks;
     std::vector<Line> truth;
+    std::vector<Box> boxes;
+    std::vector<int> faintEvents; ///< rejected ones: there, but not in the way
     bool hasEvents = true, hasTracks = true, hasTruth = true;
     int selectedEvent = 0;
     std::optional<Viewport::Point> cursor;
@@ -67,6 +75,8 @@ private:
 
     void drawLines(const Canvas &canvas, const std::vector<Line> &lines, const QPen &pen) const;
     void drawEvents(const Canvas &canvas) const;
+    void drawBoxes(const Canvas &canvas) const;
+    bool isFaint(int event) const;
     void drawHarmonics(const Canvas &canvas) const;
     void drawCursor(const Canvas &canvas) const;
     void drawSelection(const Canvas &canvas) const;

@@ -411,6 +411,22 @@ void WaterfallView::setSelectedEvent(int id)
     updateContent();
 }
 
+void WaterfallView::setFaintEvents(const std::vector<int> &ids)
+{
+    m_overlay->faintEvents = ids;
+    replot();
+}
+
+void WaterfallView::setAnnotations(const std::vector<Annotation> &boxes)
+{
+    m_overlay->boxes.clear();
+    constexpr double anyHz = 1e12;
+    for (const Annotation &box : boxes)
+        m_overlay->boxes.push_back({{{box.startSeconds, box.endSeconds}, {box.lowHz.value_or(-anyHz), box.highHz.value_or(anyHz)}},
+                                    QString::fromStdString(box.label), box.verdict == Verdict::Rejected});
+    replot();
+}
+
 void WaterfallView::setLayer(Layer layer, bool isOn)
 {
     if (m_layers.testFlag(layer) == isOn)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analysis/Review.h"
 #include "base/Axis.h"
 #include "recording/Truth.h"
 #include "spectrum/PeakPyramid.h"
@@ -126,6 +126,8 @@ public slots:
     void setTracks(const std::vector<faintline::Track> &tracks, const faintline::Axis &time);
     void setTruth(const std::vector<faintline::TruthLine> &lines);
     void setSelectedEvent(int id); ///< 0: none
+    void setFaintEvents(const std::vector<int> &ids); ///< rejected ones
+    void setAnnotations(const std::vector<faintline::Annotation> &boxes);
     void setLayer(faintline::WaterfallView::Layer layer, bool isOn);
     void setMeasuring(bool isOn);
     void setHarmonics(bool isOn); ///< lines at the multiples of the cursor's frequency

@@ -16,10 +16,12 @@
 
 #include <QDropEvent>
 #include <QElapsedTimer>
+#include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QSettings>
 #include <QSignalSpy>
+#include <QStatusBar>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -178,6 +180,21 @@ private slots:
         const std::vector<Event> events = window->document().shownEvents();
         QVERIFY(!events.empty());
         QVERIFY(events.front().position.back() > 190.0 && events.front().position.back() < 270.0);
+        // All of the first five seconds: both pictures with ranges from the data, marks, a cursor, a threshold to drag, a sentence.
+        for (const WaterfallView *view : {window->workbench().input(), window->workbench().output()}) {
+            QVERIFY(view->isVisible());
+            QVERIFY(view->picture());
+            QVERIFY(view->isRangeAutomatic());
+            QCOMPARE(view->range(), view->automaticRange());
+            QVERIFY(view->range().width() > 5.0);
+            QVERIFY(view->layers().testFlag(WaterfallView::EventLayer));
+        }
+        QCOMPARE(window->eventTable().shownIds().size(), events.size());
+        QVERIFY(window->document().viewport().cursor());
+        QVERIFY(window->thresholdPlot().isVisible());
+        const auto labels = window->statusBar()->findChildren<QLabel *>();
+        QVERIFY(std::any_of(labels.begin(), labels.end(), [](const QLabel *label) { return label->text().contains("threshold"); }));
+        QVERIFY(!QApplication::activeModalWidget());
     }
 
     void theThresholdIsDraggedAndUndone()

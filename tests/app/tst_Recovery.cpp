@@ -49,6 +49,9 @@ int beKilled(const QString &scene, const QString &recoveryFolder)
     QSignalSpy kept(&window->recovery(), &Recovery::kept);
     window->controller().edit("decide.falseAlarmsPerHour", 7.0, "false alarms");
     kept.wait(patience);
+    // Unsaved already: what comes on top is kept as well.
+    window->document().annotate({{}, {{1.0, 2.0, 10.0, 20.0, "drawn before the end", "", Verdict::None}}}, "annotate");
+    kept.wait(patience);
     std::puts("kept");
     std::fflush(stdout);
     return QApplication::exec();
@@ -106,6 +109,8 @@ void tst_Recovery::survivesAKill()
             button->click();
     QVERIFY(settled.wait(patience));
     QCOMPARE(window.document().settings().decide.falseAlarmsPerHour, 7.0);
+    QCOMPARE(window.document().annotations().boxes.size(), std::size_t(1));
+    QCOMPARE(window.document().annotations().boxes.front().label, std::string("drawn before the end"));
     QVERIFY2(window.document().isModified(), "it is still unsaved");
     QVERIFY(window.document().sessionPath().isEmpty());
     QVERIFY(!kept.isEmpty() || kept.wait(patience));

@@ -1,0 +1,64 @@
+#include "app/Provenance.h"
+
+#include "app/Session.h"
+#include "base/AtomicFile.h"
+#include "recording/openRecording.h"
+
+#include <QFileInfo>
+
+#include <utility>
+
+namespace faintline {
+
+std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations, std::string hash)
+{
+    if (!source.isSimulated() && hash.empty())
+        hash = recordingHash(source.path.toStdString());
+    Json json = parseJson(sessionText({source, hash, settings, {}, annotations}, QFileInfo(source.path).path()), "session");
+    json.erase("view");
+    json["version"] = FAINTLINE_VERSION;
+    return json.dump(2) + "\n";
+}
+
+Provenance::Provenance(const Document &document, QObject *parent) : QObject(parent), m_document(document)
+{
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        m_requests.clear();
+        emit failed(error);
+    });
+}
+
+void Provenance::with(std::function<void(const std::string &json)> use)
+{
+    m_requests.push_back({m_document.source(), m_document.settings(), m_document.annotations(), std::move(use)});
+    if (!m_runner.isRunning())
+        answer();
+}
+
+void Provenance::answer()
+{
+    while (!m_requests.empty()) {
+        const Source &source = m_requests.front().source;
+        if (!source.isSimulated() && source.path != m_hashed) {
+            m_runner.start([this, path = source.path](const RunContext &) -> JobRunner::Delivery {
+                std::string hash = recordingHash(path.toStdString());
+                return [this, path, hash = std::move(hash)] {
+                    m_hashed = path;
+                    m_hash = hash;
+                    answer();
+                };
+            });
+            return;
+        }
+        const Request request = std::move(m_requests.front());
+        m_requests.erase(m_requests.begin());
+        request.use(provenanceOf(request.source, request.settings, request.annotations, m_hash));
+    }
+}
+
+void writeProvenanceBeside(const QString &path, const std::string &json)
+{
+    writeTextFile(path.toStdString() + ".provenance.json", json);
+}
+
+} // namespace faintline

@@ -1,0 +1,217 @@
+// Events are judged in the window: what changes is seen, can be undone, and comes back with the session.
+
+#include "app/EventReviews.h"
+
+#include "app/MainWindow.h"
+#include "app/Session.h"
+#include "app/Workbench.h"
+#include "exchange/readAnnotations.h"
+#include "widgets/EventModel.h"
+#include "widgets/EventTable.h"
+
+#include <QApplication>
+#include <QFile>
+#include <QInputDialog>
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QTimer>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 60000; // ms
+
+} // namespace
+
+class tst_EventReviews : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+
+    Document &document() const { return m_window->document(); }
+    std::vector<Verdict> verdicts() const
+    {
+        std::vector<Verdict> result;
+        for (const EventReview &one : eventReviews(*document().analysis(), document().shownEvents(), document().annotations().reviews))
+            result.push_back(one.verdict);
+        return result;
+    }
+    void choose(const std::vector<int> &ids) const
+    {
+        m_window->eventTable().setSelectedEvent(ids.front());
+        QTableView *table = m_window->eventTable().table();
+        for (int id : ids)
+            for (int row = 0; row < table->model()->rowCount(); ++row)
+                if (table->model()->index(row, EventModel::Id).data().toInt() == id)
+                    table->selectionModel()->select(table->model()->index(row, 0), QItemSelectionModel::Select | QItemSelectionModel::Rows);
+    }
+    bool settle() const
+    {
+        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
+        return !m_window->controller().isBusy() || settled.wait(patience);
+    }
+
+private slots:
+    void initTestCase() // opened once: every test leaves it as it was
+    {
+        Theme::apply(Theme::Kind::Light);
+        const QString scene = m_folder.filePath("scene.json");
+        QFile file(scene);
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+            {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120, "driftHzPerSecond": 1},
+            {"snrDb": 7, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 350}]})");
+        file.close();
+        m_window = std::make_unique<MainWindow>();
+        m_window->setAsking(false);
+        m_window->show();
+        m_window->open(scene);
+        QVERIFY(settle());
+        QVERIFY(document().shownEvents().size() >= 2);
+    }
+    void cleanup()
+    {
+        m_window->eventTable().filter()->clear();
+        while (document().undoStack().canUndo())
+            document().undoStack().undo();
+        document().undoStack().clear();
+        QVERIFY(settle());
+    }
+    void cleanupTestCase() { m_window.reset(); }
+
+    void oneKeyEach()
+    {
+        choose({1});
+        m_window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
+        QTest::keyClick(m_window->eventTable().table(), Qt::Key_X);
+        QCOMPARE(verdicts().front(), Verdict::Rejected);
+        QCOMPARE(m_window->eventTable().selectedEvent(), 1);
+        QTest::keyClick(m_window->eventTable().table(), Qt::Key_Y);
+        QCOMPARE(verdicts().front(), Verdict::Accepted);
+        QTest::keyClick(m_window->eventTable().table(), Qt::Key_U);
+        QVERIFY(document().annotations().isEmpty());
+        QCOMPARE(document().undoStack().count(), 3);
+        QVERIFY2(!m_window->controller().isBusy(), "nothing is detected anew for it");
+        document().undoStack().undo();
+        document().undoStack().undo();
+        QCOMPARE(verdicts().front(), Verdict::Rejected);
+    }
+
+    void aRejectedEventIsFaintAndCanBeFilteredOut()
+    {
+        const QImage before = m_window->workbench().output()->grab().toImage();
+        choose({1});
+        const auto all = m_window->eventTable().shownIds().size();
+        m_window->reviews().judge(Verdict::Rejected);
+        QVERIFY(m_window->workbench().output()->grab().toImage() != before);
+        QCOMPARE(m_window->eventTable().shownIds().size(), all);
+        m_window->eventTable().filter()->setText("!rejected");
+        QCOMPARE(m_window->eventTable().shownIds().size(), all - 1);
+        m_window->eventTable().filter()->setText("rejected");
+        QCOMPARE(m_window->eventTable().shownIds(), std::vector<int>{1});
+        document().undoStack().undo();
+        QCOMPARE(m_window->eventTable().shownIds().size(), std::size_t(0));
+    }
+
+    void aNoteIsWritten()
+    {
+        choose({2});
+        QTimer::singleShot(0, this, [] {
+            auto *dialog = qobject_cast<QInputDialog *>(QApplication::activeModalWidget());
+            QVERIFY(dialog);
+            dialog->setTextValue("yes");
+            dialog->accept();
+        });
+        emit m_window->eventTable().noteRequested();
+        QCOMPARE(document().annotations().reviews.front().note, std::string("yes"));
+        m_window->reviews().setNote(77, "of an event that is gone");
+        QCOMPARE(document().undoStack().count(), 1);
+    }
+
+    void severalAreMerged()
+    {
+        choose({1, 2});
+        m_window->reviews().merge();
+        QCOMPARE(document().annotations().reviews.size(), std::size_t(1));
+        m_window->reviews().judge(Verdict::Rejected);
+        QCOMPARE(verdicts()[1], Verdict::Rejected);
+        m_window->reviews().separate();
+        QCOMPARE(document().annotations().reviews.size(), std::size_t(2));
+        for (int i = 0; i < 3; ++i)
+            document().undoStack().undo();
+        QVERIFY(document().annotations().isEmpty());
+    }
+
+    void aMeasuredBoxIsNamed()
+    {
+        const QImage before = m_window->workbench().input()->grab().toImage();
+        m_window->reviews().annotateSelection("nothing is measured");
+        QVERIFY(document().annotations().isEmpty());
+        document().viewport().setSelection({{10.0, 20.0}, {100.0, 200.0}});
+        m_window->reviews().annotateSelection("pump");
+        QCOMPARE(document().annotations().boxes.size(), std::size_t(1));
+        QVERIFY((document().annotations().boxes.front() == Annotation{10.0, 20.0, 100.0, 200.0, "pump", "", Verdict::None}));
+        QVERIFY(m_window->workbench().input()->grab().toImage() != before);
+        document().undoStack().undo();
+        QVERIFY(document().annotations().isEmpty());
+    }
+
+    void outAndInAgain()
+    {
+        choose({1});
+        m_window->reviews().judge(Verdict::Rejected);
+        const QString file = m_folder.filePath("out.selections.txt");
+        m_window->reviews().exportTo(file);
+        const Json provenance = readJsonFile(file.toStdString() + ".provenance.json");
+        QVERIFY(provenance["recording"].contains("scenario"));
+        QCOMPARE(provenance["annotations"]["reviews"].size(), std::size_t(1));
+        QVERIFY(!provenance["version"].get<std::string>().empty());
+        const auto events = document().shownEvents().size();
+        const auto boxes = readAnnotations(file.toStdString(), document().recording()->info());
+        QCOMPARE(boxes.size(), events);
+        m_window->reviews().importFrom(file);
+        QVERIFY(document().annotations().boxes == boxes);
+        document().undoStack().undo();
+        QVERIFY(document().annotations().boxes.empty());
+        QFile bad(m_folder.filePath("bad.txt"));
+        QVERIFY(bad.open(QIODevice::WriteOnly));
+        bad.write("no table");
+        bad.close();
+        QVERIFY_EXCEPTION_THROWN(m_window->reviews().importFrom(bad.fileName()), Error);
+    }
+
+    void survivesAnotherThresholdAndTheSession()
+    {
+        choose({1});
+        m_window->reviews().judge(Verdict::Accepted);
+        m_window->reviews().setNote(1, "a fan\nin the next room");
+        m_window->reviews().judge(Verdict::Accepted);
+        QCOMPARE(document().undoStack().count(), 2);
+        m_window->controller().commitThreshold(document().analysis()->threshold - 1.5);
+        QVERIFY(settle());
+        const auto said = eventReviews(*document().analysis(), document().shownEvents(), document().annotations().reviews);
+        const auto found = std::find_if(said.begin(), said.end(), [](const EventReview &one) { return one.verdict == Verdict::Accepted; });
+        QVERIFY(found != said.end());
+        QCOMPARE(found->note, std::string("a fan in the next room"));
+
+        const QString session = m_folder.filePath("s.faintline");
+        writeSession(session, {document().source(), {}, document().settings(), {}, document().annotations()});
+        const Annotations kept = document().annotations();
+        document().undoStack().setClean();
+        m_window->open(session);
+        QVERIFY(settle());
+        QVERIFY(document().annotations() == kept);
+        QVERIFY(!document().isModified());
+    }
+};
+
+QTEST_MAIN(tst_EventReviews)
+
+#include "tst_EventReviews.moc"

@@ -1,0 +1,231 @@
+#include "exchange/annotationText.h"
+#include "exchange/readAnnotations.h"
+#include "exchange/writeReviewed.h"
+#include "exchange/writeEvents.h"
+#include "support/recordings.h"
+
+#include <QtTest>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// Annotations out and in again: every kind of file, tables as other programs write them, and what is no table at all.
+class tst_annotations : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void comeBack_data();
+    void comeBack();
+    void eventsOfTheCommandLine();
+    void severalAxes();
+    void raven();
+    void audacity();
+    void sigmf();
+    void textsAreTakenApart();
+    void oneLineIsCleanText();
+    void hostile_data();
+    void hostile();
+
+private:
+    std::string path(const char *name) const { return m_folder.filePath(QLatin1String(name)).toStdString(); }
+    std::vector<Annotation> read(const char *name, const QByteArray &text) const
+    {
+        writeBytes(path(name), text);
+        return readAnnotations(path(name), m_info);
+    }
+
+    QTemporaryDir m_folder;
+    RecordingInfo m_info{"", "", "", 1000.0, 0, 1, true, 5000.0, {}, {}};
+};
+
+namespace {
+
+    class Nothing : public Recording
+    {
+    public:
+        explicit Nothing(const RecordingInfo &info) { m_info = info; }
+        void read(int, Index, Index, std::span<float>) const override {}
+    };
+
+    Analysis threeTracks(const RecordingInfo &info)
+    {
+        Analysis analysis;
+        const Grid grid{{{"frequency", "Hz", -50.0, 2.5, 40, false}}};
+        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.25, 0.5, 20, false}, grid, std::vector<float>(800, 1.0f));
+        analysis.recording = std::make_shared<Nothing>(info);
+        analysis.calibration = std::make_shared<Calibration>();
+        for (int id = 1; id <= 3; ++id) {
+            Track track{id, 2, 3, 12, 14.75 + id, true, false, {}};
+            for (Index frame = 2; frame <= 12; ++frame)
+                track.points.push_back({frame, 10 * id + (frame > 8 ? 1 : 0), 0, 1.0});
+            analysis.tracks.push_back(track);
+        }
+        return analysis;
+    }
+
+    Annotations said(const Analysis &analysis)
+    {
+        const std::vector<Event> all = events(analysis);
+        Annotations annotations;
+        annotations.reviews = withVerdict({}, analysis, all, {1}, Verdict::Accepted);
+        annotations.reviews = withVerdict(annotations.reviews, analysis, all, {2}, Verdict::Rejected);
+        annotations.reviews = withNote(annotations.reviews, analysis, all, 2, "mains, \"hum\" of 50 Hz; ½");
+        annotations.reviews = withNote(annotations.reviews, analysis, all, 3, "look again");
+        annotations.boxes = {{1.0, 2.5, -12.5, 30.0, "hand-made, box", "by me", Verdict::None}, {3.0, 4.0, {}, {}, "", "", Verdict::None}};
+        return annotations;
+    }
+
+} // namespace
+
+void tst_annotations::comeBack_data()
+{
+    QTest::addColumn<QString>("name");
+    for (const char *name : {"a.csv", "a.json", "a.selections.txt", "a.txt", "a.sigmf-meta"})
+        QTest::newRow(name) << QString::fromLatin1(name);
+}
+
+void tst_annotations::comeBack()
+{
+    QFETCH(QString, name);
+    const Analysis analysis = threeTracks(m_info);
+    const std::string file = m_folder.filePath(name).toStdString();
+    writeReviewed(analysis, events(analysis), said(analysis), file);
+    std::vector<Annotation> back = readAnnotations(file, m_info);
+    std::vector<Annotation> expected{{1.25, 6.25, -25.0, -22.5, "event 1", "", Verdict::Accepted},
+                                     {1.25, 6.25, 0.0, 2.5, "event 2", "mains, \"hum\" of 50 Hz; ½", Verdict::Rejected},
+                                     {1.25, 6.25, 25.0, 27.5, "event 3", "look again", Verdict::None},
+                                     {1.0, 2.5, -12.5, 30.0, "hand-made, box", "by me", Verdict::None},
+                                     {3.0, 4.0, {}, {}, "", "", Verdict::None}};
+    if (name.endsWith("sigmf-meta"))
+        std::rotate(expected.begin(), expected.begin() + 3, expected.begin() + 4); // in order of time
+    QCOMPARE(back.size(), expected.size());
+    for (std::size_t i = 0; i < back.size(); ++i) {
+        QCOMPARE(back[i].label, expected[i].label);
+        QCOMPARE(back[i].note, expected[i].note);
+        QVERIFY(back[i] == expected[i]);
+    }
+    // The same bytes once more, as boxes.
+    Annotations boxes;
+    boxes.boxes = back;
+    writeReviewed(analysis, {}, boxes, file);
+    QVERIFY(readAnnotations(file, m_info) == back);
+}
+
+void tst_annotations::eventsOfTheCommandLine()
+{
+    const Analysis analysis = threeTracks(m_info);
+    for (const char *name : {"e.csv", "e.json", "e.txt", "e.sigmf-meta"}) {
+        writeEvents(analysis, path(name));
+        const std::vector<Annotation> back = readAnnotations(path(name), m_info);
+        QCOMPARE(back.size(), std::size_t(3));
+        QCOMPARE(back[1].startSeconds, 1.25);
+        QCOMPARE(back[1].endSeconds, 6.25);
+        QVERIFY(!back[1].label.empty());
+    }
+}
+
+void tst_annotations::severalAxes()
+{
+    Analysis analysis;
+    const Grid grid{{{"range", "m", 0.0, 10.0, 5, false}, {"bearing", "deg", 0.0, 90.0, 4, true}}};
+    analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 2.0, 3, false}, grid, std::vector<float>(60, 1.0f));
+    analysis.tracks = {{1, 0, 1, 2, 9.0, true, false, {{0, 5, 0, 1.0}, {1, 5, 0, 2.0}, {2, 5, 0, 3.0}}}};
+    Annotations annotations;
+    annotations.reviews = withVerdict({}, analysis, events(analysis), {1}, Verdict::Accepted);
+    writeReviewed(analysis, events(analysis), annotations, path("p.csv"));
+    QVERIFY(readBytes(path("p.csv")).startsWith("event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,open,review,signal,label,note\n"
+                                                "1,0,2,4,10,90,"));
+    QVERIFY(readBytes(path("p.csv")).contains(",accepted,1,\"event 1\",\"\"\n"));
+}
+
+void tst_annotations::raven()
+{
+    // As Raven Pro 1.6 writes it, with two views of one selection, columns in another order, and Windows' line ends.
+    const auto boxes = read("r.txt", "Selection\tView\tChannel\tBegin Time (s)\tEnd Time (s)\tHigh Freq (Hz)\tLow Freq (Hz)\tSpecies\r\n"
+                                     "1\tWaveform 1\t1\t0.5\t1.25\t800.0\t200.0\tEPFU\r\n1\tSpectrogram 1\t1\t0.5\t1.25\t800.0\t200.0\tEPFU\r\n"
+                                     "2\tSpectrogram 1\t1\t3\t4\t900\t100\t\r\n");
+    QCOMPARE(boxes.size(), std::size_t(2));
+    QVERIFY((boxes[0] == Annotation{0.5, 1.25, 200.0, 800.0, "EPFU", "", Verdict::None}));
+    QVERIFY((boxes[1] == Annotation{3.0, 4.0, 100.0, 900.0, "", "", Verdict::None}));
+}
+
+void tst_annotations::audacity()
+{
+    const auto boxes = read("l.txt", "1.000000\t2.500000\tfirst label\n\\\t100.5\t200\n3.0\t3.0\tpoint\n4\t5\n");
+    QCOMPARE(boxes.size(), std::size_t(3));
+    QVERIFY((boxes[0] == Annotation{1.0, 2.5, 100.5, 200.0, "first label", "", Verdict::None}));
+    QVERIFY((boxes[1] == Annotation{3.0, 3.0, {}, {}, "point", "", Verdict::None}));
+}
+
+void tst_annotations::sigmf()
+{
+    // Its own sample rate counts, and the centre comes off.
+    const auto boxes = read("s.sigmf-meta", R"({"global": {"core:sample_rate": 2000}, "captures": [], "annotations": [
+        {"core:sample_start": 1000, "core:sample_count": 500, "core:freq_lower_edge": 4990, "core:freq_upper_edge": 5020, "core:label": "x"},
+        {"core:sample_start": 3000}]})");
+    QVERIFY((boxes[0] == Annotation{0.5, 0.75, -10.0, 20.0, "x", "", Verdict::None}));
+    QVERIFY((boxes[1] == Annotation{1.5, 1.5, {}, {}, "", "", Verdict::None}));
+}
+
+void tst_annotations::textsAreTakenApart()
+{
+    for (const auto &[label, verdict, note] : {std::tuple{"a", Verdict::None, ""}, {"a", Verdict::None, "n"}, {"", Verdict::Rejected, "n [x]"}, {"a b", Verdict::Accepted, ""}}) {
+        Annotation box;
+        takeApart(annotationText(label, verdict, note), box);
+        QCOMPARE(box.label, std::string(label));
+        QCOMPARE(box.note, std::string(note));
+        QCOMPARE(box.verdict, verdict);
+    }
+}
+
+void tst_annotations::oneLineIsCleanText()
+{
+    QCOMPARE(oneLine(" a\tb\nc\x7f "), std::string("a b c"));
+    QCOMPARE(oneLine("½ \xf0\x9f\x8e\xb5"), std::string("½ \xf0\x9f\x8e\xb5"));
+    QCOMPARE(oneLine("\xff\xc3(\xe2\x82"), std::string("?" "?(?" "?"));
+    QCOMPARE(oneLine("\xed\xa0\x80"), std::string("???")); // a surrogate
+    QCOMPARE(oneLine("\xc0\xaf"), std::string("??"));       // an overlong form
+}
+
+void tst_annotations::hostile_data()
+{
+    QTest::addColumn<QByteArray>("text");
+    QTest::newRow("json cut off") << QByteArray("{\"annotations\": [");
+    QTest::newRow("json of something else") << QByteArray("{\"global\": {}}");
+    QTest::newRow("json list") << QByteArray("[1, 2]");
+    QTest::newRow("annotation that is a number") << QByteArray("{\"annotations\": [3]}");
+    QTest::newRow("annotations that are text") << QByteArray("{\"annotations\": \"none\"}");
+    QTest::newRow("start that is text") << QByteArray("{\"annotations\": [{\"core:sample_start\": \"now\"}]}");
+    QTest::newRow("negative count") << QByteArray("{\"annotations\": [{\"core:sample_start\": 9, \"core:sample_count\": -4}]}");
+    QTest::newRow("huge") << QByteArray("{\"annotations\": [{\"core:sample_start\": 1e308, \"core:sample_count\": 1e308}], \"global\": {\"core:sample_rate\": 1e-300}}");
+    QTest::newRow("rate of nothing") << QByteArray("{\"annotations\": [], \"global\": {\"core:sample_rate\": 0}}");
+    QTest::newRow("one edge") << QByteArray("{\"annotations\": [{\"core:sample_start\": 1, \"core:freq_lower_edge\": 1}]}");
+    QTest::newRow("no label") << QByteArray("just some text\n");
+    QTest::newRow("not a number") << QByteArray("nan\t1\tx\n");
+    QTest::newRow("infinite") << QByteArray("0\tinf\tx\n");
+    QTest::newRow("comma for a point") << QByteArray("0,5\t1,5\tx\n");
+    QTest::newRow("ends before it begins") << QByteArray("2\t1\tx\n");
+    QTest::newRow("frequencies of nothing") << QByteArray("\\\t1\t2\n");
+    QTest::newRow("binary") << QByteArray("RIFF\x01\0\0\0WAVE\0\0\n\0", 14);
+    QTest::newRow("Raven without ends") << QByteArray("Selection\tBegin Time (s)\n1\t2\n");
+    QTest::newRow("Raven with a cell too many") << QByteArray("Begin Time (s)\tEnd Time (s)\n1\t2\t3\n");
+    QTest::newRow("Raven with one edge") << QByteArray("Begin Time (s)\tEnd Time (s)\tLow Freq (Hz)\n1\t2\t3\n");
+    QTest::newRow("events without ends") << QByteArray("event,t_onset\n1,2\n");
+    QTest::newRow("deep") << QByteArray(100000, '[');
+}
+
+void tst_annotations::hostile()
+{
+    QFETCH(QByteArray, text);
+    const std::string why = errorOf([&] { read("h", text); });
+    QVERIFY(why.starts_with(path("h")));
+    QVERIFY2(why.find('\n') == std::string::npos, why.c_str());
+    QVERIFY(why.size() < 400);
+    QVERIFY(!errorOf([&] { readAnnotations(path("nowhere"), m_info); }).empty());
+    QVERIFY(read("empty", "").empty());
+}
+
+QTEST_GUILESS_MAIN(tst_annotations)
+
+#include "tst_annotations.moc"
