@@ -115,6 +115,7 @@ private:
     void buildFileMenu();
     void buildEditMenu();
     void buildViewMenu();
+    void addLayerMenu(QMenu &menu);
     void buildDetectMenu();
     void buildEvaluateMenu();
     void buildReproduceMenu();

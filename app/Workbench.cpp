@@ -1,5 +1,6 @@
 #include "app/Workbench.h"
 
+#include "app/OutputLayers.h"
 #include "app/statisticUnit.h"
 #include "widgets/ColourBar.h"
 #include "widgets/StripPlot.h"
@@ -96,7 +97,7 @@ namespace {
 
 Workbench::Workbench(Document &document, QWidget *parent)
     : Bench(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
-      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
+      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)), m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
       m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
       m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
 {
@@ -148,6 +149,11 @@ void Workbench::linkViews()
         connect(view, &WaterfallView::hoverEnded, this, &Workbench::readCursor);
     }
     connect(viewport, &Viewport::cursorChanged, this, &Workbench::readCursor);
+    connect(m_layers, &OutputLayers::readingChanged, this, &Workbench::readCursor);
+    connect(m_layers, &OutputLayers::layerChanged, this, [this] {
+        // A layer in the statistic's place has its own key; the bar is the statistic's.
+        m_outputPane->findChild<ColourBar *>()->setVisible(m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay());
+    });
 }
 
 void Workbench::setEmptySentence(const QString &sentence)
@@ -250,9 +256,13 @@ void Workbench::placeCursor()
 
 void Workbench::read(const Viewport::Point &point)
 {
-    emit readingChanged({point.seconds, point.hz, m_input->valueAt(point.seconds, point.hz),
-                         m_output->valueAt(point.seconds, point.hz),
-                         m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt});
+    ReadOut::Reading reading{point.seconds, point.hz, m_input->valueAt(point.seconds, point.hz), m_output->valueAt(point.seconds, point.hz),
+                             m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt, {}};
+    if (const auto best = m_layers->readingAt(point)) {
+        reading.slopeHzPerSecond = best->ratePerSecond;
+        reading.ageSeconds = best->ageSeconds;
+    }
+    emit readingChanged(reading);
 }
 
 void Workbench::readCursor()
