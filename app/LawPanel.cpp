@@ -164,7 +164,7 @@ QString LawPanel::snrWords(const Analysis &analysis) const
     };
     const QString lines = m_document.hasPings() ? tr("a target") : tr("a line");
     return tr("At ln K = %1 evidence adds up from these SNRs in one frame: %2 for %3 that keeps its rate, %4 where it changes as the law says. "
-              "Below, the path is reset over and over.")
+              "Below, a path by itself loses on the mean; those beside it help a little.")
         .arg(numberText(lnK, 2), words(kept), lines, words(changing));
 }
 

@@ -24,6 +24,7 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
     : QObject(parent), m_document(document), m_output(output), m_item(new LayerItem)
 {
     m_item->attach(&output);
+    m_item->makeKey().release()->attach(&output); // the plot's from now on
     output.installEventFilter(this);
     output.canvas()->installEventFilter(this);
     m_pause.setSingleShot(true);
@@ -72,6 +73,23 @@ void OutputLayers::setLayer(OutputLayer layer)
     show();
     follow();
     emit layerChanged();
+}
+
+QString OutputLayers::heading() const
+{
+    switch (m_layer) {
+    case OutputLayer::Rate:
+        return tr("Winning slope of each cell");
+    case OutputLayer::Age:
+        return tr("Age of each cell's best path");
+    case OutputLayer::Reset:
+        return tr("States reset");
+    case OutputLayer::Inhibited:
+        return tr("Cells kept from the detector");
+    case OutputLayer::Statistic:
+        break;
+    }
+    return tr("Statistic D");
 }
 
 void OutputLayers::cycleLayer()
@@ -168,7 +186,8 @@ std::optional<CellReading> OutputLayers::readingAt(const Viewport::Point &point)
     if (row < 0 || row >= picture.rows || column < 0 || column >= picture.columns)
         return {};
     const auto pixel = static_cast<std::size_t>(row * picture.columns + column);
-    return CellReading{static_cast<double>(picture.rate[pixel]), static_cast<double>(picture.age[pixel]), picture.inhibited[pixel] > 0.0f};
+    return CellReading{static_cast<double>(picture.rate[pixel]), static_cast<double>(picture.age[pixel]), picture.inhibited[pixel] > 0.0f,
+                       static_cast<double>(picture.statistic[pixel])};
 }
 
 void OutputLayers::show()
@@ -197,7 +216,10 @@ void OutputLayers::show()
     case OutputLayer::Age: {
         const std::vector<float> &ages = m_result.picture->age;
         const auto longest = static_cast<double>(*std::max_element(ages.begin(), ages.end()));
-        m_item->setLayer(m_layer, {0.0, std::max(longest, analysis->time().step)}, tr("Path age since reset (s)"), 1.0);
+        constexpr double manySeconds = 7200.0;
+        const bool isLong = longest > manySeconds;
+        m_item->setLayer(m_layer, {0.0, std::max(longest, analysis->time().step)},
+                         isLong ? tr("Path age since reset (h)") : tr("Path age since reset (s)"), isLong ? 3600.0 : 1.0);
         break;
     }
     case OutputLayer::Reset:

@@ -27,6 +27,7 @@ public:
     OutputLayers(Document &document, WaterfallView &output, QObject *parent = nullptr);
 
     OutputLayer layer() const { return m_layer; }
+    QString heading() const; ///< of a picture that shows the layer
     bool isOverlay() const { return m_isOverlay; }
     const LayerItem &item() const { return *m_item; }
     bool isBusy() const { return m_pause.isActive() || m_runner.isRunning(); }

@@ -12,6 +12,7 @@
 #include <QLabel>
 #include <QScopedValueRollback>
 #include <QSignalBlocker>
+#include <QTabBar>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -65,7 +66,7 @@ namespace {
 StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
       m_others(new QComboBox), m_model(new QComboBox), m_sentence(new QLabel),
-      m_view(new WaterfallView(tr("States (nat)"))), m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view))
+      m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget), m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view))
 {
     m_others->addItems({tr("others at the cursor"), tr("best of the others")});
     m_others->setToolTip(tr("The axes that are not shown: at the cursor's cell with its best rates, or the maximum over all of them"));
@@ -98,24 +99,30 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     second->addWidget(m_others, 1);
     second->addWidget(m_model, 1);
     auto *head = new QVBoxLayout;
-    head->setContentsMargins(8, 6, 8, 4);
+    head->setContentsMargins(8, 6, 8, 0);
     head->setSpacing(4);
     head->addLayout(top);
     head->addLayout(second);
-    head->addWidget(m_sentence);
-    auto *pane = new QHBoxLayout;
+    m_sentence->setContentsMargins(8, 4, 8, 4);
+    m_tabs->addTab(tr("States"));
+    m_tabs->addTab(tr("Law"));
+    m_tabs->setDrawBase(false);
+    m_tabs->setAccessibleName(tr("States or law"));
+    auto *pane = new QHBoxLayout(m_pane);
     pane->setContentsMargins(0, 0, 0, 6);
     pane->setSpacing(0);
     pane->addWidget(m_view, 1);
     pane->addWidget(bar);
     m_body = new QBoxLayout(QBoxLayout::TopToBottom);
     m_body->setSpacing(0);
-    m_body->addLayout(pane, 3);
+    m_body->addWidget(m_pane, 3);
     m_body->addWidget(m_law, 2);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addLayout(head);
+    layout->addWidget(m_tabs);
+    layout->addWidget(m_sentence);
     layout->addLayout(m_body, 1);
 
     connect(m_rows, &QComboBox::activated, this, [this] { chooseAxes(*m_rows, *m_columns); });
@@ -132,6 +139,7 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     connect(&document.viewport(), &Viewport::spanChanged, this, &StateSlicePanel::takeFrequencies);
     connect(&m_viewport, &Viewport::spanChanged, this, &StateSlicePanel::giveFrequencies);
     connect(&document, &Document::shownEventsChanged, this, &StateSlicePanel::placeMarks);
+    connect(m_tabs, &QTabBar::currentChanged, this, &StateSlicePanel::layOut);
     connect(m_law, &LawPanel::lawRequested, this, &StateSlicePanel::lawRequested);
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
         m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
@@ -200,7 +208,7 @@ void StateSlicePanel::fillAxes()
     for (QWidget *widget : m_choices)
         widget->setVisible(hasPings);
     m_model->setVisible(hasPings && analysis->bank.size() > 1);
-    m_law->setVisible(hasPings || isOfLines());
+    layOut();
     m_shownAxes = {0, 0};
     m_cut.reset();
     if (isOfLines())
@@ -227,9 +235,23 @@ void StateSlicePanel::fillAxes()
 
 void StateSlicePanel::resizeEvent(QResizeEvent *event)
 {
-    constexpr int enoughForBoth = 620;
-    m_body->setDirection(width() >= enoughForBoth ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+    layOut();
     QWidget::resizeEvent(event);
+}
+
+void StateSlicePanel::layOut()
+{
+    constexpr int wideEnough = 620;
+    constexpr int tallEnough = 600;
+    const bool hasLaw = m_document.hasPings() || isOfLines();
+    const bool isWide = width() >= wideEnough;
+    const bool hasBoth = isWide || height() >= tallEnough;
+    m_body->setDirection(isWide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+    m_tabs->setVisible(hasLaw && !hasBoth);
+    m_law->setVisible(hasLaw && (hasBoth || m_tabs->currentIndex() == 1));
+    const bool hasSlice = !hasLaw || hasBoth || m_tabs->currentIndex() == 0;
+    m_pane->setVisible(hasSlice);
+    m_sentence->setVisible(hasSlice);
 }
 
 void StateSlicePanel::showEvent(QShowEvent *event)
@@ -320,10 +342,12 @@ void StateSlicePanel::show(const Cut &cut)
     m_view->setThreshold(m_document.shownThreshold());
     const bool isOurRange = m_view->isRangeAutomatic() || m_view->range() == m_givenRange;
     m_view->setPicture(cut.picture, columns);
+    m_view->updateLayout(); // its axes may have come just now
     if (isOurRange) {
-        // A followed target's states stand far above the threshold; its hill is what there is to see.
+        // A followed target's states stand far above the threshold; its hill is what there is to see. Of lines, that under the cursor:
+        // a carrier elsewhere may have gathered a hundred times as much.
         m_view->setAutomaticRange();
-        m_view->setRange(m_view->range().low, std::max(m_view->range().high, cut.best));
+        m_view->setRange(m_view->range().low, std::max(m_view->range().high, isOfLines() ? scoreAtCursor(cut) : cut.best));
         m_givenRange = m_view->range();
     }
 
@@ -349,6 +373,14 @@ QString StateSlicePanel::otherWords(const Cut &cut) const
     return others.join(QStringLiteral(", "));
 }
 
+double StateSlicePanel::scoreAtCursor(const Cut &cut) const
+{
+    const Axis &rows = cut.axes[cut.slice.rows];
+    const Axis &columns = cut.axes[cut.slice.columns];
+    const Index row = rows.nearest(cut.values[cut.slice.rows]);
+    return static_cast<double>(cut.scores[static_cast<std::size_t>(row * columns.count + columns.nearest(cut.values[cut.slice.columns]))]);
+}
+
 /// The best state in view, and that of the cursor's cell.
 QString StateSlicePanel::bestWords(const Cut &cut) const
 {
@@ -357,10 +389,7 @@ QString StateSlicePanel::bestWords(const Cut &cut) const
     const auto stateWords = [&](double hz, double rate) {
         return tr("%1, %2 %3").arg(hertzText(hz, frequency.step), numberText(rate, decimalsFor(slope.step)), QString::fromStdString(slope.unit));
     };
-    const Index cell = frequency.nearest(cut.values[0]);
-    const Index rate = slope.nearest(cut.values[1]);
-    const auto here = static_cast<double>(cut.scores[static_cast<std::size_t>(rate * frequency.count + cell)]);
-    QString words = tr("at the cursor %1 nat (%2)").arg(numberText(here, 1), stateWords(cut.values[0], cut.values[1]));
+    QString words = tr("at the cursor %1 nat (%2)").arg(numberText(scoreAtCursor(cut), 1), stateWords(cut.values[0], cut.values[1]));
     if (const auto best = m_marks->best())
         words += tr("; best in view ○ %1 nat (%2)").arg(numberText(best->score, 1), stateWords(best->column, best->row));
     if (!m_marks->paths().empty())

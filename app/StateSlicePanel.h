@@ -11,6 +11,7 @@
 class QBoxLayout;
 class QComboBox;
 class QLabel;
+class QTabBar;
 
 namespace faintline {
 
@@ -32,6 +33,7 @@ public:
     ~StateSlicePanel() override;
 
     WaterfallView *view() const { return m_view; }
+    QTabBar *tabs() const { return m_tabs; }
     LawPanel &law() const { return *m_law; }
     const SliceMarks &marks() const { return *m_marks; }
     QString sentence() const;
@@ -51,7 +53,7 @@ signals:
 
 protected:
     void showEvent(QShowEvent *event) override;
-    /// The law stands beside the slice where there is width, below where there is height.
+    /// The law stands beside the slice where there is width, below where there is height, otherwise behind a tab.
     void resizeEvent(QResizeEvent *event) override;
 
 private:
@@ -77,7 +79,9 @@ private:
     void giveFrequencies();
     void placeMarks();
     QString bestWords(const Cut &cut) const;
+    double scoreAtCursor(const Cut &cut) const;
     QString otherWords(const Cut &cut) const;
+    void layOut();
     void fillAxes();
     void chooseAxes(QComboBox &changed, QComboBox &other);
     void update();
@@ -93,6 +97,8 @@ private:
     std::vector<QWidget *> m_choices; ///< that only pings leave
     QLabel *m_sentence;
     WaterfallView *m_view;
+    QTabBar *m_tabs;
+    QWidget *m_pane; ///< the slice and its colour bar
     LawPanel *m_law;
     QBoxLayout *m_body;
     std::unique_ptr<SliceMarks> m_marks;

@@ -150,10 +150,7 @@ void Workbench::linkViews()
     }
     connect(viewport, &Viewport::cursorChanged, this, &Workbench::readCursor);
     connect(m_layers, &OutputLayers::readingChanged, this, &Workbench::readCursor);
-    connect(m_layers, &OutputLayers::layerChanged, this, [this] {
-        // A layer in the statistic's place has its own key; the bar is the statistic's.
-        m_outputPane->findChild<ColourBar *>()->setVisible(m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay());
-    });
+    connect(m_layers, &OutputLayers::layerChanged, this, &Workbench::showHeading);
 }
 
 void Workbench::setEmptySentence(const QString &sentence)
@@ -184,7 +181,7 @@ void Workbench::showAnalysis()
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
 
     const QString unit = statisticUnit(analysis.settings);
-    m_output->setStatisticUnit(unit, tr("Statistic D (%1)").arg(unit));
+    showHeading();
     m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
     followExtents(analysis, isFirst);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
@@ -202,6 +199,17 @@ void Workbench::showAnalysis()
     if (isFirst)
         placeCursor();
     readCursor();
+}
+
+/// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.
+void Workbench::showHeading()
+{
+    const bool isStatistic = m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay();
+    m_outputPane->findChild<ColourBar *>()->setVisible(isStatistic);
+    if (!m_document.analysis() || m_document.hasPings())
+        return;
+    const QString unit = statisticUnit(m_document.analysis()->settings);
+    m_output->setStatisticUnit(unit, isStatistic ? tr("Statistic D (%1)").arg(unit) : m_layers->heading());
 }
 
 void Workbench::showThreshold()
@@ -261,6 +269,7 @@ void Workbench::read(const Viewport::Point &point)
     if (const auto best = m_layers->readingAt(point)) {
         reading.slopeHzPerSecond = best->ratePerSecond;
         reading.ageSeconds = best->ageSeconds;
+        reading.statisticNats = best->statistic;
     }
     emit readingChanged(reading);
 }

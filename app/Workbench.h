@@ -53,6 +53,7 @@ signals:
 private:
     void linkViews();
     void showAnalysis();
+    void showHeading();
     void showThreshold();
     void showEvents();
     void followExtents(const Analysis &analysis, bool isFirst);

@@ -21,6 +21,7 @@ namespace {
         return ColourMap::named(layer == OutputLayer::Rate ? QStringLiteral("blue-red") : QStringLiteral("viridis"));
     }
 
+    constexpr QRgb noSlope = qRgb(110, 110, 110);
     constexpr QRgb inhibitedColour = qRgb(0, 170, 190);
 
 } // namespace
@@ -68,6 +69,8 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
     };
     if (m_layer == OutputLayer::Inhibited)
         return value > 0.0 ? clear(inhibitedColour, m_isOverlay ? 0.55 : 1.0) : clear(qRgb(0, 0, 0), m_isOverlay ? 0.0 : 1.0);
+    if (m_layer == OutputLayer::Rate && m_picture->resetFraction[pixel] >= 1.0f) // all states begin anew here: none has won
+        return clear(noSlope, m_isOverlay ? 0.0 : 1.0);
     const QRgb colour = mapOf(m_layer).at((value - m_range.low) / m_range.width());
     if (!m_isOverlay)
         return clear(colour, 1.0);
@@ -108,7 +111,26 @@ void LayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleM
     painter->setTransform(place, true);
     painter->drawImage(0, 0, image());
     painter->restore();
-    drawKey(painter, canvasRect);
+}
+
+class LayerItem::Key final : public QwtPlotItem
+{
+public:
+    explicit Key(const LayerItem &owner) : m_owner(owner) { setZ(80.0); }
+
+    void draw(QPainter *painter, const QwtScaleMap &, const QwtScaleMap &, const QRectF &canvasRect) const override
+    {
+        if (m_owner.m_picture && m_owner.m_layer != OutputLayer::Statistic)
+            m_owner.drawKey(painter, canvasRect);
+    }
+
+private:
+    const LayerItem &m_owner;
+};
+
+std::unique_ptr<QwtPlotItem> LayerItem::makeKey() const
+{
+    return std::make_unique<Key>(*this);
 }
 
 /// A strip of the colours with the values at its ends, above them what they are.
@@ -122,7 +144,7 @@ void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
     const QRectF plate(canvas.right() - width - 6.0, canvas.top() + 6.0, width, isFlag ? metrics.height() + 8.0 : 2.0 * metrics.height() + 20.0);
     painter->setPen(Qt::NoPen);
     QColor ground = m_plate;
-    ground.setAlpha(225);
+    ground.setAlpha(240);
     painter->setBrush(ground);
     painter->drawRoundedRect(plate, 3.0, 3.0);
     painter->setPen(m_text);

@@ -36,13 +36,15 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 2, 8, 2);
     layout->setSpacing(16);
+    layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window its end gives way, the window must not
+    setMinimumWidth(600);
     m_time = addItem(tr("Time"), QStringLiteral("00:00:00.00"));
     m_utc = addItem(tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));
     m_frequency = addItem(tr("Frequency"), QStringLiteral("0000.000 kHz"));
     m_level = addItem(tr("Level"), QStringLiteral("−00.0 dB"));
     m_statistic = addItem(tr("Statistic"), QStringLiteral("000.00 × noise"));
     m_slope = addItem(tr("Slope"), QStringLiteral("−00.000 Hz/s"));
-    m_age = addItem(tr("Path"), QStringLiteral("00:00:00.00"));
+    m_age = addItem(tr("Path"), {});
     layout->addStretch(1);
     m_level.box->setToolTip(tr("Power over the mean of the noise"));
     m_statistic.box->setToolTip(tr("The detector's statistic D"));

@@ -103,6 +103,7 @@ struct CellReading {
     double ratePerSecond = 0.0; ///< of its best state
     double ageSeconds = 0.0;
     bool isInhibited = false;
+    double statistic = 0.0; ///< D
 };
 CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell);
 
