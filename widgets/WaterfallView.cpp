@@ -272,10 +272,7 @@ void WaterfallView::followSpan()
 
     const QString timeLabel = timeDraw ? timeDraw->widestLabel(full().time) : numberDraw->widestLabel(full().time);
     const QString hzLabel = hzDraw->widestLabel(full().frequency);
-    const double widthBefore = axisScaleDraw(QwtAxis::YLeft)->minimumExtent();
     steadyAxes(*this, isTimeVertical() ? timeLabel : hzLabel, isTimeVertical() ? hzLabel : timeLabel);
-    if (axisScaleDraw(QwtAxis::YLeft)->minimumExtent() != widthBefore)
-        updateLayout(); // numbers of another width
 
     countHistogram();
     replot();
