@@ -50,7 +50,7 @@ std::span<const float> ChainReplay::step()
     m_chain->update(m_next, m_y, m_statistic);
     ++m_next;
     if (m_next % m_interval == 0 && !m_checkpoints.contains(m_next))
-        if (auto checkpoint = m_chain->checkpoint())
+        if (auto checkpoint = m_chain->snapshot())
             m_checkpoints.emplace(m_next, std::move(checkpoint));
     return m_statistic;
 }

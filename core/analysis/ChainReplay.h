@@ -38,7 +38,7 @@ private:
     std::unique_ptr<DetectionChain> m_chain;
     Index m_interval;
     Index m_next = 0;
-    std::map<Index, std::shared_ptr<const DetectionChain::Checkpoint>> m_checkpoints; ///< by the frame that comes next
+    std::map<Index, std::shared_ptr<const DetectionChain::Snapshot>> m_checkpoints; ///< by the frame that comes next
     std::vector<float> m_y;
     std::vector<float> m_statistic;
 };

@@ -335,7 +335,7 @@ DetectionChain::PathInto DetectionChain::pathInto(Index cell) const
     return path;
 }
 
-struct DetectionChain::Checkpoint {
+struct DetectionChain::Snapshot {
     std::shared_ptr<const Detector::Remembrance> detector;
     std::vector<HmmTracker> trackers;
     std::vector<CellBox> boxes;
@@ -344,12 +344,12 @@ struct DetectionChain::Checkpoint {
     int nextId = 1;
 };
 
-std::shared_ptr<const DetectionChain::Checkpoint> DetectionChain::checkpoint() const
+std::shared_ptr<const DetectionChain::Snapshot> DetectionChain::snapshot() const
 {
     auto detector = m_detector->remembrance();
     if (!detector)
         return {};
-    auto result = std::make_shared<Checkpoint>();
+    auto result = std::make_shared<Snapshot>();
     result->detector = std::move(detector);
     for (const HmmTracker &tracker : m_trackers)
         result->trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.track().model]));
@@ -360,18 +360,19 @@ std::shared_ptr<const DetectionChain::Checkpoint> DetectionChain::checkpoint() c
     return result;
 }
 
-void DetectionChain::resume(const Checkpoint &checkpoint)
+void DetectionChain::resume(const Snapshot &snapshot)
 {
-    m_detector->recall(*checkpoint.detector);
+    m_detector->recall(*snapshot.detector);
     m_trackers.clear();
-    for (const HmmTracker &tracker : checkpoint.trackers)
+    for (const HmmTracker &tracker : snapshot.trackers)
         m_trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.track().model]));
     m_ended.clear();
-    m_boxes = checkpoint.boxes;
-    m_newBoxes = checkpoint.newBoxes;
-    m_boxTracks = checkpoint.boxTracks;
-    m_nextId = checkpoint.nextId;
+    m_boxes = snapshot.boxes;
+    m_newBoxes = snapshot.newBoxes;
+    m_boxTracks = snapshot.boxTracks;
+    m_nextId = snapshot.nextId;
     m_seen.clear();
+    m_checkpoints.clear();
 }
 
 std::span<const CellBox> DetectionChain::forgotten() const

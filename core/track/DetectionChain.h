@@ -75,10 +75,10 @@ public:
     std::vector<PathStep> detectorPathInto(Index state, std::size_t model = 0) const;
 
     /// What the next frames' statistic depends on; null where the detector cannot tell.
-    struct Checkpoint;
-    std::shared_ptr<const Checkpoint> checkpoint() const;
-    /// Goes on from there, with the same bytes; `checkpoint` is of this chain or of one made alike. Paths and tracks begin anew.
-    void resume(const Checkpoint &checkpoint);
+    struct Snapshot;
+    std::shared_ptr<const Snapshot> snapshot() const;
+    /// Goes on from there, with the same bytes; `snapshot` is of this chain or of one made alike. Paths and tracks begin anew.
+    void resume(const Snapshot &snapshot);
 
     /// The boxes that the detector forgets before it takes the next frame.
     std::span<const CellBox> forgotten() const;
