@@ -14,6 +14,7 @@
 #include "app/MessageBar.h"
 #include "app/NoiseFitPanel.h"
 #include "app/OpenOptionsDialog.h"
+#include "app/OutputLayers.h"
 #include "app/Panels.h"
 #include "app/PingBench.h"
 #include "app/PipelinePanel.h"
@@ -40,6 +41,7 @@
 #include "widgets/OverviewStrip.h"
 #include "widgets/PingMap.h"
 #include "widgets/ReadOut.h"
+#include "widgets/SettingsForm.h"
 #include "widgets/WalkPlot.h"
 
 #include <QApplication>
@@ -292,6 +294,11 @@ void MainWindow::connectViews()
     connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
             [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });
 
+    connect(static_cast<QDockWidget *>(m_states->parentWidget()), &QDockWidget::visibilityChanged, &m_workbench->layers(), &OutputLayers::setWatching);
+    connect(&m_workbench->layers(), &OutputLayers::failed, this, &MainWindow::showError);
+    connect(m_states, &StateSlicePanel::lawRequested, this, [this](const QString &field, const std::vector<double> &law) {
+        m_controller.edit(field, law, tr("Change “%1”").arg(SettingsForm::label(field)));
+    });
     connect(m_threshold, &ExceedancePlot::thresholdRequested, &m_controller, &AnalysisController::previewThreshold);
     connect(m_threshold, &ExceedancePlot::thresholdCommitted, &m_controller, &AnalysisController::commitThreshold);
     connect(m_threshold, &ExceedancePlot::unitChanged, this,

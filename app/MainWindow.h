@@ -117,6 +117,7 @@ private:
     void buildFileMenu();
     void buildEditMenu();
     void buildViewMenu();
+    void addLayerMenu(QMenu &menu);
     void buildDetectMenu();
     void buildReviewMenu();
     void buildEvaluateMenu();

@@ -7,6 +7,7 @@
 #include "app/EventReviews.h"
 #include "app/ExperimentsPanel.h"
 #include "app/KeysOverlay.h"
+#include "app/OutputLayers.h"
 #include "app/Panels.h"
 #include "app/PingBench.h"
 #include "app/scenarios.h"
@@ -101,6 +102,7 @@ void MainWindow::buildViewMenu()
         picture->clear();
         output->addActionsTo(picture);
     });
+    addLayerMenu(*menu);
     m_panelsMenu = menu->addMenu(tr("&Panels"));
     m_panelsMenu->addActions(m_panels->toggleActions());
     m_panelsMenu->addSeparator();
@@ -120,6 +122,33 @@ void MainWindow::buildViewMenu()
     addTheme(tr("&Light"), Theme::Kind::Light);
     addTheme(tr("&Dark"), Theme::Kind::Dark);
     addTheme(tr("&High contrast"), Theme::Kind::HighContrast);
+}
+
+void MainWindow::addLayerMenu(QMenu &menu)
+{
+    OutputLayers *layers = &m_workbench->layers();
+    QMenu *choices = menu.addMenu(tr("&Output layer"));
+    auto *group = new QActionGroup(choices);
+    const std::pair<QString, OutputLayer> all[]{{tr("Layer: &statistic D"), OutputLayer::Statistic},
+                                                {tr("Layer: winning s&lope"), OutputLayer::Rate},
+                                                {tr("Layer: path &age since the last reset"), OutputLayer::Age},
+                                                {tr("Layer: &resets"), OutputLayer::Reset},
+                                                {tr("Layer: &inhibited cells"), OutputLayer::Inhibited}};
+    for (const auto &[text, layer] : all) {
+        QAction *action = addViewAction(*choices, text, {}, [layers, layer = layer] { layers->setLayer(layer); });
+        action->setCheckable(true);
+        action->setActionGroup(group);
+        const auto check = [layers, action, layer = layer] { action->setChecked(layers->layer() == layer); };
+        connect(layers, &OutputLayers::layerChanged, action, check);
+        check();
+    }
+    choices->addSeparator();
+    addAction(addViewAction(*choices, tr("Layer: &next"), Qt::Key_Y, [layers] { layers->cycleLayer(); }));
+    QAction *overlay = addViewAction(*choices, tr("Layer &over the statistic"), QKeySequence(Qt::SHIFT | Qt::Key_Y), {});
+    overlay->setCheckable(true);
+    connect(overlay, &QAction::toggled, layers, &OutputLayers::setOverlay);
+    connect(layers, &OutputLayers::layerChanged, overlay, [layers, overlay] { overlay->setChecked(layers->isOverlay()); });
+    addAction(overlay);
 }
 
 void MainWindow::buildDetectMenu()
@@ -150,7 +179,7 @@ void MainWindow::buildDetectMenu()
     addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { bench().stepFrames(-1); });
     addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { bench().stepFrames(1); });
     menu->addSeparator();
-    addViewAction(*menu, tr("&State space of pings"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] { showStates(); });
+    addViewAction(*menu, tr("&State space"), Qt::Key_S, [this] { showStates(); });
 }
 
 void MainWindow::buildReviewMenu()

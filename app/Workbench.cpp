@@ -1,5 +1,6 @@
 #include "app/Workbench.h"
 
+#include "app/OutputLayers.h"
 #include "app/statisticUnit.h"
 #include "widgets/ColourBar.h"
 #include "widgets/StripPlot.h"
@@ -97,7 +98,7 @@ namespace {
 
 Workbench::Workbench(Document &document, QWidget *parent)
     : Bench(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
-      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
+      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)), m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
       m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
       m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
 {
@@ -150,6 +151,8 @@ void Workbench::linkViews()
         connect(view, &WaterfallView::hoverEnded, this, &Workbench::readCursor);
     }
     connect(viewport, &Viewport::cursorChanged, this, &Workbench::readCursor);
+    connect(m_layers, &OutputLayers::readingChanged, this, &Workbench::readCursor);
+    connect(m_layers, &OutputLayers::layerChanged, this, &Workbench::showHeading);
 }
 
 void Workbench::setEmptySentence(const QString &sentence)
@@ -180,7 +183,7 @@ void Workbench::showAnalysis()
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
 
     const QString unit = statisticUnit(analysis.settings);
-    m_output->setStatisticUnit(unit, tr("Statistic D (%1)").arg(unit));
+    showHeading();
     m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
     followExtents(analysis.time(), frequency);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
@@ -212,6 +215,17 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
     m_output->setPicture(pictures.statistic, pictures.frequency);
     if (!pictures.statistic)
         m_output->setEmptySentence(tr("The detector listens to the noise first, then its statistic appears here as it goes."));
+}
+
+/// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.
+void Workbench::showHeading()
+{
+    const bool isStatistic = m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay();
+    m_outputPane->findChild<ColourBar *>()->setVisible(isStatistic);
+    if (!m_document.analysis() || m_document.hasPings())
+        return;
+    const QString unit = statisticUnit(m_document.analysis()->settings);
+    m_output->setStatisticUnit(unit, isStatistic ? tr("Statistic D (%1)").arg(unit) : m_layers->heading());
 }
 
 void Workbench::showThreshold()
@@ -266,9 +280,14 @@ void Workbench::placeCursor()
 
 void Workbench::read(const Viewport::Point &point)
 {
-    emit readingChanged({point.seconds, point.hz, m_input->valueAt(point.seconds, point.hz),
-                         m_output->valueAt(point.seconds, point.hz),
-                         m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt});
+    ReadOut::Reading reading{point.seconds, point.hz, m_input->valueAt(point.seconds, point.hz), m_output->valueAt(point.seconds, point.hz),
+                             m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt, {}};
+    if (const auto best = m_layers->readingAt(point)) {
+        reading.slopeHzPerSecond = best->ratePerSecond;
+        reading.ageSeconds = best->ageSeconds;
+        reading.statisticNats = best->statistic;
+    }
+    emit readingChanged(reading);
 }
 
 void Workbench::readCursor()

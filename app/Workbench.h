@@ -11,6 +11,7 @@ class QSplitter;
 
 namespace faintline {
 
+class OutputLayers;
 class StripPlot;
 
 /// The pictures: input and statistic side by side on one viewport, each with its colour bar; curves along time below.
@@ -25,6 +26,7 @@ public:
     WaterfallView *output() const { return m_output; }
     QWidget *inputPane() const { return m_inputPane; } ///< with its colour bar
     QWidget *outputPane() const { return m_outputPane; }
+    OutputLayers &layers() { return *m_layers; }
 
     void setEmptySentence(const QString &sentence) override;
     ViewState viewState() const override;
@@ -52,6 +54,7 @@ private:
     void linkViews();
     void showAnalysis();
     void showPictures(const PicturesSoFar &pictures);
+    void showHeading();
     void showThreshold();
     void showEvents();
     void followExtents(const Axis &time, const Axis &frequency);
@@ -63,6 +66,7 @@ private:
     Document &m_document;
     WaterfallView *m_input;
     WaterfallView *m_output;
+    OutputLayers *m_layers;
     QWidget *m_inputPane;
     QWidget *m_outputPane;
     StripPlot *m_statistic;

@@ -68,6 +68,8 @@ namespace {
         command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
         command->add_option("--range", options.range, "Where the cursor goes in pings, in the range axis's unit");
         command->add_option("--bearing", options.bearing, "Where the cursor goes in pings, degrees");
+        command->add_option("--layer", options.layer, "Of the output: statistic, rate, age, reset or inhibited")->capture_default_str();
+        command->add_flag("--overlay", options.isLayerOver, "The layer over the statistic instead of in its place");
         command->add_option("--theme", options.theme, "light, dark or contrast")
             ->check(CLI::IsMember({"light", "dark", "contrast"}))
             ->capture_default_str();

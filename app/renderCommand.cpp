@@ -5,6 +5,7 @@
 #include "app/LatencyPanel.h"
 #include "app/MainWindow.h"
 #include "app/NoiseFitPanel.h"
+#include "app/OutputLayers.h"
 #include "app/PingBench.h"
 #include "app/SequentialPanel.h"
 #include "app/StateSlicePanel.h"
@@ -139,6 +140,31 @@ namespace {
         testAndSettle(window, [&] { window.sequential().startOnSelection(); });
     }
 
+    void settleLayers(MainWindow &window)
+    {
+        QEventLoop loop;
+        QObject::connect(&window.workbench().layers(), &OutputLayers::settled, &loop, &QEventLoop::quit);
+        if (window.workbench().layers().isBusy())
+            loop.exec();
+    }
+
+    void showLayer(MainWindow &window, const RenderOptions &options)
+    {
+        const auto found = std::find(outputLayerNames.begin(), outputLayerNames.end(), options.layer);
+        if (found == outputLayerNames.end())
+            throw Error("--layer " + options.layer, "is not known; there are statistic, rate, age, reset, inhibited");
+        if (found != outputLayerNames.begin() && window.document().hasPings())
+            throw Error("--layer " + options.layer, "is of lines over frequency; these are pings");
+        OutputLayers &layers = window.workbench().layers();
+        std::optional<Error> failure;
+        QObject::connect(&layers, &OutputLayers::failed, &window, [&](const Error &error) { failure = error; });
+        layers.setOverlay(options.isLayerOver);
+        layers.setLayer(static_cast<OutputLayer>(found - outputLayerNames.begin()));
+        settleLayers(window);
+        if (failure)
+            throw *failure;
+    }
+
     void cutStates(MainWindow &window)
     {
         QEventLoop loop;
@@ -146,6 +172,7 @@ namespace {
         window.showStates();
         if (window.states().isBusy())
             loop.exec();
+        settleLayers(window); // the read-out tells of the state, too
     }
 
     void measureLatency(MainWindow &window)
@@ -167,7 +194,7 @@ namespace {
             measureCurves(window);
         if (has("why"))
             explainCursor(window);
-        for (const char *view : {"map", "polar", "histories", "slice", "latency"})
+        for (const char *view : {"map", "polar", "histories", "latency"})
             if (has(view) && !window.document().hasPings())
                 throw Error(std::string("--view ") + view, "is a picture of pings on range and bearing; these are no such frames");
         if (has("latency"))
@@ -268,11 +295,15 @@ void render(const RenderOptions &options)
         openAndSettle(window, options);
         placeCursor(window, options);
         prepare(window, options.views);
+        showLayer(window, options);
     }
     const bool wasPolar = window.pingBench().output()->isPolar();
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
-        write(pictureOf(*window.view(QString::fromStdString(view)), options.size), fileName(options, view));
+        QWidget &widget = *window.view(QString::fromStdString(view));
+        pictureOf(widget, options.size); // at that size a layer may have more pixels to fill
+        settleLayers(window);
+        write(pictureOf(widget, options.size), fileName(options, view));
     }
 }
 

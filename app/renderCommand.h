@@ -22,6 +22,8 @@ struct RenderOptions {
     std::optional<double> hz;
     std::optional<double> range;   ///< of pings
     std::optional<double> bearing;
+    std::string layer = "statistic"; ///< of the output (outputLayerNames)
+    bool isLayerOver = false;        ///< over the statistic
     std::string theme = "light";
     std::string preset;
     std::vector<std::string> settings; ///< "name=value"

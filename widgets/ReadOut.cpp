@@ -36,16 +36,20 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 2, 8, 2);
     layout->setSpacing(16);
+    layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window its end gives way, the window must not
+    setMinimumWidth(600);
     m_time = addItem(tr("Time"), QStringLiteral("00:00:00.00"));
     m_utc = addItem(tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));
     m_frequency = addItem(tr("Frequency"), QStringLiteral("0000.000 kHz"));
     m_level = addItem(tr("Level"), QStringLiteral("−00.0 dB"));
     m_statistic = addItem(tr("Statistic"), QStringLiteral("000.00 × noise"));
     m_slope = addItem(tr("Slope"), QStringLiteral("−00.000 Hz/s"));
+    m_age = addItem(tr("Path"), {});
     layout->addStretch(1);
     m_level.box->setToolTip(tr("Power over the mean of the noise"));
     m_statistic.box->setToolTip(tr("The detector's statistic D"));
-    m_slope.box->setToolTip(tr("Slope of the best path that ends here"));
+    m_slope.box->setToolTip(tr("Slope of the best state here, or of the track that passes"));
+    m_age.box->setToolTip(tr("Age of the best path that ends here, since its last reset; known while a layer (Y) or the state space (S) is shown"));
     setAccessibleName(tr("Read-out"));
     setStartUnixSeconds({});
     clear();
@@ -104,13 +108,15 @@ void ReadOut::setReading(const Reading &reading)
     show(m_statistic, reading.statisticNats,
          [&](double v) { return numberText(v, decimals) + QLatin1Char(' ') + m_statisticUnit; });
     show(m_slope, reading.slopeHzPerSecond, [](double v) { return powerText(v, 3) + tr(" Hz/s"); });
+    show(m_age, reading.ageSeconds, [this](double v) { return secondsText(v, m_frameSeconds); });
+    m_age.box->setVisible(reading.ageSeconds.has_value());
     setAccessibleDescription(text());
 }
 
 QString ReadOut::text() const
 {
     QStringList words;
-    for (const Item *item : {&m_time, &m_utc, &m_frequency, &m_level, &m_statistic, &m_slope})
+    for (const Item *item : {&m_time, &m_utc, &m_frequency, &m_level, &m_statistic, &m_slope, &m_age})
         if (!item->box->isHidden() && item->value->text() != dash)
             words << item->value->text();
     return words.join(QStringLiteral(" · "));

@@ -21,6 +21,7 @@ public:
         std::optional<double> levelDb; ///< over the noise's mean
         std::optional<double> statisticNats;
         std::optional<double> slopeHzPerSecond; ///< of the best path ending here
+        std::optional<double> ageSeconds;       ///< of that path, since its last reset
     };
 
     explicit ReadOut(QWidget *parent = nullptr);
@@ -48,7 +49,7 @@ private:
     };
     Item addItem(const QString &name, const QString &widest);
 
-    Item m_time, m_utc, m_frequency, m_level, m_statistic, m_slope;
+    Item m_time, m_utc, m_frequency, m_level, m_statistic, m_slope, m_age;
     std::optional<double> m_startUnixSeconds;
     double m_frameSeconds = 0.01;
     double m_binHz = 0.1;

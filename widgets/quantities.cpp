@@ -102,4 +102,21 @@ QString powerText(double value, int digits)
     return isShort ? text : text + QStringLiteral("·") + powerOfTenText(exponent);
 }
 
+FrequencyUnit rateUnit(double largest)
+{
+    if (largest >= 1e4)
+        return {QStringLiteral("kHz/s"), 1e3};
+    if (largest >= 0.1 || !(largest > 0.0))
+        return {QStringLiteral("Hz/s"), 1.0};
+    if (largest >= 1e-4)
+        return {QStringLiteral("mHz/s"), 1e-3};
+    return {QStringLiteral("µHz/s"), 1e-6};
+}
+
+QString rateText(double hzPerSecond)
+{
+    const FrequencyUnit unit = rateUnit(std::abs(hzPerSecond));
+    return powerText(hzPerSecond / unit.hz, 3) + QLatin1Char(' ') + unit.name;
+}
+
 } // namespace faintline

@@ -33,6 +33,12 @@ QString hertzText(double hz, double resolution);
 /// "3·10⁻⁷", or "0.25" where that is short.
 QString powerText(double value, int digits = 2);
 
+/// A drift: "−1.2 Hz/s", "0.38 mHz/s", "19 µHz/s".
+QString rateText(double hzPerSecond);
+
+/// The unit in which drifts of that size are written, "mHz/s", and what it is in Hz/s.
+FrequencyUnit rateUnit(double largestHzPerSecond);
+
 /// "10⁻⁷" from -7.
 QString powerOfTenText(int exponent);
 

@@ -46,6 +46,8 @@ QString settingLabel(const QString &name)
         {"model.lowestSlope", "Lowest slope"},
         {"model.highestSlope", "Highest slope"},
         {"model.slopeChange", "Slope change law"},
+        {"model.rangeRateChange", "Range rate change law"},
+        {"model.bearingRateChange", "Bearing rate change law"},
         {"model.rounding", "Rounding"},
         {"model.likelihood", "Signal law"},
         {"model.snr", "Design SNR"},
@@ -149,7 +151,8 @@ QString choiceLabel(const QString &choice)
 
 bool isSeldomUsed(const QString &name)
 {
-    static const QSet<QString> names{"noise.blockWindows",     "noise.followLevel",   "model.slopeChange",
+    static const QSet<QString> names{"model.rangeRateChange",  "model.bearingRateChange",
+                                     "noise.blockWindows",     "noise.followLevel",   "model.slopeChange",
                                      "model.rounding",         "model.likelihood",    "smd.lnK",
                                      "decide.linkCells",       "decide.inhibitCells", "track.windowCells",
                                      "track.decayNats",        "track.ceilingNats",   "track.smoothingFrames",

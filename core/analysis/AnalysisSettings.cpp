@@ -72,6 +72,27 @@ namespace {
         return row.back();
     }
 
+    void checkLaw(const std::string &name, const std::vector<double> &law, int rateCount)
+    {
+        KinematicAxis axis;
+        axis.cells = 1;
+        axis.rateCount = rateCount;
+        axis.rateChange = law;
+        try {
+            axis.check("model");
+        } catch (const Error &error) {
+            throw Error(name + " = " + formatFieldValue(law), error.why());
+        }
+    }
+
+    SonarMotion turning(const ModelSettings &settings)
+    {
+        SonarMotion motion = manoeuvring();
+        motion.rangeRateChange = settings.rangeRateChange;
+        motion.bearingRateChange = settings.bearingRateChange;
+        return motion;
+    }
+
     /// Parsons' chain with the constants that were found to do well (README of the core).
     AnalysisSettings sonarSettings()
     {
@@ -105,6 +126,9 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
         field(&S::highestSlope, "highestSlope", "bins/frame", -100.0, 100.0, "Most positive slope a line may have."),
         field(&S::slopeChange, "slopeChange", "", 0.0, 1.0,
               "Law h(0), h(1), … of the slope's change from frame to frame; h(0) + 2·(h(1) + …) = 1."),
+        field(&S::rangeRateChange, "rangeRateChange", "", 0.0, 1.0,
+              "Law h(0), h(1), … of a manoeuvring target's change of range rate from ping to ping; h(0) + 2·(h(1) + …) = 1."),
+        field(&S::bearingRateChange, "bearingRateChange", "", 0.0, 1.0, "The same of its bearing rate."),
         field(&S::rounding, "rounding", roundingNames, "How half a bin of movement is rounded."),
         field(&S::likelihood, "likelihood", likelihoodNames,
               "The signal's law: constant amplitude, fluctuating, or the plain power."),
@@ -194,16 +218,9 @@ void checkSettings(const AnalysisSettings &settings)
         throw Error("model.lowestSlope = " + std::to_string(settings.model.lowestSlope), "must not exceed model.highestSlope");
     if (settings.conventional.hits > settings.conventional.window)
         throw Error("conventional.hits = " + std::to_string(settings.conventional.hits), "must not exceed conventional.window");
-    KinematicAxis axis;
-    axis.cells = 1;
-    axis.firstRate = settings.model.lowestSlope;
-    axis.rateCount = settings.model.highestSlope - settings.model.lowestSlope + 1;
-    axis.rateChange = settings.model.slopeChange;
-    try {
-        axis.check("model");
-    } catch (const Error &error) {
-        throw Error("model.slopeChange = " + formatFieldValue(settings.model.slopeChange), error.why());
-    }
+    checkLaw("model.slopeChange", settings.model.slopeChange, settings.model.highestSlope - settings.model.lowestSlope + 1);
+    checkLaw("model.rangeRateChange", settings.model.rangeRateChange, 1);
+    checkLaw("model.bearingRateChange", settings.model.bearingRateChange, 1);
 }
 
 Stage firstStale(const AnalysisSettings &before, const AnalysisSettings &after)
@@ -296,7 +313,7 @@ const Preset &preset(std::string_view name)
 MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
 {
     if (settings.motion != Motion::Slopes)
-        return sonarModel(grid, settings.motion == Motion::Manoeuvring ? manoeuvring() : nonManoeuvring());
+        return sonarModel(grid, settings.motion == Motion::Manoeuvring ? turning(settings) : nonManoeuvring());
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)
         axes.push_back({axis.name, axis.count, axis.cyclic, settings.lowestSlope, settings.highestSlope - settings.lowestSlope + 1,
@@ -308,7 +325,7 @@ std::vector<MarkovModel> makeModels(const ModelSettings &settings, const Grid &g
 {
     if (settings.motion != Motion::Bank)
         return {makeModel(settings, grid)};
-    return {sonarModel(grid, nonManoeuvring()), sonarModel(grid, manoeuvring())};
+    return {sonarModel(grid, nonManoeuvring()), sonarModel(grid, turning(settings))};
 }
 
 } // namespace faintline

@@ -30,6 +30,8 @@ struct ModelSettings {
     int lowestSlope = -2;  ///< slope set, in bins per frame
     int highestSlope = 2;
     std::vector<double> slopeChange{1.0 / 3.0, 1.0 / 3.0}; ///< h(0), h(1), …; h(0) + 2 Σ h(i) = 1
+    std::vector<double> rangeRateChange = std::vector<double>(5, 1.0 / 9.0); ///< h of manoeuvring targets, as Parsons has it
+    std::vector<double> bearingRateChange{0.5, 0.25};
     Rounding rounding = Rounding::HalfDown;
     LikelihoodKind likelihood = LikelihoodKind::Rice;
     double snr = 0.5;      ///< r0 or ρ, power ratio in one frame

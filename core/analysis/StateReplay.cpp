@@ -1,6 +1,5 @@
 #include "analysis/StateReplay.h"
 
-#include "analysis/chain.h"
 #include "detect/Smd.h"
 
 #include <algorithm>
@@ -17,56 +16,51 @@ namespace {
 
 } // namespace
 
-StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget) : m_analysis(std::move(analysis))
+StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
+    : m_replay(std::move(analysis), byteBudget / 2),
+      m_mostKept(std::max<std::size_t>(1, byteBudget / 2 / (sizeof(float) * static_cast<std::size_t>(this->analysis()->model.space.stateCount()))))
 {
-    const std::size_t frameBytes = sizeof(float) * static_cast<std::size_t>(m_analysis->model.space.stateCount());
-    m_mostKept = std::max<std::size_t>(1, byteBudget / frameBytes);
 }
 
 std::shared_ptr<const StateScores> StateReplay::at(Index frame, std::size_t model, const RunContext &context)
 {
-    frame = std::clamp<Index>(frame, 0, m_analysis->time().count - 1);
+    frame = std::clamp<Index>(frame, 0, analysis()->time().count - 1);
     const auto kept = std::find_if(m_kept.begin(), m_kept.end(),
                                    [&](const auto &one) { return one->frame == frame && one->model == model; });
     if (kept != m_kept.end())
         return *kept;
-    if (!m_chain || m_next > frame) {
-        m_chain = makeChain(*m_analysis);
-        m_next = 0;
-    }
-    std::vector<float> y(static_cast<std::size_t>(m_analysis->grid().size()));
-    std::vector<float> statistic(y.size());
-    while (m_next <= frame) {
-        context.checkpoint(static_cast<double>(m_next) / static_cast<double>(frame + 1), "going through it again");
-        m_analysis->frames->read(m_next, 1, y);
-        m_chain->update(m_next, y, statistic);
-        if (frame - m_next < static_cast<Index>(m_mostKept)) {
-            m_kept.push_back(take(m_next, model));
+    m_replay.seek(frame);
+    const Index first = m_replay.next();
+    while (m_replay.next() <= frame) {
+        const Index now = m_replay.next();
+        context.checkpoint(static_cast<double>(now - first) / static_cast<double>(frame + 1 - first), "going through it again");
+        m_replay.step();
+        if (frame - now < static_cast<Index>(m_mostKept)) {
+            m_kept.push_back(std::make_shared<const StateScores>(scoresNow(*analysis(), m_replay.chain(), now, model)));
             if (m_kept.size() > m_mostKept)
                 m_kept.pop_front();
         }
-        ++m_next;
     }
     return m_kept.back();
 }
 
-std::shared_ptr<const StateScores> StateReplay::take(Index frame, std::size_t model) const
+StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Index frame, std::size_t model)
 {
-    auto result = std::make_shared<StateScores>();
-    result->frame = frame;
-    result->model = model;
-    const Detector &detector = m_chain->detector().member(model);
-    result->values.assign(detector.scores().begin(), detector.scores().end());
+    StateScores result;
+    result.frame = frame;
+    result.model = model;
+    const Detector &detector = chain.detector().member(model);
+    result.values.assign(detector.scores().begin(), detector.scores().end());
     const auto *smd = dynamic_cast<const Smd *>(&detector);
     if (const auto offset = static_cast<float>(smd ? smd->offset() : 0.0); offset != 0.0f)
-        for (float &value : result->values)
+        for (float &value : result.values)
             value += offset;
-    if (const auto shift = static_cast<float>(m_analysis->bank.empty() ? 0.0 : m_analysis->bank[model].offset); shift != 0.0f)
-        for (float &value : result->values)
+    if (const auto shift = static_cast<float>(analysis.bank.empty() ? 0.0 : analysis.bank[model].offset); shift != 0.0f)
+        for (float &value : result.values)
             value -= shift;
-    for (const HmmTracker &tracker : m_chain->trackers())
+    for (const HmmTracker &tracker : chain.trackers())
         if (tracker.track().model == model)
-            tracker.paintStates(result->values);
+            tracker.paintStates(result.values);
     return result;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
-#include "track/DetectionChain.h"
+#include "analysis/ChainReplay.h"
 
 #include <cstddef>
 #include <deque>
@@ -21,27 +20,28 @@ struct StateScores {
 /// Looks into an analysis that kept no states: goes through its chain again up to the frame that is asked for.
 ///
 /// From a frame to a later one it goes on from where it stands; the latest frames are kept, so that a few steps back cost nothing;
-/// farther back it starts anew. Same bytes as in the run. Memory: one chain, and as many states as go into 192 MiB, at least one frame's.
+/// farther back it goes on from the checkpoint before, which costs an interval at most (ChainReplay). Same bytes as in the run. Memory: one
+/// chain, and as many frames' states and as many checkpoints as go into half of 192 MiB each, at least one.
 /// Cost: the detector's per frame. One object per thread.
 class StateReplay
 {
 public:
     explicit StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget = std::size_t(192) << 20);
 
-    const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
+    const std::shared_ptr<const Analysis> &analysis() const { return m_replay.analysis(); }
+    Index interval() const { return m_replay.interval(); } ///< frames between checkpoints
 
     /// Frame 0 … count-1 (clamped). Throws Cancelled.
     std::shared_ptr<const StateScores> at(Index frame, std::size_t model = 0, const RunContext &context = {});
 
 private:
-    std::shared_ptr<const StateScores> take(Index frame, std::size_t model) const;
-
-    std::shared_ptr<const Analysis> m_analysis;
+    ChainReplay m_replay;
     std::size_t m_mostKept;
-    std::unique_ptr<DetectionChain> m_chain;
-    Index m_next = 0; ///< the frame the chain takes next
     std::deque<std::shared_ptr<const StateScores>> m_kept;
 };
+
+/// The scores of all states after the chain's last frame, as the statistic shows them.
+StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Index frame, std::size_t model = 0);
 
 /// The axes of a state: the grid's axes, then the rate along each of them in its unit a second.
 std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model = 0);

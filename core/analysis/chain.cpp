@@ -119,4 +119,10 @@ std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
     return makeChain(analysis, makeDetector(analysis));
 }
 
+std::unique_ptr<DetectionChain> makeScoringChain(const Analysis &analysis)
+{
+    constexpr bool looksBack = false;
+    return makeChain(analysis, makeDetector(analysis), looksBack);
+}
+
 } // namespace faintline

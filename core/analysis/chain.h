@@ -9,6 +9,8 @@ namespace faintline {
 
 /// The detection chain that an analysis's settings, model, calibration and threshold describe, at its first frame.
 std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis);
+/// The same that does not trace tracks back to their onset: for who only wants its scores.
+std::unique_ptr<DetectionChain> makeScoringChain(const Analysis &analysis);
 
 /// The detector, or bank of detectors, of such a chain at its first frame, and the chain round a detector that may have settled on noise.
 std::unique_ptr<Detector> makeDetector(const Analysis &analysis);

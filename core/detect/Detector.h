@@ -59,6 +59,14 @@ public:
     };
     virtual Regulation regulation() const { return {}; }
 
+    /// All that the next frame depends on; recalling it resumes bit for bit. Null: the detector cannot tell.
+    struct Remembrance {
+        virtual ~Remembrance() = default;
+    };
+    virtual std::shared_ptr<const Remembrance> remembrance() const { return {}; }
+    /// One of this detector's, or of another one made alike.
+    virtual void recall(const Remembrance & /*remembrance*/) {}
+
     /// A bank of models is made of detectors; any other detector is its own only member.
     virtual std::size_t memberCount() const { return 1; }
     virtual const Detector &member(std::size_t /*number*/) const { return *this; }

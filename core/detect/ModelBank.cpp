@@ -51,4 +51,26 @@ void ModelBank::useThreads(int threads)
         detector.useThreads(threads);
 }
 
+struct ModelBank::Remembered final : Detector::Remembrance {
+    std::vector<std::shared_ptr<const Remembrance>> members;
+    std::vector<unsigned char> winners;
+};
+
+std::shared_ptr<const Detector::Remembrance> ModelBank::remembrance() const
+{
+    auto result = std::make_shared<Remembered>();
+    for (const Smd &detector : m_detectors)
+        result->members.push_back(detector.remembrance());
+    result->winners = m_winners;
+    return result;
+}
+
+void ModelBank::recall(const Remembrance &remembrance)
+{
+    const auto &remembered = static_cast<const Remembered &>(remembrance);
+    for (std::size_t i = 0; i < m_detectors.size(); ++i)
+        m_detectors[i].recall(*remembered.members[i]);
+    m_winners = remembered.winners;
+}
+
 } // namespace faintline

@@ -35,11 +35,16 @@ public:
     /// The first member's.
     Regulation regulation() const override { return m_detectors.front().regulation(); }
 
+    std::shared_ptr<const Remembrance> remembrance() const override;
+    void recall(const Remembrance &remembrance) override;
+
     std::size_t memberCount() const override { return m_detectors.size(); }
     const Detector &member(std::size_t number) const override { return m_detectors[number]; }
     std::size_t winnerAt(Index cell) const override { return m_winners[static_cast<std::size_t>(cell)]; }
 
 private:
+    struct Remembered;
+
     std::vector<Smd> m_detectors;
     std::vector<float> m_offsets;
     std::vector<unsigned char> m_winners; ///< of each cell, in the last frame

@@ -137,6 +137,30 @@ void Smd::forget(const Grid &grid, const CellBox &box)
     });
 }
 
+/// The memory, and what a chain asks for before the next frame.
+struct Smd::Remembered final : Detector::Remembrance {
+    Memory memory;
+    Regulation regulation;
+    std::vector<Index> inhibited;
+};
+
+std::shared_ptr<const Detector::Remembrance> Smd::remembrance() const
+{
+    auto result = std::make_shared<Remembered>();
+    result->memory = memory();
+    result->regulation = m_regulation;
+    result->inhibited = m_inhibited;
+    return result;
+}
+
+void Smd::recall(const Remembrance &remembrance)
+{
+    const auto &remembered = static_cast<const Remembered &>(remembrance);
+    restore(remembered.memory);
+    m_regulation = remembered.regulation;
+    m_inhibited = remembered.inhibited;
+}
+
 void Smd::restore(const Memory &memory)
 {
     m_scores = memory.scores;

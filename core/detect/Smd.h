@@ -69,7 +69,12 @@ public:
     Memory memory() const { return {m_scores, m_lnK, m_offset, m_isFirst}; }
     void restore(const Memory &memory);
 
+    std::shared_ptr<const Remembrance> remembrance() const override;
+    void recall(const Remembrance &remembrance) override;
+
 private:
+    struct Remembered;
+
     void start(std::span<const float> y, std::span<float> statistic);
     void advance(std::span<const float> y, std::span<float> statistic, std::span<Continued> continued);
     Continued inhibitedPart(std::span<const float> y) const;

@@ -335,6 +335,51 @@ DetectionChain::PathInto DetectionChain::pathInto(Index cell) const
     return path;
 }
 
+struct DetectionChain::Snapshot {
+    std::shared_ptr<const Detector::Remembrance> detector;
+    std::vector<HmmTracker> trackers;
+    std::vector<CellBox> boxes;
+    std::vector<CellBox> newBoxes;
+    std::vector<int> boxTracks;
+    int nextId = 1;
+};
+
+std::shared_ptr<const DetectionChain::Snapshot> DetectionChain::snapshot() const
+{
+    auto detector = m_detector->remembrance();
+    if (!detector)
+        return {};
+    auto result = std::make_shared<Snapshot>();
+    result->detector = std::move(detector);
+    for (const HmmTracker &tracker : m_trackers)
+        result->trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.track().model]));
+    result->boxes = m_boxes;
+    result->newBoxes = m_newBoxes;
+    result->boxTracks = m_boxTracks;
+    result->nextId = m_nextId;
+    return result;
+}
+
+void DetectionChain::resume(const Snapshot &snapshot)
+{
+    m_detector->recall(*snapshot.detector);
+    m_trackers.clear();
+    for (const HmmTracker &tracker : snapshot.trackers)
+        m_trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.track().model]));
+    m_ended.clear();
+    m_boxes = snapshot.boxes;
+    m_newBoxes = snapshot.newBoxes;
+    m_boxTracks = snapshot.boxTracks;
+    m_nextId = snapshot.nextId;
+    m_seen.clear();
+    m_checkpoints.clear();
+}
+
+std::span<const CellBox> DetectionChain::forgotten() const
+{
+    return m_settings.resets ? std::span<const CellBox>(forgottenBoxes()) : std::span<const CellBox>();
+}
+
 void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<const float> y)
 {
     const Index state = bestState(cluster.peakCell);

@@ -74,6 +74,15 @@ public:
     /// The detector's best path into a state of the newest frame, by one of its models.
     std::vector<PathStep> detectorPathInto(Index state, std::size_t model = 0) const;
 
+    /// What the next frames' statistic depends on; null where the detector cannot tell.
+    struct Snapshot;
+    std::shared_ptr<const Snapshot> snapshot() const;
+    /// Goes on from there, with the same bytes; `snapshot` is of this chain or of one made alike. Paths and tracks begin anew.
+    void resume(const Snapshot &snapshot);
+
+    /// The boxes that the detector forgets before it takes the next frame.
+    std::span<const CellBox> forgotten() const;
+
     /// The boxes kept from the detector in the last frame, those of tracks started in it included.
     const std::vector<CellBox> &inhibited() const { return m_boxes; }
 

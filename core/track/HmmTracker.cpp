@@ -149,6 +149,21 @@ HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<
         m_track.points.pop_back(); // the detection frame's point is traced with the rest
 }
 
+HmmTracker HmmTracker::withoutPast(TrackerModel &model) const
+{
+    HmmTracker result;
+    result.m_model = &model;
+    result.m_track = m_track;
+    result.m_track.points.clear();
+    result.m_history.push_back(m_history.back());
+    result.m_levels = m_levels;
+    result.m_best = m_best;
+    result.m_beside = m_beside;
+    result.m_statistic = m_statistic;
+    result.m_level = m_level;
+    return result;
+}
+
 bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
 {
     TrackerModel &model = *m_model;
@@ -283,6 +298,22 @@ double HmmTracker::scoreAt(Index cell, Index *state) const
         }
     }
     return best;
+}
+
+std::vector<HmmTracker::Origin> HmmTracker::origins() const
+{
+    const TrackerModel &model = *m_model;
+    const Slice &newest = m_history.back();
+    std::vector<Origin> result;
+    for (Index local = 0; local < model.window.stateCount(); ++local) {
+        const Index cell = model.windowCell(newest.centre, model.window.cellOf(local));
+        if (cell < 0 || newest.scores[static_cast<std::size_t>(local)] == unreached)
+            continue;
+        const Index state = model.window.planeOf(local) * model.space.cellCount() + cell;
+        double lnTransition = 0.0;
+        result.push_back({state, m_history.size() < 2 ? state : predecessorIn(m_history[m_history.size() - 2], state, lnTransition)});
+    }
+    return result;
 }
 
 std::vector<PathStep> HmmTracker::explain(Index state) const

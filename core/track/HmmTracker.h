@@ -76,6 +76,9 @@ public:
     HmmTracker(HmmTracker &&) noexcept = default;
     HmmTracker &operator=(HmmTracker &&) noexcept = default;
 
+    /// One that follows the signal on as this one does, to the bit, but knows no path before the newest frame.
+    HmmTracker withoutPast(TrackerModel &model) const;
+
     /// Takes the log-likelihood ratios of a whole frame; false when the track has ended.
     bool update(Index frame, std::span<const float> lambda, double lnK);
 
@@ -98,6 +101,13 @@ public:
     /// Score of the best state in a cell, -∞ outside of the window; and that state.
     double scoreAt(Index cell, Index *state = nullptr) const;
 
+    /// The states of the newest frame's window that can be reached, and where each came from in the frame before (itself when seeded).
+    struct Origin {
+        Index state;
+        Index before;
+    };
+    std::vector<Origin> origins() const;
+
     /// The terms of the path to a state in the newest frame, back to the state it was seeded from (first step, score only).
     /// As far as the history goes: ask for a long smoothing lag first.
     std::vector<PathStep> explain(Index state) const;
@@ -116,13 +126,14 @@ private:
         double lnK = 0.0;
     };
 
+    HmmTracker() = default;
     Slice cutOut(Index frame, const std::vector<Index> &centre, std::span<const float> lambda, double lnK) const;
     void follow(Index frame, std::span<const float> lambda, double lnK);
     Index predecessorIn(const Slice &earlier, Index state, double &lnTransition) const;
     Index localOf(const Slice &slice, Index state) const;
     void commit(std::size_t count);
 
-    TrackerModel *m_model;
+    TrackerModel *m_model = nullptr;
     Track m_track;
     std::deque<Slice> m_history;
     std::vector<double> m_levels; ///< one a frame from detection on

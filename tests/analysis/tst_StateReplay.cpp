@@ -102,6 +102,35 @@ private slots:
         }
     }
 
+    void farBackGoesOnFromACheckpoint()
+    {
+        PingScene longer = scene();
+        longer.pings = 60;
+        longer.targets[0].vanishPing = 40;
+        const auto frames = std::make_shared<SimulatedPings>(longer);
+        for (const SmdSettings::Reset reset : {SmdSettings::Reset::Mean, SmdSettings::Reset::Half}) {
+            AnalysisSettings chosen = settings();
+            chosen.detector = SmdSettings{reset, 0.0};
+            const auto analysis = analyse(frames, chosen);
+            QVERIFY(!analysis->tracks.empty());
+            constexpr std::size_t fewFrames = 4 * 60 * 6 * 9 * sizeof(float);
+            StateReplay replay(analysis, 2 * fewFrames); // four checkpoints, four frames
+            QVERIFY2(replay.interval() == 15, qPrintable(QString::number(replay.interval())));
+            std::map<Index, std::vector<float>> straight;
+            StateReplay whole(analysis);
+            for (Index frame = 0; frame < 60; ++frame)
+                straight[frame] = whole.at(frame)->values;
+            for (const Index frame : {59, 30, 14, 15, 16, 45, 44, 29, 52, 3}) {
+                int steps = 0;
+                RunContext context;
+                context.progress = [&](double, std::string_view) { ++steps; };
+                QCOMPARE(replay.at(frame, 0, context)->values, straight[frame]);
+                if (frame != 59)
+                    QVERIFY2(steps <= 15, qPrintable(QString::number(steps)));
+            }
+        }
+    }
+
     void aCancelledLookIsTakenUpAgain()
     {
         StateReplay replay(run().analysis);

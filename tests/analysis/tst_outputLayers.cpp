@@ -1,0 +1,179 @@
+#include "analysis/outputLayers.h"
+
+#include "analysis/explain.h"
+#include "base/Random.h"
+
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace faintline;
+
+namespace {
+
+constexpr Index frameCount = 120;
+constexpr Index cellCount = 64;
+
+/// Noise with a line that climbs a cell every third frame from frame 30 to 89.
+std::shared_ptr<const Analysis> lineInNoise(SmdSettings::Reset reset)
+{
+    std::vector<float> y(static_cast<std::size_t>(frameCount * cellCount));
+    Random random(5, 1);
+    random.exponentials(y);
+    for (Index frame = 30; frame < 90; ++frame)
+        y[static_cast<std::size_t>(frame * cellCount + 20 + (frame - 30) / 3)] += 5.0f;
+    AnalysisSettings settings;
+    settings.detector = SmdSettings{reset, 0.6};
+    settings.decide.by = DecideSettings::By::Nats;
+    settings.decide.thresholdNats = 14.0;
+    settings.model.slopeChange = {0.5, 0.2, 0.05};
+    const Grid grid{{{"frequency", "Hz", 100.0, 0.5, cellCount, false}}};
+    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frameCount, false}, grid, std::move(y)), settings);
+}
+
+const std::shared_ptr<const Analysis> &analysed()
+{
+    static const auto result = lineInNoise(SmdSettings::Reset::Fixed);
+    return result;
+}
+
+} // namespace
+
+class tst_outputLayers : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void ageAndRateAreThoseOfTheTracedPath_data()
+    {
+        QTest::addColumn<int>("reset");
+        QTest::newRow("fixed") << static_cast<int>(SmdSettings::Reset::Fixed);
+        QTest::newRow("half") << static_cast<int>(SmdSettings::Reset::Half);
+    }
+
+    void ageAndRateAreThoseOfTheTracedPath()
+    {
+        QFETCH(int, reset);
+        const auto analysis = lineInNoise(static_cast<SmdSettings::Reset>(reset));
+        QVERIFY(!analysis->tracks.empty()); // so some cells are a tracker's
+        LayerReplay replay(analysis);
+        int tracked = 0;
+        int longPaths = 0;
+        for (const Index frame : {0, 1, 7, 33, 50, 71, 92, 119}) {
+            const CellLayers &layers = replay.at(frame);
+            QCOMPARE(layers.frame, frame);
+            for (Index cell = frame % 3; cell < cellCount; cell += 2) {
+                const Explanation why = explain(*analysis, analysis->time().value(static_cast<double>(frame)),
+                                                {analysis->grid().axes[0].value(static_cast<double>(cell))});
+                const QByteArray where = QByteArray::number(frame) + " " + QByteArray::number(cell);
+                const auto i = static_cast<std::size_t>(cell);
+                QVERIFY2(static_cast<double>(layers.statistic[i]) == why.displayed, where);
+                QVERIFY2(layers.age[i] + 1 == std::ssize(why.steps), where);
+                QVERIFY2(layers.plane[i] == analysis->model.space.planeOf(why.steps.back().state), where);
+                tracked += why.isTracked ? 1 : 0;
+                longPaths += layers.age[i] > 20 ? 1 : 0;
+            }
+        }
+        QVERIFY(tracked > 5);
+        QVERIFY(longPaths > 5);
+    }
+
+    void backwardsIsTheSame()
+    {
+        LayerReplay straight(analysed());
+        std::vector<CellLayers> all;
+        for (Index frame = 0; frame < frameCount; ++frame)
+            all.push_back(straight.at(frame));
+        LayerReplay back(analysed(), 2 * 6 * static_cast<std::size_t>(cellCount * 5) * sizeof(float)); // six checkpoints
+        for (const Index frame : {119, 118, 70, 40, 39, 60, 61, 20, 5, 0, 90}) {
+            const CellLayers &layers = back.at(frame);
+            const CellLayers &expected = all[static_cast<std::size_t>(frame)];
+            QCOMPARE(layers.statistic, expected.statistic);
+            QCOMPARE(layers.plane, expected.plane);
+            QCOMPARE(layers.age, expected.age);
+            QCOMPARE(layers.resetFraction, expected.resetFraction);
+            QCOMPARE(layers.isInhibited, expected.isInhibited);
+        }
+    }
+
+    void resetFractionsAddUpToTheRuns()
+    {
+        // No track, nothing inhibited: the mean over all cells is what the run counted.
+        AnalysisSettings settings = analysed()->settings;
+        settings.decide.thresholdNats = 1000.0;
+        const auto analysis = analyse(analysed()->frames, settings);
+        LayerReplay replay(analysis);
+        for (Index frame = 1; frame < frameCount; frame += 13) {
+            const CellLayers &layers = replay.at(frame);
+            double sum = 0.0;
+            for (const float fraction : layers.resetFraction)
+                sum += static_cast<double>(fraction);
+            const double continued = 1.0 - sum / static_cast<double>(cellCount);
+            QVERIFY(std::abs(continued - static_cast<double>(analysis->continuedFraction[static_cast<std::size_t>(frame)])) < 1e-6);
+        }
+    }
+
+    void aLineOfOneBinSurvives()
+    {
+        LayerReplay replay(analysed());
+        const LayerPicture fine = layerPicture(replay, {0, frameCount, 0, cellCount, 1000, 1000});
+        QCOMPARE(fine.rows, frameCount);
+        QCOMPARE(fine.columns, cellCount);
+        const LayerPicture coarse = layerPicture(replay, {0, frameCount, 0, cellCount, 12, 8});
+        QCOMPARE(coarse.framesPerRow, Index(10));
+        QCOMPARE(coarse.cellsPerColumn, Index(8));
+        QCOMPARE(coarse.rows, Index(12));
+        QCOMPARE(coarse.columns, Index(8));
+        for (Index row = 0; row < coarse.rows; ++row)
+            for (Index column = 0; column < coarse.columns; ++column) {
+                std::size_t best = static_cast<std::size_t>(10 * row * cellCount + 8 * column);
+                float inhibited = 0.0f;
+                for (Index frame = 10 * row; frame < 10 * row + 10; ++frame)
+                    for (Index cell = 8 * column; cell < 8 * column + 8; ++cell) {
+                        const auto i = static_cast<std::size_t>(frame * cellCount + cell);
+                        best = fine.statistic[i] > fine.statistic[best] ? i : best;
+                        inhibited = std::max(inhibited, fine.inhibited[i]);
+                    }
+                const auto pixel = static_cast<std::size_t>(row * 8 + column);
+                QCOMPARE(coarse.statistic[pixel], fine.statistic[best]);
+                QCOMPARE(coarse.rate[pixel], fine.rate[best]);
+                QCOMPARE(coarse.age[pixel], fine.age[best]);
+                QCOMPARE(coarse.resetFraction[pixel], fine.resetFraction[best]);
+                QCOMPARE(coarse.inhibited[pixel], inhibited);
+            }
+        // The line has lived for seconds, and climbs.
+        const auto onLine = static_cast<std::size_t>(8 * 8 + 4); // frames 80 … 89, cells 32 … 39
+        QVERIFY(coarse.age[onLine] > 8.0f);
+        QVERIFY(coarse.statistic[onLine] > 14.0f);
+        QCOMPARE(coarse.inhibited[onLine], 1.0f);
+        QCOMPARE(coarse.values(OutputLayer::Age), coarse.age);
+    }
+
+    void aWindowIsAPartOfTheWhole()
+    {
+        LayerReplay replay(analysed());
+        const LayerPicture whole = layerPicture(replay, {0, frameCount, 0, cellCount, 60, 32}); // by 2 × 2
+        const LayerPicture part = layerPicture(replay, {41, 60, 11, 30, 10, 10});
+        QCOMPARE(part.framesPerRow, Index(2));
+        QCOMPARE(part.cellsPerColumn, Index(2));
+        QCOMPARE(part.firstRow, Index(20));
+        QCOMPARE(part.firstColumn, Index(5));
+        for (Index row = 0; row < part.rows; ++row)
+            for (Index column = 0; column < part.columns; ++column)
+                QCOMPARE(part.age[static_cast<std::size_t>(row * part.columns + column)],
+                         whole.age[static_cast<std::size_t>((part.firstRow + row) * whole.columns + part.firstColumn + column)]);
+    }
+
+    void aCellsReading()
+    {
+        LayerReplay replay(analysed());
+        const CellReading reading = readCell(*analysed(), replay.at(80), 20 + 50 / 3);
+        QVERIFY(reading.ageSeconds > 8.0);
+        QVERIFY(reading.isInhibited);
+        QVERIFY(std::abs(std::remainder(reading.ratePerSecond, 0.5 / 0.25)) < 1e-12);
+    }
+};
+
+QTEST_GUILESS_MAIN(tst_outputLayers)
+#include "tst_outputLayers.moc"

@@ -1,0 +1,292 @@
+// The states of a line's frames, the law by which they follow each other, and what else the detector says of its output.
+
+#include "app/LawPanel.h"
+#include "app/MainWindow.h"
+#include "app/OutputLayers.h"
+#include "app/StateSlicePanel.h"
+#include "app/WelcomePage.h"
+#include "app/Workbench.h"
+#include "widgets/LawPlot.h"
+#include "widgets/LayerItem.h"
+#include "widgets/SliceMarks.h"
+
+#include <qwt_plot_canvas.h>
+
+#include <QFile>
+#include <QSignalSpy>
+#include <QTabBar>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 120000; // ms
+
+const char *const lineScene = R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 40,
+    "lines": [{"snrDb": 9, "frequencyHz": 200, "driftHzPerSecond": 0.5}]})";
+
+bool openAndSettle(MainWindow &window, const QString &path)
+{
+    QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+    window.open(path, {}, [](AnalysisSettings &settings) {
+        settings.spectrogram.windowSeconds = 0.5;
+        settings.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.8};
+        settings.decide.by = DecideSettings::By::Nats;
+        settings.decide.thresholdNats = 20.0;
+    });
+    return settled.wait(patience);
+}
+
+double total(const std::vector<double> &law)
+{
+    double sum = -law.front();
+    for (const double h : law)
+        sum += 2.0 * h;
+    return sum;
+}
+
+/// Takes a bar a little below its top and moves it by so much of the ordinate.
+void dragBar(LawPlot &plot, int change, double by, bool isLetGo = true)
+{
+    const auto i = static_cast<std::size_t>(std::abs(change));
+    const double h = i < plot.law().size() ? plot.law()[i] : 0.0;
+    const QPoint from = plot.canvasPosition(change, 0.5 * h).toPoint();
+    const QPoint to = plot.canvasPosition(change, 0.5 * h + by).toPoint();
+    QTest::mousePress(plot.canvas(), Qt::LeftButton, {}, from);
+    QTest::mouseMove(plot.canvas(), (from + to) / 2);
+    QTest::mouseMove(plot.canvas(), to);
+    if (isLetGo)
+        QTest::mouseRelease(plot.canvas(), Qt::LeftButton, {}, to);
+}
+
+bool settleStates(MainWindow &window)
+{
+    QSignalSpy settled(&window.states(), &StateSlicePanel::settled);
+    return !window.states().isBusy() || settled.wait(patience);
+}
+
+bool settleLayers(MainWindow &window)
+{
+    QSignalSpy settled(&window.workbench().layers(), &OutputLayers::settled);
+    return !window.workbench().layers().isBusy() || settled.wait(patience);
+}
+
+} // namespace
+
+class tst_StateSpace : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+
+    QString path() const { return m_folder.filePath(QStringLiteral("line.json")); }
+    LawPlot &law() { return *m_window->states().law().plot(0); }
+    const std::vector<double> &setting() { return m_window->document().settings().model.slopeChange; }
+    bool settle()
+    {
+        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
+        return !m_window->controller().isBusy() || settled.wait(patience);
+    }
+
+private slots:
+    void initTestCase()
+    {
+        Theme::apply(Theme::Kind::Light);
+        QFile file(path());
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(lineScene);
+    }
+
+    void init()
+    {
+        m_window = std::make_unique<MainWindow>();
+        m_window->setAsking(false);
+        m_window->resize(1400, 1000);
+        m_window->show();
+        m_window->welcome().stop();
+        QVERIFY(openAndSettle(*m_window, path()));
+    }
+
+    void cleanup() { m_window.reset(); }
+
+    void theSliceFollowsTheCursor()
+    {
+        m_window->showStates();
+        QVERIFY(settleStates(*m_window));
+        StateSlicePanel &states = m_window->states();
+        const Analysis &analysis = *m_window->document().analysis();
+        QCOMPARE(states.view()->picture()->cells(), analysis.grid().size());
+        QCOMPARE(states.view()->picture()->rowCount(0), Index(5)); // slopes
+        QVERIFY(states.marks().best());
+        // The line's frames: the best state is the line's, and a track goes through it.
+        Viewport &viewport = m_window->document().viewport();
+        const double seconds = analysis.time().value(static_cast<double>(analysis.time().nearest(30.0)));
+        viewport.setCursor({seconds, 205.0});
+        QVERIFY(settleStates(*m_window));
+        QVERIFY(std::abs(states.marks().best()->column - (200.0 + 0.5 * seconds)) < 3.0);
+        QVERIFY(!states.marks().paths().empty());
+        const QString there = states.sentence();
+        QVERIFY2(there.startsWith(QStringLiteral("Frame %1 at").arg(analysis.time().nearest(30.0) + 1)), qPrintable(there));
+        // Step on, and back: the same picture.
+        const auto row = [&] { return std::vector<std::uint8_t>(states.view()->picture()->row(0, 2).begin(), states.view()->picture()->row(0, 2).end()); };
+        const auto before = row();
+        QTest::keyClick(m_window->workbench().output(), Qt::Key_L);
+        QVERIFY(settleStates(*m_window));
+        QVERIFY(states.sentence() != there);
+        QTest::keyClick(m_window->workbench().output(), Qt::Key_J);
+        QVERIFY(settleStates(*m_window));
+        QCOMPARE(states.sentence(), there);
+        QCOMPARE(row(), before);
+        // A click in the slice takes its frequency, not its slope.
+        const QPointF at = states.view()->positionOf({states.view()->viewport()->time().high * 0.8, 300.0});
+        QTest::mouseClick(states.view()->canvas(), Qt::LeftButton, {}, at.toPoint());
+        QVERIFY(std::abs(viewport.cursor()->hz - 300.0) < 5.0);
+        QCOMPARE(viewport.cursor()->seconds, seconds);
+    }
+
+    void frequenciesAreTheWaterfalls()
+    {
+        m_window->showStates();
+        QVERIFY(settleStates(*m_window));
+        Viewport &viewport = m_window->document().viewport();
+        viewport.zoomTo(viewport.time(), {150.0, 250.0});
+        QCOMPARE(m_window->states().view()->viewport()->frequency(), (Span{150.0, 250.0}));
+        m_window->states().view()->viewport()->zoomTo(m_window->states().view()->viewport()->time(), {180.0, 220.0});
+        QCOMPARE(viewport.frequency(), (Span{180.0, 220.0}));
+    }
+
+    void aBarIsDraggedAndUndone()
+    {
+        m_window->showStates();
+        m_window->states().tabs()->setCurrentIndex(1);
+        QVERIFY(settleStates(*m_window));
+        QVERIFY(law().isVisible());
+        const std::vector<double> before = setting();
+        const QString words = m_window->states().law().sentence();
+        QVERIFY(words.contains(QStringLiteral("1.10 nat")));
+        const int steps = m_window->document().undoStack().count();
+
+        dragBar(law(), 0, 0.3);
+        QVERIFY2(std::abs(setting()[0] - (before[0] + 0.3)) < 0.02, qPrintable(QString::number(setting()[0])));
+        QVERIFY(std::abs(total(setting()) - 1.0) < 1e-9);
+        QCOMPARE(m_window->document().undoStack().count(), steps + 1);
+        QVERIFY(m_window->states().law().sentence() != words);
+        QVERIFY(settle());
+        QCOMPARE(m_window->document().analysis()->model.space.axes()[0].rateChange, setting());
+
+        // The one more bar that stands ready, on the other side.
+        QCOMPARE(law().reach(), 2);
+        dragBar(law(), -2, 0.1);
+        QCOMPARE(setting().size(), std::size_t(3));
+        QVERIFY(std::abs(setting()[2] - 0.1) < 0.02);
+        QVERIFY(std::abs(total(setting()) - 1.0) < 1e-9);
+
+        m_window->document().undoStack().undo();
+        m_window->document().undoStack().undo();
+        QCOMPARE(setting(), before);
+        QCOMPARE(law().law(), before);
+    }
+
+    void escapeLetsItBe()
+    {
+        m_window->showStates();
+        m_window->states().tabs()->setCurrentIndex(1);
+        const std::vector<double> before = setting();
+        dragBar(law(), 0, 0.3, false);
+        QVERIFY(law().law() != before); // seen while it is dragged
+        QCOMPARE(setting(), before);
+        QTest::keyClick(&law(), Qt::Key_Escape);
+        QTest::mouseRelease(law().canvas(), Qt::LeftButton);
+        QCOMPARE(law().law(), before);
+        QCOMPARE(setting(), before);
+    }
+
+    void barsMoveByKey()
+    {
+        m_window->showStates();
+        m_window->states().tabs()->setCurrentIndex(1);
+        law().setFocus();
+        QCOMPARE(law().selected(), 0);
+        QTest::keyClick(&law(), Qt::Key_Right);
+        QCOMPARE(law().selected(), 1);
+        QTest::keyClick(&law(), Qt::Key_Down);
+        QVERIFY(std::abs(setting()[1] - 0.32) < 1e-12);
+        QVERIFY(std::abs(setting()[0] - 0.36) < 1e-12);
+        QTest::keyClick(&law(), Qt::Key_Up, Qt::ShiftModifier);
+        QVERIFY(std::abs(setting()[1] - 0.4) < 1e-12);
+        QTest::keyClick(&law(), Qt::Key_Down, Qt::ControlModifier);
+        QVERIFY(std::abs(setting()[1] - 0.399) < 1e-12);
+        QVERIFY(std::abs(total(setting()) - 1.0) < 1e-9);
+    }
+
+    void layersByKey()
+    {
+        OutputLayers &layers = m_window->workbench().layers();
+        WaterfallView &output = *m_window->workbench().output();
+        QCOMPARE(layers.layer(), OutputLayer::Statistic);
+        QVERIFY(!layers.item().picture());
+        const QImage statistic = output.grab().toImage();
+        QTest::keyClick(&output, Qt::Key_Y);
+        QCOMPARE(layers.layer(), OutputLayer::Rate);
+        QVERIFY(settleLayers(*m_window));
+        QVERIFY(layers.item().picture());
+        const QImage rate = output.grab().toImage();
+        QVERIFY(rate != statistic);
+        QVERIFY(output.title().text().contains(QStringLiteral("slope")));
+        QTest::keyClick(&output, Qt::Key_Y, Qt::ShiftModifier);
+        QVERIFY(layers.isOverlay());
+        QVERIFY(output.grab().toImage() != rate);
+        QVERIFY(output.title().text().contains(QStringLiteral("Statistic")));
+        for (int i = 0; i < 4; ++i)
+            QTest::keyClick(&output, Qt::Key_Y);
+        QCOMPARE(layers.layer(), OutputLayer::Statistic);
+        QVERIFY(settleLayers(*m_window));
+    }
+
+    void aLayerIsOfWhatIsSeen()
+    {
+        OutputLayers &layers = m_window->workbench().layers();
+        layers.setLayer(OutputLayer::Age);
+        QVERIFY(settleLayers(*m_window));
+        const Index whole = layers.item().picture()->rows * layers.item().picture()->framesPerRow;
+        QVERIFY(whole >= m_window->document().analysis()->time().count);
+        m_window->document().viewport().zoomTo({10.0, 14.0}, {190.0, 230.0});
+        QVERIFY(settleLayers(*m_window));
+        const LayerPicture &picture = *layers.item().picture();
+        QCOMPARE(picture.framesPerRow, Index(1));
+        QCOMPARE(picture.cellsPerColumn, Index(1));
+        QVERIFY(picture.rows < 25);
+        QCOMPARE(picture.firstRow, m_window->document().analysis()->time().nearest(10.0));
+        // The read-out's figures are the cell's own.
+        m_window->document().viewport().setCursor({13.0, 206.5});
+        QVERIFY(settleLayers(*m_window));
+        const auto reading = layers.readingAt({13.0, 206.5});
+        QVERIFY(reading);
+        LayerReplay replay(m_window->document().analysis());
+        const Analysis &analysis = *m_window->document().analysis();
+        const CellReading exact = readCell(analysis, replay.at(analysis.time().nearest(13.0)), analysis.grid().axes[0].nearest(206.5));
+        QCOMPARE(reading->ageSeconds, exact.ageSeconds);
+        QCOMPARE(reading->ratePerSecond, exact.ratePerSecond);
+        QCOMPARE(reading->statistic, exact.statistic);
+    }
+
+    void nothingIsComputedUnasked()
+    {
+        OutputLayers &layers = m_window->workbench().layers();
+        m_window->document().viewport().setCursor({20.0, 210.0});
+        QVERIFY(!layers.isBusy());
+        QVERIFY(!layers.readingAt({20.0, 210.0}));
+        m_window->showStates();
+        QVERIFY(settleLayers(*m_window));
+        QVERIFY(layers.readingAt({20.0, 210.0})); // watched with the states
+    }
+};
+
+QTEST_MAIN(tst_StateSpace)
+#include "tst_StateSpace.moc"
