@@ -10,6 +10,9 @@
 #include "app/InjectDialog.h"
 #include "app/KeysOverlay.h"
 #include "app/LatencyPanel.h"
+#include "app/LessonGuide.h"
+#include "app/LessonList.h"
+#include "app/LessonPanel.h"
 #include "app/MessageBar.h"
 #include "app/NoiseFitPanel.h"
 #include "app/OpenOptionsDialog.h"
@@ -98,6 +101,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     buildDocks();
     buildBottom();
     buildStatusBar();
+    m_lessons = new LessonGuide(*this);
     buildMenus();
     buildToolBar();
     connectDocument();
@@ -271,6 +275,8 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
     connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
+    connect(m_welcome->lessonList(), &LessonList::chosen, this, [this](int lesson) { m_lessons->start(lessons()[static_cast<std::size_t>(lesson)]); });
+    connect(m_presentAction, &QAction::toggled, &m_lessons->panel(), &LessonPanel::setLarge);
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
 
     const auto goTo = [this](int id) {
@@ -320,9 +326,9 @@ void MainWindow::connectEvaluation()
 
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
 {
-    if (isScanScenario(path)) {
+    if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
         try {
-            return openScans(readScanTest(path));
+            return isOfScans ? openScans(readScanTest(path)) : m_lessons->start(readLesson(path));
         } catch (const Error &error) {
             return showError(error);
         }
@@ -419,6 +425,7 @@ void MainWindow::offerIq()
 
 void MainWindow::showWelcome()
 {
+    m_lessons->leave();
     saveLayout();
     m_presentAction->setChecked(false);
     m_pages->show();
@@ -521,6 +528,7 @@ void MainWindow::closeEvent(QCloseEvent *event)
 {
     if (!m_saver->mayClose())
         return event->ignore();
+    m_lessons->leave();
     saveLayout();
     m_welcome->stop();
     m_controller.stop();

@@ -28,6 +28,7 @@ class ExperimentsPanel;
 class InfoPanel;
 class KeysOverlay;
 class LatencyPanel;
+class LessonGuide;
 class MessageBar;
 class NoiseFitPanel;
 class OverviewStrip;
@@ -80,6 +81,7 @@ public:
     StateSlicePanel &states() { return *m_states; }
     LatencyPanel &latency() { return *m_latency; }
     TrialViewer &trials() { return *m_trials; }
+    LessonGuide &lessonGuide() { return *m_lessons; }
 
     /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
     void openScans(const ScanTest &test);
@@ -178,6 +180,7 @@ private:
     StateSlicePanel *m_states = nullptr;
     LatencyPanel *m_latency = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
+    LessonGuide *m_lessons = nullptr;
     OverviewStrip *m_overview = nullptr;
     ReadOut *m_readOut = nullptr;
     ActivityBar *m_activity = nullptr;

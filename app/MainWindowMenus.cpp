@@ -6,6 +6,7 @@
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentsPanel.h"
 #include "app/KeysOverlay.h"
+#include "app/LessonGuide.h"
 #include "app/Panels.h"
 #include "app/PingBench.h"
 #include "app/scenarios.h"
@@ -188,6 +189,9 @@ void MainWindow::buildHelpMenu()
     QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(); });
     keys->setShortcuts(
         {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
+    QMenu *lessonMenu = menu->addMenu(tr("&Lessons"));
+    for (const Lesson &lesson : lessons())
+        lessonMenu->addAction(lesson.title, m_lessons, [this, &lesson] { m_lessons->start(lesson); })->setToolTip(lesson.sentence);
     menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this, [this] { m_palette->open(menuBar()->actions()); });
     menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
 }

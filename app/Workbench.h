@@ -25,6 +25,8 @@ public:
     WaterfallView *output() const { return m_output; }
     QWidget *inputPane() const { return m_inputPane; } ///< with its colour bar
     QWidget *outputPane() const { return m_outputPane; }
+    StripPlot *statisticPlot() const { return m_statistic; }
+    StripPlot *regulationPlot() const { return m_regulation; }
 
     void setEmptySentence(const QString &sentence) override;
     ViewState viewState() const override;
