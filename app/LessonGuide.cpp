@@ -209,7 +209,7 @@ void LessonGuide::showPanel()
         m_window.splitDockWidget(m_dock, below, Qt::Vertical);
         m_dock->show();
         if (!below->isHidden())
-            m_window.resizeDocks({m_dock, below}, {3, 2}, Qt::Vertical);
+            m_window.resizeDocks({m_dock, below}, {7, 3}, Qt::Vertical);
     }
     m_dock->show();
     m_window.resizeDocks({m_dock}, {m_window.width() * panelPercent / 100}, Qt::Horizontal);

@@ -202,7 +202,8 @@ void LessonPanel::showState()
     if (m_choices)
         for (QAbstractButton *button : m_choices->buttons()) {
             QPalette palette = this->palette();
-            palette.setColor(QPalette::Window, colours.faintText); // the style makes the ring from it
+            if (palette.color(QPalette::Window).lightness() < 128)
+                palette.setColor(QPalette::Base, colours.frame.lighter(170)); // dark on dark, nobody would see where to click
             button->setPalette(palette);
         }
     if (m_task) {

@@ -9,6 +9,7 @@
 #include "app/LessonGuide.h"
 #include "app/Panels.h"
 #include "app/PingBench.h"
+#include "app/currentView.h"
 #include "app/scenarios.h"
 #include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
@@ -136,6 +137,7 @@ void MainWindow::buildDetectMenu()
                   [this] { m_events->selectPrevious(); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
+    addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_B), [this] { showHandLine(); });
     menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);
@@ -186,9 +188,10 @@ void MainWindow::buildReproduceMenu()
 void MainWindow::buildHelpMenu()
 {
     QMenu *menu = menuBar()->addMenu(tr("&Help"));
-    QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(); });
+    QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(currentView(*this)); });
     keys->setShortcuts(
         {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
+    menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this, &MainWindow::showEquation);
     QMenu *lessonMenu = menu->addMenu(tr("&Lessons"));
     for (const Lesson &lesson : lessons())
         lessonMenu->addAction(lesson.title, m_lessons, [this, &lesson] { m_lessons->start(lesson); })->setToolTip(lesson.sentence);

@@ -10,6 +10,7 @@ namespace faintline {
 namespace {
 
     constexpr int lineWidth = 3;
+    constexpr int room = 4; ///< between what is framed and the frame's outer edge
 
 } // namespace
 
@@ -38,7 +39,7 @@ void PointerFrame::follow()
     if (!isThere)
         return;
     const QRect round(m_target->mapTo(parentWidget(), QPoint()), m_target->size());
-    setGeometry(round.intersected(parentWidget()->rect()));
+    setGeometry(round.adjusted(-room, -room, room, room).intersected(parentWidget()->rect()));
     raise();
 }
 

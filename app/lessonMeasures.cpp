@@ -249,7 +249,14 @@ namespace {
                  const auto size = window.sequentialTests().fixedSize();
                  return size ? Value(static_cast<double>(*size)) : std::nullopt;
              }},
+            {"survey.saved", [](MainWindow &window) -> Value {
+                 const auto &survey = window.sequentialTests().survey();
+                 return survey ? Value(survey->saving()) : std::nullopt;
+             }},
             {"why.lnP", lnTransitionOfPath},
+            {"falseAlarmsPerHour", ofAnalysis([](const Analysis &analysis) {
+                 return analysis.calibration ? analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour : 0.0;
+             })},
             {"walks.selected", [](MainWindow &window) -> Value {
                  const auto *walk = selectedWalk(window);
                  return walk ? Value(std::string(walk->first.hasTarget ? "target" : "noise")) : std::nullopt;
