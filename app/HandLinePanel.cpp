@@ -76,16 +76,16 @@ HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *
     m_add->setToolTip(tr("The keyboard's way to draw: move the cursor with the arrows, and press this"));
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
-    m_table->setHorizontalHeaderLabels({tr("Frames"), tr("Σ λ (nat)"), tr("SNR a frame")});
+    m_table->setHorizontalHeaderLabels({tr("Frames"), tr("Σ λ (nat)"), tr("SNR")});
     m_table->horizontalHeaderItem(1)->setToolTip(tr("Evidence: the sum of the log-likelihood ratios along the path"));
-    m_table->horizontalHeaderItem(2)->setToolTip(tr("Mean power along the path over the noise's, less one"));
+    m_table->horizontalHeaderItem(2)->setToolTip(tr("In one frame: mean power along the path over the noise's, less one"));
     m_table->setVerticalHeaderLabels({tr("You, all of it"), tr("You, where both are"), tr("The detector there")});
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
     m_table->setFocusPolicy(Qt::ClickFocus);
     m_table->setFrameShape(QFrame::NoFrame);
-    m_table->setFixedHeight(100);
+    m_table->setFixedHeight(m_table->horizontalHeader()->sizeHint().height() + 3 * 22 + 2);
     m_table->setAccessibleName(tr("Evidence along your line and along the detector's path"));
 
     auto *buttons = new QGridLayout;

@@ -2,6 +2,7 @@
 
 #include "app/LessonPanel.h"
 #include "app/MainWindow.h"
+#include "app/MessageBar.h"
 #include "app/PingBench.h"
 #include "app/PointerFrame.h"
 #include "app/SequentialPanel.h"
@@ -95,9 +96,8 @@ void LessonGuide::set()
     const QString path = m_lesson.steps[static_cast<std::size_t>(openingStep())].open;
     Document &document = m_window.document();
     if (isScanScenario(path)) {
-        if (m_opened != path)
-            m_window.open(path);
         m_opened = path;
+        setScans(path);
     } else if (m_opened != path || document.source().path != path) {
         if (!m_opened.isEmpty())
             document.undoStack().setClean(); // what a lesson changed is nothing to save
@@ -107,6 +107,19 @@ void LessonGuide::set()
             leave();
     } else {
         document.edit(settingsNow(firstSettings(document.openedSource())), tr("Lesson: %1").arg(now().title));
+    }
+}
+
+/// Runs the tests of a radar's scenario, unless it is just these that are there.
+void LessonGuide::setScans(const QString &path)
+{
+    try {
+        const ScanTest test = readScanTest(path);
+        if (m_window.sequentialTests().isEmpty() || m_window.sequentialTests().test() != test)
+            m_window.openScans(test);
+    } catch (const Error &error) {
+        m_window.messages().showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()), QString::fromStdString(error.why()));
+        leave();
     }
 }
 

@@ -52,6 +52,7 @@ private:
     int openingStep() const; ///< the one whose recording is looked at
     AnalysisSettings settingsNow(const AnalysisSettings &first) const;
     void set();
+    void setScans(const QString &path);
     void arrange();
     void showPanel();
     void reveal(QWidget *widget);

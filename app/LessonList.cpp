@@ -21,7 +21,7 @@ LessonList::LessonList(QWidget *parent) : QWidget(parent)
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setHorizontalSpacing(16);
     grid->setVerticalSpacing(2);
-    auto *title = new QLabel(tr("Lessons in this window"));
+    auto *title = new QLabel(tr("Lessons"));
     title->setFont(Theme::boldFont(14));
     grid->addWidget(title, 0, 0, 1, columns);
     int number = 0;

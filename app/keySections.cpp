@@ -64,7 +64,7 @@ namespace {
                                       {"M", "measure a box"},
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"Space", "play"},
-                                      {"J  L", "one frame back, forward; of a sequential test, a stage"},
+                                      {"J  L", "one frame, ping or stage back, forward"},
                                       {"Ctrl + R", "run again"},
                                       {"Escape", "stop, or clear what is marked"}}};
         return section;

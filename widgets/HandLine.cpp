@@ -89,11 +89,12 @@ void HandLine::removeLast()
 int HandLine::insert(const Viewport::Point &point)
 {
     const auto at = std::lower_bound(m_points.begin(), m_points.end(), point, [](const auto &a, const auto &b) { return a.seconds < b.seconds; });
-    if (at != m_points.end() && at->seconds == point.seconds) {
+    const auto place = at - m_points.begin();
+    if (at != m_points.end() && at->seconds == point.seconds)
         *at = point;
-        return static_cast<int>(at - m_points.begin());
-    }
-    return static_cast<int>(m_points.insert(at, point) - m_points.begin());
+    else
+        m_points.insert(at, point);
+    return static_cast<int>(place);
 }
 
 int HandLine::vertexAt(const QPointF &position) const

@@ -96,9 +96,11 @@ void tst_HandLine::pointsAreMadeMovedAndTakenAway()
 
     // The keyboard's way.
     m_window->document().viewport().setCursor({20.0, 150.0});
+    panel().addButton()->setFocus();
     QTest::keyClick(panel().addButton(), Qt::Key_Space);
     QCOMPARE(line.points().size(), std::size_t(2));
     QCOMPARE(line.points()[0], (Viewport::Point{20.0, 150.0}));
+    panel().clearButton()->setFocus();
     QTest::keyClick(panel().clearButton(), Qt::Key_Space);
     QVERIFY(line.points().empty() && !panel().comparison());
 }
