@@ -1,5 +1,6 @@
 #include "app/KeysOverlay.h"
 
+#include "app/keySections.h"
 #include "widgets/Theme.h"
 
 #include <QApplication>
@@ -8,104 +9,43 @@
 #include <QPainter>
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace faintline {
 
 namespace {
 
-    struct Entry {
-        const char *keys;
-        const char *does;
-    };
-    struct Section {
-        const char *title;
-        std::vector<Entry> entries;
-    };
-
-    const std::array<std::vector<Section>, 2> &columns()
-    {
-        static const std::array<std::vector<Section>, 2> all{{
-            {{QT_TRANSLATE_NOOP("KeysOverlay", "Mouse on a waterfall"),
-              {{"Wheel", "scroll time"},
-               {"Shift + wheel", "scroll frequency"},
-               {"Ctrl + wheel", "zoom about the pointer"},
-               {"Wheel on an axis", "zoom that axis"},
-               {"Drag", "pan"},
-               {"Shift + drag", "zoom to a box"},
-               {"Click", "place the cursor"},
-               {"Double-click", "go to the event there"}}},
-             {QT_TRANSLATE_NOOP("KeysOverlay", "Look"),
-              {{"0", "show all"},
-               {"Backspace", "zoom back"},
-               {"Arrows", "move the cursor by a cell, with Ctrl by ten"},
-               {"O", "next orientation"},
-               {"C", "next colour map"},
-               {"[  ]", "black level down, up"},
-               {"{  }", "white level down, up"},
-               {"A", "automatic range"},
-               {"Y   Shift + Y", "next output layer; over the statistic"},
-               {"S", "state space under the cursor, and its law"}}}},
-            {{QT_TRANSLATE_NOOP("KeysOverlay", "Detect"),
-              {{",  .", "threshold down, up by a quarter nat"},
-               {"N   Shift + N", "next, previous event"},
-               {"Y  X  U", "accept, reject the event; undecided"},
-               {"E   G   Shift + G", "note on it; merge, separate several"},
-               {"W", "why detected, or why not"},
-               {"M   B", "measure a box; annotate it"},
-               {"H", "harmonics of the cursor's frequency"},
-               {"Space", "play"},
-               {"J  L", "one frame back, forward; of a sequential test, a stage"},
-               {"Ctrl + R", "run again"},
-               {"Escape", "stop, or clear what is marked"}}},
-             {QT_TRANSLATE_NOOP("KeysOverlay", "Sonar pings"),
-              {{"P", "from above, or range over bearing"},
-               {"J  L", "one ping back, forward"},
-               {"Space   Shift + Space", "play, play backwards"}}},
-             {QT_TRANSLATE_NOOP("KeysOverlay", "File"),
-              {{"Ctrl + O", "open; or drop a file on the window"},
-               {"Ctrl + S", "save the session"},
-               {"Ctrl + Z   Ctrl + Y", "undo, redo a setting"},
-               {"Ctrl + K", "find a command by name"},
-               {"F1   ?", "these keys"},
-               {"F5", "presentation"},
-               {"Ctrl + Q", "quit"}}}},
-        }};
-        return all;
-    }
-
     constexpr int rowHeight = 23;
     constexpr int titleHeight = 34;
     constexpr int keyWidth = 165;
     constexpr int columnWidth = 440;
     constexpr int margin = 28;
+    constexpr int gap = 14; ///< between the view's own and the rest
 
-    int heightOf(const std::vector<Section> &sections)
+    int heightOf(const std::vector<KeySection> &sections)
     {
         int height = 0;
-        for (const Section &section : sections)
+        for (const KeySection &section : sections)
             height += titleHeight + rowHeight * static_cast<int>(section.entries.size());
         return height;
     }
 
-    void paintColumn(QPainter &painter, const std::vector<Section> &sections, QPoint at, const Theme::Colours &colours)
+    void paintColumn(QPainter &painter, const std::vector<KeySection> &sections, QPoint at, const Theme::Colours &colours)
     {
-        const auto tr = [](const char *text) { return QApplication::translate("KeysOverlay", text); };
-        for (const Section &section : sections) {
+        for (const KeySection &section : sections) {
             painter.setFont(Theme::boldFont(14));
             painter.setPen(colours.accent);
             painter.drawText(QRect(at, QSize(columnWidth, titleHeight)), Qt::AlignLeft | Qt::AlignVCenter,
-                             tr(section.title));
+                             section.title);
             at.ry() += titleHeight;
-            for (const Entry &entry : section.entries) {
+            for (const KeySection::Entry &entry : section.entries) {
                 painter.setFont(Theme::boldFont());
                 painter.setPen(colours.text);
                 painter.drawText(QRect(at, QSize(keyWidth, rowHeight)), Qt::AlignLeft | Qt::AlignVCenter,
-                                 tr(entry.keys));
+                                 entry.keys);
                 painter.setFont(Theme::font());
                 painter.drawText(QRect(at.x() + keyWidth, at.y(), columnWidth - keyWidth, rowHeight),
-                                 Qt::AlignLeft | Qt::AlignVCenter, tr(entry.does));
+                                 Qt::AlignLeft | Qt::AlignVCenter, entry.does);
                 at.ry() += rowHeight;
             }
         }
@@ -121,8 +61,9 @@ KeysOverlay::KeysOverlay(QWidget *window) : QWidget(window)
     hide();
 }
 
-void KeysOverlay::toggle()
+void KeysOverlay::toggle(const QString &view)
 {
+    m_view = view;
     if (isVisible())
         return close();
     m_previousFocus = QApplication::focusWidget();
@@ -149,18 +90,32 @@ bool KeysOverlay::event(QEvent *event)
 void KeysOverlay::paintEvent(QPaintEvent *)
 {
     const Theme::Colours &colours = Theme::colours(*this);
-    const QSize size(2 * columnWidth + 3 * margin,
-                     std::max(heightOf(columns()[0]), heightOf(columns()[1])) + 2 * margin);
-    const QRect sheet(QPoint((width() - size.width()) / 2, (height() - size.height()) / 2), size);
+    // What the view has for itself stands above, in two halves; what holds everywhere below.
+    const KeySection own = keysOfView(m_view);
+    const auto rows = static_cast<std::ptrdiff_t>(own.entries.size() + 1) / 2;
+    const KeySection halves[2]{{own.title, {own.entries.begin(), own.entries.begin() + rows}},
+                               {QString(), {own.entries.begin() + rows, own.entries.end()}}};
+    const int ownHeight = own.entries.empty() ? 0 : heightOf({halves[0]}) + gap;
+    const auto general = generalKeys(m_view);
+    const QSize size(2 * columnWidth + 3 * margin, ownHeight + std::max(heightOf(general[0]), heightOf(general[1])) + 2 * margin);
+    const QRect sheet(QPoint((width() - size.width()) / 2, std::max(0, (height() - size.height()) / 2)), size);
 
     QPainter painter(this);
     painter.fillRect(rect(), QColor(0, 0, 0, 120));
     painter.fillRect(sheet, palette().color(QPalette::Window));
     painter.setPen(colours.frame);
     painter.drawRect(sheet.adjusted(0, 0, -1, -1));
-    for (int i = 0; i < 2; ++i)
-        paintColumn(painter, columns()[static_cast<std::size_t>(i)],
-                    sheet.topLeft() + QPoint(margin + i * (columnWidth + margin), margin), colours);
+    for (int i = 0; i < 2; ++i) {
+        const QPoint column = sheet.topLeft() + QPoint(margin + i * (columnWidth + margin), margin);
+        if (ownHeight > 0)
+            paintColumn(painter, {halves[i]}, column, colours);
+        paintColumn(painter, general[static_cast<std::size_t>(i)], column + QPoint(0, ownHeight), colours);
+    }
+    if (ownHeight > 0) {
+        painter.setPen(colours.frame);
+        painter.drawLine(sheet.left() + margin, sheet.top() + margin + ownHeight - gap / 2, sheet.right() - margin,
+                         sheet.top() + margin + ownHeight - gap / 2);
+    }
 }
 
 void KeysOverlay::keyPressEvent(QKeyEvent *)

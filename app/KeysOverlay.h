@@ -13,7 +13,8 @@ class KeysOverlay : public QWidget
 public:
     explicit KeysOverlay(QWidget *window);
 
-    void toggle();
+    /// `view`: what is said of it comes first (keysOfView).
+    void toggle(const QString &view = {});
 
 protected:
     bool event(QEvent *event) override;
@@ -26,6 +27,7 @@ private:
     void close();
 
     QPointer<QWidget> m_previousFocus;
+    QString m_view;
 };
 
 } // namespace faintline

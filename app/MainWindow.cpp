@@ -2,15 +2,20 @@
 
 #include "app/ActivityBar.h"
 #include "app/CommandPalette.h"
+#include "app/EquationSheet.h"
 #include "app/EvaluatePanel.h"
 #include "app/EventReviews.h"
 #include "app/ExperimentForm.h"
 #include "app/ExperimentsPanel.h"
 #include "app/FileDrop.h"
+#include "app/HandLinePanel.h"
 #include "app/InfoPanel.h"
 #include "app/InjectDialog.h"
 #include "app/KeysOverlay.h"
 #include "app/LatencyPanel.h"
+#include "app/LessonGuide.h"
+#include "app/LessonList.h"
+#include "app/LessonPanel.h"
 #include "app/MessageBar.h"
 #include "app/NoiseFitPanel.h"
 #include "app/OpenOptionsDialog.h"
@@ -29,6 +34,7 @@
 #include "app/WelcomePage.h"
 #include "app/WhyPanel.h"
 #include "app/Workbench.h"
+#include "app/currentView.h"
 #include "app/hint.h"
 #include "app/scanScenario.h"
 #include "app/statisticUnit.h"
@@ -101,6 +107,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     buildDocks();
     buildBottom();
     buildStatusBar();
+    m_lessons = new LessonGuide(*this);
     buildMenus();
     buildToolBar();
     connectDocument();
@@ -108,6 +115,7 @@ MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recover
     connectViews();
     connectEvaluation();
     m_keys = new KeysOverlay(this);
+    m_equation = new EquationSheet(this);
     m_palette = new CommandPalette(this);
     resize(1440, 900);
     m_panels->rememberDefault();
@@ -163,6 +171,7 @@ void MainWindow::buildDocks()
     m_noiseFit = new NoiseFitPanel(m_document);
     m_states = new StateSlicePanel(m_document, m_pings->viewports());
     m_latency = new LatencyPanel(m_document);
+    m_handLine = new HandLinePanel(m_document, *m_workbench);
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
     m_reproduction = new ReproductionPanel;
@@ -177,6 +186,8 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("noiseDock"), tr("Noise · calibration"), m_info, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
     m_panels->add(QStringLiteral("statesDock"), tr("State space"), m_states, Place::RightBottom);
+    m_panels->add(QStringLiteral("handDock"), tr("By hand"), m_handLine, Place::RightBottom);
+    m_handLine->parentWidget()->hide(); // until it is asked for
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
     m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
     m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
@@ -275,6 +286,8 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
     connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
+    connect(m_welcome->lessonList(), &LessonList::chosen, this, [this](int lesson) { m_lessons->start(lessons()[static_cast<std::size_t>(lesson)]); });
+    connect(m_presentAction, &QAction::toggled, &m_lessons->panel(), &LessonPanel::setLarge);
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
 
     const auto goTo = [this](int id) {
@@ -333,9 +346,9 @@ void MainWindow::connectEvaluation()
 
 void MainWindow::open(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
 {
-    if (isScanScenario(path)) {
+    if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
         try {
-            return openScans(readScanTest(path));
+            return isOfScans ? openScans(readScanTest(path)) : m_lessons->start(readLesson(path));
         } catch (const Error &error) {
             return showError(error);
         }
@@ -432,6 +445,7 @@ void MainWindow::offerIq()
 
 void MainWindow::showWelcome()
 {
+    m_lessons->leave();
     saveLayout();
     m_presentAction->setChecked(false);
     m_pages->show();
@@ -534,6 +548,7 @@ void MainWindow::closeEvent(QCloseEvent *event)
 {
     if (!m_saver->mayClose())
         return event->ignore();
+    m_lessons->leave();
     saveLayout();
     m_welcome->stop();
     m_controller.stop();
@@ -577,7 +592,7 @@ void MainWindow::setAsking(bool isAsking)
 const QStringList &MainWindow::viewNames()
 {
     static const QStringList names{"window", "input",     "output",     "threshold", "events", "noise",    "noisefit",  "pd",   "why", "map", "polar",
-                                   "slice",  "histories", "latency",    "sequential", "walk",  "stopping", "posterior", "scan", "asn", "prior", "sectors"};
+                                   "slice",  "histories", "latency",    "hand",    "sequential", "walk",  "stopping", "posterior", "scan", "asn", "prior", "sectors"};
     return names;
 }
 
@@ -599,6 +614,7 @@ QWidget *MainWindow::view(const QString &name)
         {"slice", m_states},
         {"histories", m_pings->histories()},
         {"latency", m_latency},
+        {"hand", m_handLine},
         {"sequential", m_sequential},
         {"walk", &m_sequential->walk()},
         {"stopping", &m_sequential->stopping()},
@@ -670,10 +686,24 @@ void MainWindow::showLatency()
     m_panels->show(m_latency);
 }
 
+void MainWindow::showHandLine()
+{
+    m_panels->show(m_handLine);
+}
+
 void MainWindow::setTheme(Theme::Kind kind)
 {
     Theme::apply(kind);
     m_memory.setTheme(kind);
+}
+
+void MainWindow::showEquation()
+{
+    const QString name = currentView(*this);
+    const QString detector = QString::fromLatin1(detectorNames[m_document.settings().detector.index()].data());
+    // Between pings and lines the same names stand for other pictures.
+    const bool isOfPings = m_document.hasPings() && (name == QLatin1String("input") || name == QLatin1String("output"));
+    m_equation->toggle(equationOf(isOfPings ? QStringLiteral("map") : name, detector), m_lessons->widgetNamed(name));
 }
 
 void MainWindow::about()

@@ -21,14 +21,17 @@ namespace faintline {
 class ActivityBar;
 class Bench;
 class CommandPalette;
+class EquationSheet;
 class EvaluatePanel;
 class EventReviews;
 class EventTable;
 class ExceedancePlot;
 class ExperimentsPanel;
+class HandLinePanel;
 class InfoPanel;
 class KeysOverlay;
 class LatencyPanel;
+class LessonGuide;
 class MessageBar;
 class NoiseFitPanel;
 class OverviewStrip;
@@ -82,6 +85,8 @@ public:
     StateSlicePanel &states() { return *m_states; }
     LatencyPanel &latency() { return *m_latency; }
     TrialViewer &trials() { return *m_trials; }
+    LessonGuide &lessonGuide() { return *m_lessons; }
+    HandLinePanel &handLine() { return *m_handLine; }
 
     /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
     void openScans(const ScanTest &test);
@@ -89,7 +94,7 @@ public:
     SequentialPanel &sequential() { return *m_sequential; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd", "why"; of a sonar's pings "map", "polar", "histories", "slice", "latency"; of sequential tests "sequential",
+    /// "noisefit", "pd", "why"; "hand"; of a sonar's pings "map", "polar", "histories", "slice", "latency"; of sequential tests "sequential",
     /// "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
@@ -98,6 +103,7 @@ public:
     void showWhy();
     void showStates();
     void showLatency();
+    void showHandLine();
 
     /// Off: nobody is there to answer a dialog.
     void setAsking(bool isAsking);
@@ -148,6 +154,7 @@ private:
     void showExperiment(int id);
     void setTheme(Theme::Kind kind);
     void about();
+    void showEquation(); ///< of the view one is at
 
     void fillRecentMenu();
     void saveLayout();
@@ -182,12 +189,15 @@ private:
     SequentialPanel *m_sequential = nullptr;
     StateSlicePanel *m_states = nullptr;
     LatencyPanel *m_latency = nullptr;
+    HandLinePanel *m_handLine = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
+    LessonGuide *m_lessons = nullptr;
     OverviewStrip *m_overview = nullptr;
     ReadOut *m_readOut = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;
     KeysOverlay *m_keys = nullptr;
+    EquationSheet *m_equation = nullptr;
     CommandPalette *m_palette = nullptr;
     QMenu *m_recentMenu = nullptr;
     QMenu *m_panelsMenu = nullptr;

@@ -8,8 +8,10 @@
 #include "app/ExperimentsPanel.h"
 #include "app/KeysOverlay.h"
 #include "app/OutputLayers.h"
+#include "app/LessonGuide.h"
 #include "app/Panels.h"
 #include "app/PingBench.h"
+#include "app/currentView.h"
 #include "app/scenarios.h"
 #include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
@@ -143,8 +145,8 @@ void MainWindow::addLayerMenu(QMenu &menu)
         check();
     }
     choices->addSeparator();
-    addAction(addViewAction(*choices, tr("Layer: &next"), Qt::Key_Y, [layers] { layers->cycleLayer(); }));
-    QAction *overlay = addViewAction(*choices, tr("Layer &over the statistic"), QKeySequence(Qt::SHIFT | Qt::Key_Y), {});
+    addAction(addViewAction(*choices, tr("Layer: &next"), Qt::Key_V, [layers] { layers->cycleLayer(); }));
+    QAction *overlay = addViewAction(*choices, tr("Layer &over the statistic"), QKeySequence(Qt::SHIFT | Qt::Key_V), {});
     overlay->setCheckable(true);
     connect(overlay, &QAction::toggled, layers, &OutputLayers::setOverlay);
     connect(layers, &OutputLayers::layerChanged, overlay, [layers, overlay] { overlay->setChecked(layers->isOverlay()); });
@@ -166,6 +168,7 @@ void MainWindow::buildDetectMenu()
                   [this] { m_events->selectPrevious(); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
+    addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
     menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);
@@ -223,9 +226,13 @@ void MainWindow::buildReproduceMenu()
 void MainWindow::buildHelpMenu()
 {
     QMenu *menu = menuBar()->addMenu(tr("&Help"));
-    QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(); });
+    QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(currentView(*this)); });
     keys->setShortcuts(
         {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
+    menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this, &MainWindow::showEquation);
+    QMenu *lessonMenu = menu->addMenu(tr("&Lessons"));
+    for (const Lesson &lesson : lessons())
+        lessonMenu->addAction(lesson.title, m_lessons, [this, &lesson] { m_lessons->start(lesson); })->setToolTip(lesson.sentence);
     menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this, [this] { m_palette->open(menuBar()->actions()); });
     menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
 }

@@ -1,6 +1,7 @@
 #include "app/WelcomePage.h"
 
 #include "analysis/analyse.h"
+#include "app/LessonList.h"
 #include "app/ScanCard.h"
 #include "app/ScenarioCard.h"
 #include "widgets/Theme.h"
@@ -39,7 +40,7 @@ namespace {
 
 } // namespace
 
-WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_scanCard(new ScanCard), m_recent(new QVBoxLayout)
+WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_scanCard(new ScanCard), m_lessons(new LessonList), m_recent(new QVBoxLayout)
 {
     connect(&m_runner, &JobRunner::failed, this, &WelcomePage::failed);
     auto *page = new QWidget;
@@ -81,6 +82,7 @@ WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_scanCard(new Scan
     column->addLayout(cards);
     column->addSpacing(8);
     column->addLayout(opening);
+    column->addWidget(m_lessons);
     column->addLayout(m_recent);
     column->addStretch(1);
 

@@ -10,6 +10,7 @@ class QVBoxLayout;
 
 namespace faintline {
 
+class LessonList;
 class ScanCard;
 class ScenarioCard;
 
@@ -26,6 +27,7 @@ public:
 
     const std::vector<ScenarioCard *> &cards() const { return m_cards; }
     ScanCard *scanCard() const { return m_scanCard; }
+    LessonList *lessonList() const { return m_lessons; }
 
 public slots:
     void start(); ///< goes on with the cards that are not ready yet
@@ -46,6 +48,7 @@ private:
 
     std::vector<ScenarioCard *> m_cards;
     ScanCard *m_scanCard;
+    LessonList *m_lessons;
     QVBoxLayout *m_recent;
     JobRunner m_runner; ///< last, so that its jobs end first
 };

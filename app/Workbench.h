@@ -27,6 +27,8 @@ public:
     QWidget *inputPane() const { return m_inputPane; } ///< with its colour bar
     QWidget *outputPane() const { return m_outputPane; }
     OutputLayers &layers() { return *m_layers; }
+    StripPlot *statisticPlot() const { return m_statistic; }
+    StripPlot *regulationPlot() const { return m_regulation; }
 
     void setEmptySentence(const QString &sentence) override;
     ViewState viewState() const override;

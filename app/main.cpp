@@ -52,7 +52,7 @@ namespace {
     CLI::App *addRender(CLI::App &program, RenderOptions &options, std::string &size)
     {
         CLI::App *command = program.add_subcommand("render", "Write a picture of the window or of one of its views");
-        command->add_option("source", options.source, "Recording, scenario (.json) or session (.faintline)")
+        command->add_option("source", options.source, "Recording, scenario or lesson (.json) or session (.faintline)")
             ->required();
         command->add_option("--out", options.out, "The picture (.png); of several views, each gets its name added")
             ->required();
@@ -76,6 +76,7 @@ namespace {
         command->add_option("--preset", options.preset, "Settings to begin with");
         command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
+        command->add_option("--step", options.step, "Of a lesson (.json with steps): the one shown, counted from 1");
         addOpening(*command, options.opening);
         return command;
     }

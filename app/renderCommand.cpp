@@ -3,6 +3,7 @@
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
 #include "app/LatencyPanel.h"
+#include "app/LessonGuide.h"
 #include "app/MainWindow.h"
 #include "app/NoiseFitPanel.h"
 #include "app/OutputLayers.h"
@@ -121,6 +122,27 @@ namespace {
             return;
         const double before = std::clamp(*options.seconds / test.scene.secondsPerStage, 0.0, static_cast<double>(stageLimit(test)));
         testAndSettle(window, [&] { window.sequentialTests().setStage(static_cast<Index>(before) + 1); });
+    }
+
+    /// The window as a lesson's step sets it up.
+    void goThroughLesson(MainWindow &window, const RenderOptions &options)
+    {
+        const Lesson lesson = readLesson(QString::fromStdString(options.source));
+        if (const auto count = std::ssize(lesson.steps); options.step < 1 || options.step > count)
+            throw Error("--step " + std::to_string(options.step), "must lie in 1 … " + std::to_string(count) + " of this lesson");
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) {
+            failure = error;
+            loop.quit();
+        });
+        QObject::connect(&window.lessonGuide(), &LessonGuide::ready, &loop, &QEventLoop::quit);
+        window.lessonGuide().start(lesson, options.step - 1);
+        loop.exec();
+        if (failure)
+            throw *failure;
+        if (!window.why().visibleRegion().isEmpty())
+            explainCursor(window);
     }
 
     void checkViewsOfScans(const std::vector<std::string> &views)
@@ -288,7 +310,9 @@ void render(const RenderOptions &options)
     window.setAsking(false);
     window.resize(options.size);
     window.show();
-    if (isScanScenario(QString::fromStdString(options.source))) {
+    if (isLesson(QString::fromStdString(options.source))) {
+        goThroughLesson(window, options);
+    } else if (isScanScenario(QString::fromStdString(options.source))) {
         checkViewsOfScans(options.views);
         testScans(window, options);
     } else {

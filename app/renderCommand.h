@@ -29,9 +29,10 @@ struct RenderOptions {
     std::vector<std::string> settings; ///< "name=value"
     OpenOptions opening;
     std::optional<int> channel;
+    int step = 1;              ///< of a lesson
 };
 
-/// Opens the source in a window nobody sees, waits until it has settled, and writes the pictures: the same bytes from
+/// Opens the source (a lesson: at a step) in a window nobody sees, waits until it has settled, and writes the pictures: the same bytes from
 /// run to run. Needs a QApplication. Throws Error.
 void render(const RenderOptions &options);
 

@@ -232,19 +232,19 @@ private slots:
         QCOMPARE(layers.layer(), OutputLayer::Statistic);
         QVERIFY(!layers.item().picture());
         const QImage statistic = output.grab().toImage();
-        QTest::keyClick(&output, Qt::Key_Y);
+        QTest::keyClick(&output, Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Rate);
         QVERIFY(settleLayers(*m_window));
         QVERIFY(layers.item().picture());
         const QImage rate = output.grab().toImage();
         QVERIFY(rate != statistic);
         QVERIFY(output.title().text().contains(QStringLiteral("slope")));
-        QTest::keyClick(&output, Qt::Key_Y, Qt::ShiftModifier);
+        QTest::keyClick(&output, Qt::Key_V, Qt::ShiftModifier);
         QVERIFY(layers.isOverlay());
         QVERIFY(output.grab().toImage() != rate);
         QVERIFY(output.title().text().contains(QStringLiteral("Statistic")));
         for (int i = 0; i < 4; ++i)
-            QTest::keyClick(&output, Qt::Key_Y);
+            QTest::keyClick(&output, Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Statistic);
         QVERIFY(settleLayers(*m_window));
     }

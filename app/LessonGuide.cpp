@@ -1,0 +1,243 @@
+#include "app/LessonGuide.h"
+
+#include "app/LessonPanel.h"
+#include "app/MainWindow.h"
+#include "app/MessageBar.h"
+#include "app/PingBench.h"
+#include "app/PointerFrame.h"
+#include "app/SequentialPanel.h"
+#include "app/Workbench.h"
+#include "app/lessonMeasures.h"
+#include "app/scanScenario.h"
+#include "widgets/ReadOut.h"
+#include "widgets/SettingsForm.h"
+#include "widgets/StripPlot.h"
+
+#include <QDockWidget>
+#include <QTabWidget>
+
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int watchMs = 150;
+
+    /// Words a shown lesson's panel has room for, as a share of the window.
+    constexpr int panelPercent = 22;
+
+} // namespace
+
+LessonGuide::LessonGuide(MainWindow &window)
+    : QObject(&window), m_window(window), m_dock(new QDockWidget(tr("Lesson"), &window)), m_panel(new LessonPanel),
+      m_frame(new PointerFrame(&window))
+{
+    m_dock->setObjectName(QStringLiteral("lessonDock"));
+    m_dock->setWidget(m_panel);
+    m_dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable); // one leaves a lesson by its button
+    m_dock->hide();
+    m_watch.setInterval(watchMs);
+    connect(&m_watch, &QTimer::timeout, this, &LessonGuide::check);
+    connect(m_panel, &LessonPanel::backRequested, this, [this] { goTo(m_step - 1); });
+    connect(m_panel, &LessonPanel::nextRequested, this, [this] { goTo(m_step + 1); });
+    connect(m_panel, &LessonPanel::leaveRequested, this, &LessonGuide::leave);
+}
+
+void LessonGuide::start(const Lesson &lesson, int step)
+{
+    m_lesson = lesson;
+    m_opened.clear();
+    goTo(step);
+    emit runningChanged(isRunning());
+}
+
+void LessonGuide::goTo(int step)
+{
+    if (step < 0)
+        return;
+    if (step >= static_cast<int>(m_lesson.steps.size())) {
+        leave();
+        return emit finished();
+    }
+    m_step = step;
+    m_isReady = m_isRevealed = false;
+    m_frame->pointAt(nullptr);
+    m_panel->setStep(m_lesson, step);
+    m_panel->setWaiting(true);
+    set();
+    m_watch.start();
+}
+
+int LessonGuide::openingStep() const
+{
+    int opening = m_step;
+    while (m_lesson.steps[static_cast<std::size_t>(opening)].open.isEmpty())
+        --opening;
+    return opening;
+}
+
+AnalysisSettings LessonGuide::settingsNow(const AnalysisSettings &first) const
+{
+    AnalysisSettings settings = first;
+    for (int i = openingStep(); i <= m_step; ++i) {
+        const LessonStep &step = m_lesson.steps[static_cast<std::size_t>(i)];
+        if (!step.preset.empty())
+            settings = preset(step.preset).settings;
+        for (const auto &[name, value] : step.settings)
+            settingField(name).set(settings, value);
+    }
+    return settings;
+}
+
+/// Opens and sets what the step needs; `check` notices when the window has settled.
+void LessonGuide::set()
+{
+    const QString path = m_lesson.steps[static_cast<std::size_t>(openingStep())].open;
+    Document &document = m_window.document();
+    if (isScanScenario(path)) {
+        m_opened = path;
+        setScans(path);
+    } else if (m_opened != path || document.source().path != path) {
+        if (!m_opened.isEmpty())
+            document.undoStack().setClean(); // what a lesson changed is nothing to save
+        m_window.open(path, {}, [this](AnalysisSettings &settings) { settings = settingsNow(settings); });
+        m_opened = path;
+        if (!m_window.controller().isBusy()) // the user would rather keep what is open, or it cannot be opened
+            leave();
+    } else {
+        document.edit(settingsNow(firstSettings(document.openedSource())), tr("Lesson: %1").arg(now().title));
+    }
+}
+
+/// Runs the tests of a radar's scenario, unless it is just these that are there.
+void LessonGuide::setScans(const QString &path)
+{
+    try {
+        const ScanTest test = readScanTest(path);
+        if (m_window.sequentialTests().isEmpty() || m_window.sequentialTests().test() != test)
+            m_window.openScans(test);
+    } catch (const Error &error) {
+        m_window.messages().showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()), QString::fromStdString(error.why()));
+        leave();
+    }
+}
+
+bool LessonGuide::isBusy() const
+{
+    return m_window.controller().isBusy() || m_window.sequentialTests().isBusy();
+}
+
+void LessonGuide::check()
+{
+    if (!isRunning() || isBusy())
+        return;
+    const bool isOfScans = isScanScenario(m_opened);
+    if (!isOfScans && m_window.document().source().path != m_opened)
+        return leave(); // something else is open now
+    showPanel();
+    if (!m_isReady && !std::exchange(m_isRevealed, true))
+        return reveal(widgetNamed(now().point));
+    if (!m_isReady) {
+        arrange();
+        m_isReady = true;
+        m_panel->setWaiting(false);
+        emit ready();
+    }
+    m_frame->follow();
+    if (!m_panel->isDone() && !now().until.isEmpty() && holds(m_window, now().until))
+        m_panel->setDone(true);
+}
+
+/// Brings into view what the step is about.
+void LessonGuide::arrange()
+{
+    const LessonStep &step = now();
+    for (const QString &name : step.show)
+        reveal(widgetNamed(name));
+    Viewport &viewport = m_window.document().viewport();
+    if (step.showsAll)
+        viewport.showAll();
+    else if (step.zoomSeconds || step.zoomHz)
+        viewport.zoomTo(step.zoomSeconds.value_or(viewport.full().time), step.zoomHz.value_or(viewport.full().frequency));
+    if (m_window.document().hasPings()) {
+        PingViewports::Place place = m_window.pingBench().viewports().place();
+        place.seconds = step.cursorSeconds.value_or(place.seconds);
+        place.range = step.cursorRange.value_or(place.range);
+        place.bearing = step.cursorBearing.value_or(place.bearing);
+        m_window.pingBench().viewports().setPlace(place);
+    } else if (step.cursorSeconds && step.cursorHz) {
+        viewport.setCursor({*step.cursorSeconds, *step.cursorHz});
+    }
+    QWidget *target = widgetNamed(step.point);
+    reveal(target);
+    m_frame->pointAt(target);
+}
+
+/// To the front of the tabs it is among.
+void LessonGuide::reveal(QWidget *widget)
+{
+    for (QWidget *each = widget; each; each = each->parentWidget()) {
+        auto *above = each->parentWidget() ? qobject_cast<QTabWidget *>(each->parentWidget()->parentWidget()) : nullptr;
+        if (above && above->indexOf(each) >= 0)
+            above->setCurrentWidget(each);
+        if (auto *dock = qobject_cast<QDockWidget *>(each)) {
+            dock->show();
+            dock->raise();
+        }
+    }
+}
+
+QWidget *LessonGuide::widgetNamed(const QString &name)
+{
+    if (name.isEmpty())
+        return nullptr;
+    if (name.startsWith(QLatin1String("setting "))) {
+        SettingsForm *form = m_window.findChild<SettingsForm *>();
+        const QString setting = name.mid(8);
+        QWidget *editor = form ? form->editor(setting) : nullptr;
+        if (!editor)
+            return nullptr;
+        reveal(form);
+        form->reveal(setting);
+        return editor->parentWidget();
+    }
+    if (name == QLatin1String("regulation"))
+        return m_window.workbench().regulationPlot();
+    if (name == QLatin1String("profile"))
+        return m_window.workbench().statisticPlot();
+    if (name == QLatin1String("pipeline"))
+        return m_window.findChild<SettingsForm *>();
+    if (name == QLatin1String("readout"))
+        return m_window.findChild<ReadOut *>();
+    return m_window.view(name);
+}
+
+void LessonGuide::showPanel()
+{
+    if (!m_dock->isHidden())
+        return;
+    m_window.addDockWidget(Qt::LeftDockWidgetArea, m_dock, Qt::Vertical);
+    if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"))) {
+        m_window.splitDockWidget(m_dock, below, Qt::Vertical);
+        m_dock->show();
+        if (!below->isHidden())
+            m_window.resizeDocks({m_dock, below}, {7, 3}, Qt::Vertical);
+    }
+    m_dock->show();
+    m_window.resizeDocks({m_dock}, {m_window.width() * panelPercent / 100}, Qt::Horizontal);
+}
+
+void LessonGuide::leave()
+{
+    if (!isRunning())
+        return;
+    m_step = -1;
+    m_opened.clear();
+    m_watch.stop();
+    m_frame->pointAt(nullptr);
+    m_dock->hide();
+    emit runningChanged(false);
+}
+
+} // namespace faintline

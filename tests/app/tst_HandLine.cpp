@@ -1,0 +1,168 @@
+// A line drawn by hand: points by mouse and by key, its evidence beside the detector's, and nothing given away before it is revealed.
+
+#include "app/HandLinePanel.h"
+#include "app/MainWindow.h"
+#include "app/Workbench.h"
+#include "widgets/HandLine.h"
+#include "widgets/StripPlot.h"
+
+#include <QFile>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <memory>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 120000; // ms
+
+} // namespace
+
+class tst_HandLine : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase();
+    void init();
+    void cleanupTestCase() { m_window.reset(); }
+
+    void pointsAreMadeMovedAndTakenAway();
+    void withoutDrawingTheCursorIsPlaced();
+    void theDetectorsPathDrawnByHandHasItsEvidence();
+    void besideTheLineThereIsNothing();
+    void coveredNothingIsGivenAway();
+
+private:
+    QPoint at(double seconds, double hz) const { return input().positionOf({seconds, hz}).toPoint(); }
+    WaterfallView &input() const { return *m_window->workbench().input(); }
+    HandLinePanel &panel() const { return m_window->handLine(); }
+    bool isSettled() const { return !panel().isBusy() && panel().comparison(); }
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+};
+
+void tst_HandLine::initTestCase()
+{
+    Theme::apply(Theme::Kind::Light);
+    QFile scene(m_folder.filePath("scene.json"));
+    QVERIFY(scene.open(QIODevice::WriteOnly));
+    scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 50, "frequencyHz": 120, "driftHzPerSecond": 2}]})");
+    scene.close();
+    m_window = std::make_unique<MainWindow>();
+    m_window->setAsking(false);
+    m_window->resize(1400, 900);
+    m_window->show();
+    m_window->open(scene.fileName());
+    QTRY_VERIFY_WITH_TIMEOUT(m_window->document().analysis() && !m_window->controller().isBusy(), patience);
+    QVERIFY(!m_window->document().analysis()->tracks.empty());
+    QTest::keyClick(m_window.get(), Qt::Key_D, Qt::ControlModifier);
+    QVERIFY(panel().isVisible());
+}
+
+void tst_HandLine::init()
+{
+    panel().line().clear();
+    panel().drawButton()->setChecked(true);
+}
+
+void tst_HandLine::pointsAreMadeMovedAndTakenAway()
+{
+    QWidget *canvas = input().canvas();
+    HandLine &line = panel().line();
+    QTest::mouseClick(canvas, Qt::LeftButton, {}, at(40.0, 300.0));
+    QTest::mouseClick(canvas, Qt::LeftButton, {}, at(10.0, 200.0));
+    QCOMPARE(line.points().size(), std::size_t(2));
+    QVERIFY(line.points()[0].seconds < line.points()[1].seconds); // in order of time, however they were made
+    QVERIFY(std::abs(line.points()[0].hz - 200.0) < 5.0);
+    QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
+    const auto before = panel().comparison()->own;
+
+    // A point is dragged past the other one: the order stays that of time.
+    QTest::mousePress(canvas, Qt::LeftButton, {}, at(10.0, 200.0));
+    QTest::mouseMove(canvas, at(50.0, 400.0));
+    QTest::mouseRelease(canvas, Qt::LeftButton, {}, at(50.0, 400.0));
+    QCOMPARE(line.points().size(), std::size_t(2));
+    QVERIFY(std::abs(line.points()[1].seconds - 50.0) < 1.0 && std::abs(line.points()[1].hz - 400.0) < 5.0);
+    QTRY_VERIFY_WITH_TIMEOUT(isSettled() && !(panel().comparison()->own == before), patience);
+
+    QTest::mouseClick(canvas, Qt::RightButton, {}, at(50.0, 400.0));
+    QCOMPARE(line.points().size(), std::size_t(1));
+
+    // The keyboard's way.
+    m_window->document().viewport().setCursor({20.0, 150.0});
+    panel().addButton()->setFocus();
+    QTest::keyClick(panel().addButton(), Qt::Key_Space);
+    QCOMPARE(line.points().size(), std::size_t(2));
+    QCOMPARE(line.points()[0], (Viewport::Point{20.0, 150.0}));
+    panel().clearButton()->setFocus();
+    QTest::keyClick(panel().clearButton(), Qt::Key_Space);
+    QVERIFY(line.points().empty() && !panel().comparison());
+}
+
+void tst_HandLine::withoutDrawingTheCursorIsPlaced()
+{
+    panel().drawButton()->setChecked(false);
+    QTest::mouseClick(input().canvas(), Qt::LeftButton, {}, at(30.0, 400.0));
+    QVERIFY(panel().line().points().empty());
+    QVERIFY(std::abs(m_window->document().viewport().cursor()->hz - 400.0) < 5.0);
+}
+
+void tst_HandLine::theDetectorsPathDrawnByHandHasItsEvidence()
+{
+    const Analysis &analysis = *m_window->document().analysis();
+    const Track &track = analysis.tracks.front();
+    std::vector<Viewport::Point> points;
+    for (const TrackPoint &point : track.points)
+        points.push_back({analysis.time().value(static_cast<double>(point.frame)), analysis.grid().axes.back().value(static_cast<double>(point.cell))});
+    panel().line().setPoints(points);
+    QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
+    const auto &comparison = *panel().comparison();
+    QCOMPARE(comparison.track, track.id);
+    QCOMPARE(comparison.frames, Index(std::ssize(track.points)));
+    QCOMPARE(comparison.ownThere, comparison.detector);
+    QCOMPARE(comparison.own, comparison.detector);
+    QCOMPARE(comparison.meanHz, 0.0);
+    // 9 dB in half a second, the window; Hann loses a third of that.
+    QVERIFY(comparison.detector.snr() > 3.0 && comparison.detector.snr() < 10.0);
+}
+
+void tst_HandLine::besideTheLineThereIsNothing()
+{
+    panel().line().setPoints({{10.0, 400.0}, {50.0, 400.0}});
+    QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
+    const auto &comparison = *panel().comparison();
+    // Noise: mean 1 within five standard errors, and evidence against a signal.
+    const double error = 5.0 * std::sqrt(2.0 / static_cast<double>(comparison.own.frames)); // frames overlap by half
+    QVERIFY(std::abs(comparison.own.meanPower - 1.0) < error);
+    QVERIFY(comparison.own.logLikelihoodRatio < 0.0);
+    QVERIFY(comparison.detector.logLikelihoodRatio > 50.0);
+    QVERIFY(panel().sentence().contains("behind"));
+}
+
+void tst_HandLine::coveredNothingIsGivenAway()
+{
+    QTest::mouseClick(panel().coverButton(), Qt::LeftButton);
+    QVERIFY(panel().isCovered());
+    for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer})
+        QVERIFY(!input().layers().testFlag(layer));
+    QWidget *pane = m_window->workbench().outputPane();
+    QVERIFY(pane->childAt(pane->rect().center()) != m_window->workbench().output()->canvas());
+    panel().line().setPoints({{10.0, 130.0}, {50.0, 210.0}});
+    QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
+    QVERIFY(!panel().sentence().contains("track"));
+
+    QTest::mouseClick(panel().coverButton(), Qt::LeftButton);
+    QVERIFY(!panel().isCovered());
+    QVERIFY(input().layers().testFlag(WaterfallView::TruthLayer));
+    QVERIFY(panel().sentence().contains("track"));
+    QVERIFY(panel().comparison()->meanHz < 5.0);
+}
+
+QTEST_MAIN(tst_HandLine)
+#include "tst_HandLine.moc"

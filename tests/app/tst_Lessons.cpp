@@ -1,0 +1,298 @@
+// Every lesson is gone through as a learner would: what a step says is checked where it says it, the task is open before the learner's
+// act, which is done by mouse and keys, and done after it.
+
+#include "app/LessonGuide.h"
+#include "app/LessonPanel.h"
+#include "app/MainWindow.h"
+#include "app/PingBench.h"
+#include "app/PointerFrame.h"
+#include "app/ScanTestForm.h"
+#include "app/SequentialPanel.h"
+#include "app/Workbench.h"
+#include "app/lessonMeasures.h"
+#include "widgets/PingMap.h"
+#include "widgets/SettingsForm.h"
+#include "widgets/WalkPlot.h"
+
+#include <QButtonGroup>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QMap>
+#include <QPushButton>
+#include <QTest>
+
+#include <functional>
+#include <memory>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 240000; // ms
+
+using Act = std::function<void(MainWindow &)>;
+
+/// Clicks on the canvas of a waterfall.
+void clickAt(WaterfallView &view, double seconds, double hz)
+{
+    QTest::mouseClick(view.canvas(), Qt::LeftButton, {}, view.positionOf({seconds, hz}).toPoint());
+}
+
+void clickOnBrightest(MainWindow &window)
+{
+    WaterfallView &view = *window.workbench().input();
+    const Viewport::Box box = window.document().viewport().visible();
+    Viewport::Point best;
+    double level = -1e9;
+    const Axis &time = window.document().analysis()->time();
+    const Axis &hz = view.frequencyAxis();
+    for (Index t = time.nearest(box.time.low) + 1; t < time.nearest(box.time.high); ++t)
+        for (Index f = hz.nearest(box.frequency.low) + 1; f < hz.nearest(box.frequency.high); ++f)
+            if (const auto value = view.valueAt(time.value(static_cast<double>(t)), hz.value(static_cast<double>(f))); value && *value > level) {
+                level = *value;
+                best = {time.value(static_cast<double>(t)), hz.value(static_cast<double>(f))};
+            }
+    clickAt(view, best.seconds, best.hz);
+}
+
+/// Puts a value into a form's field as a person does.
+void enter(QWidget *editor, const QString &value)
+{
+    QVERIFY(editor && editor->isVisible());
+    if (auto *line = qobject_cast<QLineEdit *>(editor)) {
+        line->setFocus();
+        line->selectAll();
+        QTest::keyClicks(line, value);
+        QTest::keyClick(line, Qt::Key_Return);
+        return;
+    }
+    auto *box = qobject_cast<QComboBox *>(editor);
+    QVERIFY(box);
+    box->setFocus();
+    QTest::keyClick(box, Qt::Key_Home);
+    for (int i = 0; i < box->count() && box->currentData().toString() != value; ++i)
+        QTest::keyClick(box, Qt::Key_Down);
+    QCOMPARE(box->currentData().toString(), value);
+}
+
+Act setting(const char *name, const char *value)
+{
+    return [=](MainWindow &window) { enter(window.findChild<SettingsForm *>()->editor(QString::fromLatin1(name)), QString::fromLatin1(value)); };
+}
+
+void clickOnBlueWalk(MainWindow &window)
+{
+    const auto &walks = window.sequentialTests().walks();
+    WalkPlot &plot = window.sequential().walk();
+    for (int i = 0; i < static_cast<int>(walks.size()); ++i)
+        if (const auto &[run, result] = walks[static_cast<std::size_t>(i)]; !run.hasTarget && window.sequentialTests().selected() != i) {
+            QTest::mouseClick(plot.canvas(), Qt::LeftButton, {}, plot.position(i, result.stages).toPoint());
+            if (walks[static_cast<std::size_t>(window.sequentialTests().selected())].first.hasTarget == false)
+                return;
+        }
+}
+
+/// What the learner does in a step, by lesson and number of the step.
+const QMap<QString, Act> &acts()
+{
+    static const QMap<QString, Act> all{
+        {"cell 1", clickOnBrightest},
+        {"cell 3", setting("spectrogram.windowSeconds", "1")},
+        {"p-of-n 1", [](MainWindow &window) { clickAt(*window.workbench().output(), 60.0, 720.0); }},
+        {"p-of-n 2", setting("detector.kind", "pOfN")},
+        {"p-of-n 3", setting("pOfN.widthCells", "4")},
+        {"p-of-n 4", setting("detector.kind", "smd")},
+        {"reset 2", setting("smd.lnK", "1.2")},
+        {"reset 3", setting("smd.lnK", "-2")},
+        {"reset 4", setting("smd.reset", "calibrated")},
+        {"choosing-h 2", setting("model.slopeChange", "0.34, 0.33")},
+        {"choosing-h 3", [](MainWindow &window) { clickAt(*window.workbench().output(), 60.0, 250.0); }},
+        {"manoeuvre 1",
+         [](MainWindow &window) {
+             window.pingBench().output()->plane()->setFocus();
+             while (window.pingBench().viewports().place().seconds < 310.0)
+                 QTest::keyClick(window.pingBench().output()->plane(), Qt::Key_L);
+         }},
+        {"manoeuvre 2", setting("model.motion", "manoeuvring")},
+        {"manoeuvre 4", setting("model.motion", "bank")},
+        {"when-to-stop 1", clickOnBlueWalk},
+        {"when-to-stop 3",
+         [](MainWindow &window) {
+             enter(window.sequential().form().editor("sprt.miss"), "0.1");
+             for (QPushButton *button : window.sequential().findChildren<QPushButton *>())
+                 if (button->text() == "Run")
+                     QTest::mouseClick(button, Qt::LeftButton);
+         }},
+    };
+    return all;
+}
+
+std::unique_ptr<MainWindow> newWindow()
+{
+    auto window = std::make_unique<MainWindow>();
+    window->setAsking(false);
+    window->resize(1440, 900);
+    window->show();
+    return window;
+}
+
+} // namespace
+
+class tst_Lessons : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { Theme::apply(Theme::Kind::Light); }
+
+    void mistakesAreNamed_data();
+    void mistakesAreNamed();
+    void everyLessonIsTrueAndCanBeDone_data();
+    void everyLessonIsTrueAndCanBeDone();
+    void backGoesBackAndUndoUndoes();
+    void openingSomethingElseLeaves();
+};
+
+void tst_Lessons::mistakesAreNamed_data()
+{
+    QTest::addColumn<QByteArray>("json");
+    QTest::addColumn<QByteArray>("about");
+    const auto step = [](const char *rest) {
+        return QByteArray(R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d", "open": "e.json")") + rest + "}]}";
+    };
+    QTest::newRow("no JSON") << QByteArray("{") << QByteArray("JSON");
+    QTest::newRow("no steps") << QByteArray(R"({"title": "a", "sentence": "b"})") << QByteArray("steps");
+    QTest::newRow("nothing opened") << QByteArray(R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d"}]})") << QByteArray("steps[0].open");
+    QTest::newRow("key") << step(R"(, "moon": 1)") << QByteArray("steps[0].moon");
+    QTest::newRow("setting") << step(R"(, "settings": {"smd.moon": 1})") << QByteArray("smd.moon");
+    QTest::newRow("value") << step(R"(, "settings": {"model.snr": -3})") << QByteArray("model.snr");
+    QTest::newRow("measure") << step(R"(, "facts": {"moon": 1})") << QByteArray("facts.moon");
+    QTest::newRow("bounds") << step(R"(, "facts": {"events": [3, 1]})") << QByteArray("facts.events");
+    QTest::newRow("widget") << step(R"(, "point": "moon")") << QByteArray("moon");
+    QTest::newRow("task without end") << step(R"(, "do": "something")") << QByteArray("until");
+    QTest::newRow("answer") << step(R"(, "ask": {"question": "?", "choices": ["1", "2"], "answer": 2, "why": "!"})") << QByteArray("answer");
+}
+
+void tst_Lessons::mistakesAreNamed()
+{
+    QFETCH(QByteArray, json);
+    QFETCH(QByteArray, about);
+    try {
+        lessonFromJson(json.toStdString(), "/somewhere/lesson.json");
+        QFAIL("was taken");
+    } catch (const Error &error) {
+        const QByteArray what = error.what();
+        QVERIFY2(what.startsWith("/somewhere/lesson.json"), what.constData());
+        QVERIFY2(what.contains(about), what.constData());
+        QVERIFY2(!what.contains('\n'), what.constData());
+    }
+}
+
+void tst_Lessons::everyLessonIsTrueAndCanBeDone_data()
+{
+    QTest::addColumn<int>("number");
+    QVERIFY(lessons().size() >= 6);
+    int number = 0;
+    for (const Lesson &lesson : lessons())
+        QTest::newRow(qPrintable(QFileInfo(lesson.path).baseName())) << number++;
+}
+
+void tst_Lessons::everyLessonIsTrueAndCanBeDone()
+{
+    QFETCH(int, number);
+    const Lesson &lesson = lessons()[static_cast<std::size_t>(number)];
+    const QString name = QFileInfo(lesson.path).baseName();
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    LessonPanel &panel = guide.panel();
+    window->open(lesson.path);
+    for (int i = 0; i < static_cast<int>(lesson.steps.size()); ++i) {
+        const LessonStep &step = lesson.steps[static_cast<std::size_t>(i)];
+        const QByteArray where = QStringLiteral("%1, step %2: ").arg(name).arg(i + 1).toUtf8();
+        const auto fails = [&](const LessonCondition &condition) { return where.toStdString() + failure(*window, condition); };
+        QTRY_VERIFY2_WITH_TIMEOUT(guide.isReady(), where, patience);
+        QCOMPARE(guide.step(), i);
+        QVERIFY2(panel.isVisible() && panel.text().contains(step.text), where);
+        QVERIFY2(holds(*window, step.facts), fails(step.facts).c_str());
+
+        QWidget *target = guide.widgetNamed(step.point);
+        QCoreApplication::processEvents();
+        QVERIFY2(target && target->isVisible() && !target->visibleRegion().isEmpty(), where + "nothing to point at");
+        QVERIFY2(guide.frame().isVisible() && guide.frame().testAttribute(Qt::WA_TransparentForMouseEvents), where);
+
+        if (step.question) {
+            QVERIFY2(!panel.text().contains(step.question->why), where + "the answer is there before the choice");
+            QTest::mouseClick(panel.choices()->button(step.question->answer), Qt::LeftButton);
+            QCOMPARE(panel.choice(), step.question->answer);
+            QVERIFY2(panel.text().contains(step.question->why), where);
+        }
+        const Act act = acts().value(QStringLiteral("%1 %2").arg(name).arg(i + 1));
+        QCOMPARE(static_cast<bool>(act), !step.until.isEmpty());
+        if (act) {
+            QVERIFY2(!holds(*window, step.until) && !panel.isDone(), where + "is done before anybody did it");
+            act(*window);
+            if (QTest::currentTestFailed())
+                return;
+            QTRY_VERIFY2_WITH_TIMEOUT(panel.isDone(), fails(step.until).c_str(), patience);
+            QVERIFY2(holds(*window, step.thenFacts), fails(step.thenFacts).c_str());
+            QVERIFY2(panel.text().contains(step.then), where);
+        }
+        QTest::mouseClick(panel.next(), Qt::LeftButton);
+    }
+    QVERIFY(!guide.isRunning());
+    QVERIFY(!panel.isVisible() && !guide.frame().isVisible());
+}
+
+void tst_Lessons::backGoesBackAndUndoUndoes()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    Document &document = window->document();
+    window->open(":/lessons/reset.json");
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    const AnalysisSettings first = document.settings();
+    QCOMPARE(document.undoStack().count(), 0);
+    guide.goTo(1);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QCOMPARE(document.undoStack().count(), 1);
+    const AnalysisSettings second = document.settings();
+    QVERIFY(second != first);
+
+    document.undoStack().undo();
+    QVERIFY(document.settings() == first);
+    document.undoStack().redo();
+
+    QTest::mouseClick(guide.panel().back(), Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QCOMPARE(guide.step(), 0);
+    QVERIFY(document.settings() == first);
+    QVERIFY(!guide.panel().back()->isEnabled());
+
+    // Whatever the learner has done meanwhile, a step begins as it says.
+    window->controller().edit("model.snr", 2.0, "Change the SNR");
+    guide.goTo(1);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QVERIFY(document.settings() == second);
+}
+
+void tst_Lessons::openingSomethingElseLeaves()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    window->open(":/lessons/reset.json");
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    window->open(":/lessons/scenes/two-near-lines.json");
+    QTRY_VERIFY_WITH_TIMEOUT(!guide.isRunning(), patience);
+    QVERIFY(!guide.panel().isVisible());
+    QTRY_VERIFY_WITH_TIMEOUT(!window->controller().isBusy(), patience);
+    QVERIFY(window->workbench().isVisible());
+
+    guide.start(lessons().front());
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    window->showWelcome();
+    QVERIFY(!guide.isRunning() && !guide.dock()->isVisible());
+}
+
+QTEST_MAIN(tst_Lessons)
+#include "tst_Lessons.moc"

@@ -1,0 +1,103 @@
+// Every view has its equation and its keys, and both come up for the view one is at.
+
+#include "app/EquationSheet.h"
+#include "app/KeysOverlay.h"
+#include "app/MainWindow.h"
+#include "app/Workbench.h"
+#include "app/currentView.h"
+#include "app/equations.h"
+#include "app/keySections.h"
+#include "detect/makeDetector.h"
+#include "widgets/EventTable.h"
+#include "widgets/ExceedancePlot.h"
+#include "widgets/StripPlot.h"
+
+#include <QTest>
+
+#include <memory>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 120000; // ms
+
+} // namespace
+
+class tst_equations : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void everyViewHasOne();
+    void everyViewHasItsKeys();
+    void theOneOfTheViewComesUp();
+};
+
+void tst_equations::everyViewHasOne()
+{
+    for (const QString &view : MainWindow::viewNames()) {
+        if (view == "window")
+            continue;
+        const Equation *equation = equationOf(view);
+        QVERIFY2(equation, qPrintable(view));
+        QVERIFY(!equation->title.isEmpty() && !equation->equation.isEmpty() && !equation->symbols.isEmpty() && !equation->source.isEmpty());
+    }
+    for (const std::string_view detector : detectorNames)
+        QVERIFY2(equationOf("output", QString::fromLatin1(detector.data())), detector.data());
+    QVERIFY(equationOf("output", "smd") != equationOf("output", "pOfN"));
+    QVERIFY(!equationOf("moon"));
+}
+
+void tst_equations::everyViewHasItsKeys()
+{
+    for (const char *view : {"input", "output", "map", "threshold", "events", "pd", "slice", "walk", "histories", "hand"}) {
+        const KeySection section = keysOfView(view);
+        QVERIFY2(section.entries.size() >= 3, view);
+        QVERIFY(section.title.startsWith("Here"));
+    }
+    QVERIFY(keysOfView({}).entries.empty());
+    for (const auto &column : generalKeys({}))
+        QVERIFY(!column.empty());
+}
+
+void tst_equations::theOneOfTheViewComesUp()
+{
+    Theme::apply(Theme::Kind::Light);
+    MainWindow window;
+    window.setAsking(false);
+    window.resize(1400, 900);
+    window.show();
+    auto *sheet = window.findChild<EquationSheet *>();
+    QVERIFY(currentView(window).isEmpty());
+    QTest::keyClick(&window, Qt::Key_F1, Qt::ShiftModifier);
+    QVERIFY(!sheet->isVisible());
+
+    window.open(":/lessons/scenes/two-near-lines.json");
+    QTRY_VERIFY_WITH_TIMEOUT(window.document().analysis() && !window.controller().isBusy(), patience);
+    const std::pair<QWidget *, QString> views[] = {{window.workbench().input(), "input"},
+                                                   {window.workbench().output(), "output"},
+                                                   {&window.thresholdPlot(), "threshold"}};
+    for (const auto &[widget, name] : views) {
+        widget->setFocus();
+        QCOMPARE(currentView(window), name);
+        QTest::keyClick(widget, Qt::Key_F1, Qt::ShiftModifier);
+        QVERIFY(sheet->isVisible());
+        QVERIFY2(sheet->text().contains(equationOf(name)->equation), qPrintable(name));
+        QTest::keyClick(sheet, Qt::Key_Escape);
+        QVERIFY(!sheet->isVisible());
+        QVERIFY(widget->hasFocus());
+    }
+
+    // Another detector has another equation.
+    window.controller().edit("detector.kind", std::string("pOfN"), "Change the detector");
+    QTRY_VERIFY_WITH_TIMEOUT(!window.controller().isBusy(), patience);
+    window.workbench().output()->setFocus();
+    QTest::keyClick(window.workbench().output(), Qt::Key_F1, Qt::ShiftModifier);
+    QVERIFY(sheet->text().contains("P largest"));
+    QTest::keyClick(sheet, Qt::Key_F1, Qt::ShiftModifier);
+    QVERIFY(!sheet->isVisible());
+}
+
+QTEST_MAIN(tst_equations)
+#include "tst_equations.moc"
