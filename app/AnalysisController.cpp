@@ -86,6 +86,12 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
     m_document.edit(after, text, field);
 }
 
+void AnalysisController::editNumber(const QString &field, double value)
+{
+    const bool isWhole = settingField(field.toStdString()).kind == FieldKind::Integer;
+    edit(field, isWhole ? FieldValue(static_cast<int>(std::lround(value))) : FieldValue(value), tr("Take a value of the sweep"));
+}
+
 void AnalysisController::setSettings(const AnalysisSettings &settings, const QString &text)
 {
     m_document.edit(settings, text);

@@ -38,6 +38,8 @@ public:
 
     /// Changes one setting as one undoable step.
     void edit(const QString &field, const FieldValue &value, const QString &text);
+    /// The same of a setting that is a number, whole or not.
+    void editNumber(const QString &field, double value);
     void setSettings(const AnalysisSettings &settings, const QString &text);
     /// Adds a line of a known SNR in the noise at its place to what is open, as one undoable step.
     void inject(const LineSettings &line);

@@ -33,12 +33,6 @@ namespace {
         return chart;
     }
 
-    const std::vector<double> &snrsOf(const Campaign &campaign)
-    {
-        return std::visit([](const auto &one) -> const std::vector<double> & { return one.snrDb; },
-                          campaign.experiment);
-    }
-
 } // namespace
 
 EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments, QWidget *parent)
@@ -194,7 +188,7 @@ void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
     m_snr->clear();
     if (!entry.campaign)
         return;
-    const std::vector<double> &snrs = snrsOf(*entry.campaign);
+    const std::vector<double> snrs = snrsOf(entry.campaign->experiment);
     for (const double db : snrs)
         m_snr->addItem(tr("%1 dB").arg(numberText(db, db == std::floor(db) ? 0 : 1)));
     m_snr->setCurrentIndex(static_cast<int>(snrs.size() / 2));

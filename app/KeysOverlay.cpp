@@ -54,6 +54,7 @@ namespace {
                {"Space", "play"},
                {"J  L", "one frame back, forward; of a sequential test, a stage"},
                {"Ctrl + R", "run again"},
+               {"Ctrl + B", "keep as A, to compare what comes after with"},
                {"Escape", "stop, or clear what is marked"}}},
              {QT_TRANSLATE_NOOP("KeysOverlay", "Sonar pings"),
               {{"P", "from above, or range over bearing"},

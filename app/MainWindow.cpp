@@ -2,6 +2,7 @@
 
 #include "app/ActivityBar.h"
 #include "app/CommandPalette.h"
+#include "app/ComparePanel.h"
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
 #include "app/ExperimentsPanel.h"
@@ -22,6 +23,7 @@
 #include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
 #include "app/StateSlicePanel.h"
+#include "app/SweepPanel.h"
 #include "app/TrialViewer.h"
 #include "app/TrialWindow.h"
 #include "app/WelcomePage.h"
@@ -89,7 +91,7 @@ namespace {
 } // namespace
 
 MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recoveryFolder, QWidget *parent)
-    : QMainWindow(parent), m_controller(m_document), m_memory(std::move(memory)), m_recoveryFolder(recoveryFolder)
+    : QMainWindow(parent), m_controller(m_document), m_comparer(m_document), m_memory(std::move(memory)), m_recoveryFolder(recoveryFolder)
 {
     setObjectName(QStringLiteral("MainWindow"));
     setAnimated(false);
@@ -118,6 +120,7 @@ MainWindow::~MainWindow()
 {
     m_controller.disconnect(this); // what is still running ends after the widgets are gone
     m_document.disconnect(this);
+    m_comparer.disconnect();
     m_experiments.disconnect();
     m_sequentialTests.disconnect();
     m_trials.reset();
@@ -159,7 +162,9 @@ void MainWindow::buildDocks()
     m_noiseFit = new NoiseFitPanel(m_document);
     m_states = new StateSlicePanel(m_document, m_pings->viewports());
     m_latency = new LatencyPanel(m_document);
+    m_compare = new ComparePanel(m_document, m_controller, m_comparer);
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
+    m_sweep = new SweepPanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
     m_reproduction = new ReproductionPanel;
     m_sequential = new SequentialPanel(m_document, m_sequentialTests);
@@ -174,6 +179,8 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
     m_panels->add(QStringLiteral("statesDock"), tr("State space"), m_states, Place::RightBottom);
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
+    m_panels->add(QStringLiteral("compareDock"), tr("Compare"), m_compare, Place::Bottom);
+    m_panels->add(QStringLiteral("sweepDock"), tr("Sweep"), m_sweep, Place::Bottom);
     m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
     m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
     m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
@@ -278,6 +285,8 @@ void MainWindow::connectViews()
         connect(one, &Bench::thresholdStepRequested, &m_controller, &AnalysisController::stepThreshold);
     }
     connect(m_events, &EventTable::eventActivated, this, goTo);
+    connect(m_compare, &ComparePanel::eventActivated, this, goTo);
+    connect(m_workbench->output(), &WaterfallView::orientationChanged, m_compare->picture(), &WaterfallView::setOrientation);
     connect(m_workbench, &Workbench::readingChanged, m_readOut, &ReadOut::setReading);
     connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
             [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });
@@ -294,6 +303,8 @@ void MainWindow::connectEvaluation()
     m_trials = std::make_unique<TrialViewer>(m_experiments, this);
     connect(m_evaluate, &EvaluatePanel::trialRequested, m_trials.get(), &TrialViewer::open);
     connect(m_evaluate, &EvaluatePanel::failed, this, &MainWindow::showError);
+    connect(m_sweep, &SweepPanel::failed, this, &MainWindow::showError);
+    connect(m_sweep, &SweepPanel::valueChosen, &m_controller, &AnalysisController::editNumber);
     connect(m_sequential, &SequentialPanel::failed, this, &MainWindow::showError);
     auto *dock = static_cast<QDockWidget *>(m_sequential->parentWidget());
     connect(dock->toggleViewAction(), &QAction::toggled, this, [this, dock] {
@@ -559,7 +570,7 @@ void MainWindow::setAsking(bool isAsking)
 
 const QStringList &MainWindow::viewNames()
 {
-    static const QStringList names{"window", "input",     "output",     "threshold", "events", "noise",    "noisefit",  "pd",   "why", "map", "polar",
+    static const QStringList names{"window", "input",     "output",     "threshold", "events", "noise",    "noisefit",  "pd",   "why", "compare", "sweep", "map", "polar",
                                    "slice",  "histories", "latency",    "sequential", "walk",  "stopping", "posterior", "scan", "asn", "prior", "sectors"};
     return names;
 }
@@ -577,6 +588,8 @@ QWidget *MainWindow::view(const QString &name)
         {"noisefit", m_noiseFit},
         {"pd", m_evaluate},
         {"why", m_why},
+        {"compare", m_compare},
+        {"sweep", m_sweep},
         {"map", m_pings->maps()},
         {"polar", m_pings->maps()},
         {"slice", m_states},
@@ -629,6 +642,10 @@ void MainWindow::showExperiment(int id)
     }
     if (entry->reproducible)
         return;
+    if (entry->campaign && std::holds_alternative<SweepExperiment>(entry->campaign->experiment)) {
+        m_sweep->show(id);
+        return m_panels->show(m_sweep);
+    }
     m_evaluate->show(id);
     m_panels->show(m_evaluate);
 }
@@ -651,6 +668,16 @@ void MainWindow::showStates()
 void MainWindow::showLatency()
 {
     m_panels->show(m_latency);
+}
+
+void MainWindow::showSweep()
+{
+    m_panels->show(m_sweep);
+}
+
+void MainWindow::showCompare()
+{
+    m_panels->show(m_compare);
 }
 
 void MainWindow::setTheme(Theme::Kind kind)

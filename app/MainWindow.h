@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/AnalysisController.h"
+#include "app/Comparer.h"
 #include "app/Document.h"
 #include "app/Experiments.h"
 #include "app/SequentialTests.h"
@@ -21,6 +22,7 @@ namespace faintline {
 class ActivityBar;
 class Bench;
 class CommandPalette;
+class ComparePanel;
 class EvaluatePanel;
 class EventTable;
 class ExceedancePlot;
@@ -41,6 +43,7 @@ class ScenarioCard;
 class SequentialPanel;
 class SessionSaver;
 class StateSlicePanel;
+class SweepPanel;
 class TrialViewer;
 class WelcomePage;
 class WhyPanel;
@@ -80,6 +83,9 @@ public:
     StateSlicePanel &states() { return *m_states; }
     LatencyPanel &latency() { return *m_latency; }
     TrialViewer &trials() { return *m_trials; }
+    Comparer &comparer() { return m_comparer; }
+    ComparePanel &comparePanel() { return *m_compare; }
+    SweepPanel &sweep() { return *m_sweep; }
 
     /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
     void openScans(const ScanTest &test);
@@ -87,7 +93,7 @@ public:
     SequentialPanel &sequential() { return *m_sequential; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd", "why"; of a sonar's pings "map", "polar", "histories", "slice", "latency"; of sequential tests "sequential",
+    /// "noisefit", "pd", "why", "compare", "sweep"; of a sonar's pings "map", "polar", "histories", "slice", "latency"; of sequential tests "sequential",
     /// "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
@@ -96,6 +102,8 @@ public:
     void showWhy();
     void showStates();
     void showLatency();
+    void showCompare();
+    void showSweep();
 
     /// Off: nobody is there to answer a dialog.
     void setAsking(bool isAsking);
@@ -151,6 +159,7 @@ private:
 
     Document m_document;
     AnalysisController m_controller;
+    Comparer m_comparer;
     Experiments m_experiments;
     SequentialTests m_sequentialTests;
     WindowMemory m_memory;
@@ -177,6 +186,8 @@ private:
     SequentialPanel *m_sequential = nullptr;
     StateSlicePanel *m_states = nullptr;
     LatencyPanel *m_latency = nullptr;
+    ComparePanel *m_compare = nullptr;
+    SweepPanel *m_sweep = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
     OverviewStrip *m_overview = nullptr;
     ReadOut *m_readOut = nullptr;

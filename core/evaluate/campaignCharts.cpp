@@ -3,6 +3,7 @@
 #include "base/Field.h"
 #include "base/logmath.h"
 #include "evaluate/PdCurve.h"
+#include "evaluate/sweepCurve.h"
 #include "evaluate/theory.h"
 
 #include <algorithm>
@@ -108,6 +109,8 @@ namespace {
 
 Chart pdChart(const Campaign &campaign)
 {
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        return sweepChart(campaign, SweepMeasure::Pd);
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
     Chart chart{"Detection probability",
                 "SNR (dB), at 1 false alarm per block",
@@ -133,6 +136,8 @@ Chart pdChart(const Campaign &campaign)
 
 Chart rocChart(const Campaign &campaign, std::size_t snr)
 {
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        return tradeOffChart(campaign);
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
     Chart chart{"Receiver operating characteristic",
                 lines ? "False alarms per block" : "P(path without the line exceeds)",
