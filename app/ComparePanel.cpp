@@ -123,7 +123,7 @@ QWidget *ComparePanel::buildPicture()
     m_picture->setObjectName(QStringLiteral("difference"));
     m_picture->setViewport(&m_document.viewport());
     m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red") : QStringLiteral("ice-fire"));
-    m_picture->setMinimumSize(200, 110);
+    m_picture->setMinimumSize(150, 90);
     m_picture->setToolTip(tr("How much farther above its threshold B lies than A. Blue: A is ahead; red: B is ahead."));
     auto *pane = new QWidget;
     auto *layout = new QHBoxLayout(pane);

@@ -138,6 +138,15 @@ void MainWindow::buildCentre()
     m_pages->addWidget(m_workbench);
     m_pings = new PingBench(m_document);
     m_pages->addWidget(m_pings);
+    // What is not seen must not keep a small window from showing what is.
+    const auto measureCurrent = [this](int current) {
+        for (int i = 0; i < m_pages->count(); ++i) {
+            const auto policy = i == current ? QSizePolicy::Expanding : QSizePolicy::Ignored;
+            m_pages->widget(i)->setSizePolicy(policy, policy);
+        }
+    };
+    connect(m_pages, &QStackedWidget::currentChanged, this, measureCurrent);
+    measureCurrent(m_pages->currentIndex());
 
     auto *centre = new QWidget;
     auto *layout = new QVBoxLayout(centre);

@@ -115,6 +115,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
+    setMinimumHeight(220); // of the pictures: the curves' own would keep a window small enough to hide them from becoming so
 
     m_regulation->setRightTitle(tr("resets"));
     m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});

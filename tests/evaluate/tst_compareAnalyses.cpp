@@ -261,7 +261,7 @@ private slots:
         scene.sampleRateHz = 400.0;
         scene.durationSeconds = 60.0;
         LineSettings line;
-        line.snrDb = 0.0;
+        line.snrDb = 1.5;
         line.startSeconds = 10.0;
         line.durationSeconds = 45.0;
         line.frequencyHz = 90.0;
@@ -273,8 +273,8 @@ private slots:
         settings.detector = EnergySettings{};
         const auto b = analyse(recording, settings, {}, a.get());
         const Comparison comparison = compareAnalyses(*a, *b);
-        QCOMPARE(comparison.count(In::A), std::ptrdiff_t(1));
-        QCOMPARE(comparison.count(In::Both), std::ptrdiff_t(0));
+        QVERIFY(comparison.count(In::A) >= 1);
+        QCOMPARE(comparison.count(In::A), std::ssize(comparison.events));
         QVERIFY(!haveCommonUnit(*a, *b));
         const auto picture = differencePicture(*a, *b);
         QCOMPARE(picture->frameCount(), a->time().count);
