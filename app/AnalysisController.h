@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/previewStatistic.h"
 #include "app/Document.h"
 #include "app/JobRunner.h"
 #include "app/Session.h"
@@ -15,6 +16,8 @@ namespace faintline {
 ///
 /// Whatever computes runs in the job runner, and the newest wish wins. A dragged threshold is shown at once on the
 /// results there are (`previewThreshold`); let go (`commitThreshold`), it becomes a setting and the chain runs again.
+/// A changed detector or model is seen at once as well: its statistic of the visible frames comes first, provisionally, beside the threshold
+/// there was; calibration, decisions and the rest of the recording follow.
 class AnalysisController : public QObject
 {
     Q_OBJECT
@@ -73,10 +76,13 @@ private:
     static Opening openNow(const QString &path, const OpenOptions &options);
     void deliver(const Opening &opening);
     void startAnalysis();
+    void showPreview(const AnalysisSettings &settings, const StatisticPreview &preview, std::shared_ptr<const KeptFrames> kept);
+    void dropPartialPreview();
     void end();
 
     Document &m_document;
     std::optional<ViewState> m_pendingView;
+    std::shared_ptr<const KeptFrames> m_kept; ///< of the last preview
     bool m_isOpening = false;
     JobRunner m_runner; ///< last, so that its jobs end first
 };

@@ -124,7 +124,6 @@ QWidget *ComparePanel::buildPicture()
     m_picture->setViewport(&m_document.viewport());
     m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red") : QStringLiteral("ice-fire"));
     m_picture->setMinimumSize(150, 90);
-    m_picture->setToolTip(tr("How much farther above its threshold B lies than A. Blue: A is ahead; red: B is ahead."));
     auto *pane = new QWidget;
     auto *layout = new QHBoxLayout(pane);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -283,7 +282,10 @@ void ComparePanel::showPicture()
     if (!result || !result->difference)
         return m_picture->setPicture(nullptr, {});
     const bool isPlain = haveCommonUnit(*result->a, *result->b);
-    m_picture->setStatisticUnit(tr("nat"), isPlain ? tr("B − A, each above its threshold (nat)") : tr("B − A, how rare on noise (nat)"));
+    m_picture->setStatisticUnit(tr("nat"), isPlain ? tr("B − A (nat)") : tr("B − A, rarity (nat)"));
+    m_picturePane->setToolTip(isPlain ? tr("How much farther above its threshold B lies than A. Blue: A is ahead; red: B is ahead.")
+                                      : tr("How much rarer than at its threshold B is on noise than A: their statistics have different units, their "
+                                           "false-alarm probabilities can be compared. Blue: A is ahead; red: B is ahead."));
     m_picture->setPicture(result->difference, result->b->grid().axes.back());
 }
 

@@ -24,6 +24,7 @@
 #include "app/SessionSaver.h"
 #include "app/StateSlicePanel.h"
 #include "app/SweepPanel.h"
+#include "app/ThresholdCurves.h"
 #include "app/TrialViewer.h"
 #include "app/TrialWindow.h"
 #include "app/WelcomePage.h"
@@ -164,6 +165,7 @@ void MainWindow::buildDocks()
     m_threshold = new ExceedancePlot;
     m_threshold->setObjectName(QStringLiteral("threshold"));
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    new ThresholdCurves(m_document, *m_threshold, this);
     m_events = new EventTable;
     m_events->setEmptySentence(tr("No event at this threshold."));
     m_why = new WhyPanel(m_document);
@@ -247,6 +249,7 @@ void MainWindow::connectDocument()
         showHint();
     });
     connect(&m_document, &Document::analysisChanged, this, &MainWindow::showAnalysis);
+    connect(&m_document, &Document::provisionalChanged, this, &MainWindow::showHint);
     connect(&m_document, &Document::shownThresholdChanged, m_threshold,
             [this] { m_threshold->setThreshold(m_document.shownThreshold()); });
     connect(&m_document, &Document::shownEventsChanged, this, &MainWindow::showEvents);

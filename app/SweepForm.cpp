@@ -80,7 +80,8 @@ namespace {
     QString titleOf(const FieldInfo &field)
     {
         const QString name = QString::fromStdString(field.name);
-        return stageLabel(name.section(QLatin1Char('.'), 0, 0)) + QStringLiteral(" · ") + settingLabel(name);
+        const QString stage = stageLabel(name.section(QLatin1Char('.'), 0, 0)), label = settingLabel(name);
+        return stage == label ? label : stage + QStringLiteral(" · ") + label;
     }
 
 } // namespace

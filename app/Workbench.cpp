@@ -125,6 +125,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
 
     connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
     connect(&document, &Document::analysisChanged, this, &Workbench::showAnalysis);
+    connect(&document, &Document::provisionalChanged, this, &Workbench::showStatistic);
     connect(&document, &Document::shownThresholdChanged, this, &Workbench::showThreshold);
     connect(&document, &Document::shownEventsChanged, this, &Workbench::showEvents);
     m_player.setInterval(playerInterval);
@@ -178,16 +179,12 @@ void Workbench::showAnalysis()
     const Axis &frequency = analysis.grid().axes.back();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
 
-    const QString unit = statisticUnit(analysis.settings);
-    m_output->setStatisticUnit(unit, tr("Statistic D (%1)").arg(unit));
-    m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
     followExtents(analysis, isFirst);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
     m_input->setPicture(analysis.input, frequency);
-    m_output->setPicture(analysis.statistic, frequency);
+    showStatistic();
     for (WaterfallView *view : {m_input, m_output})
         view->setTruth(m_document.truth().lines);
-    m_statistic->setProfile(tr("D at the cursor"), analysis.statistic, frequency);
 
     std::vector<float> resetFraction(analysis.continuedFraction.size());
     std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),
@@ -197,6 +194,21 @@ void Workbench::showAnalysis()
     if (isFirst)
         placeCursor();
     readCursor();
+}
+
+/// The analysis's, or what changed settings make of the visible part of it in the meantime.
+void Workbench::showStatistic()
+{
+    if (m_document.hasPings() || !m_document.analysis())
+        return;
+    const bool isProvisional = m_document.provisional() != nullptr;
+    const auto &picture = isProvisional ? m_document.provisional() : m_document.analysis()->statistic;
+    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
+    const Axis &frequency = m_document.analysis()->grid().axes.back();
+    m_output->setStatisticUnit(unit, isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit));
+    m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
+    m_output->setPicture(picture, frequency);
+    m_statistic->setProfile(tr("D at the cursor"), picture, frequency);
 }
 
 void Workbench::showThreshold()

@@ -51,6 +51,7 @@ signals:
 private:
     void linkViews();
     void showAnalysis();
+    void showStatistic();
     void showThreshold();
     void showEvents();
     void followExtents(const Analysis &analysis, bool isFirst);

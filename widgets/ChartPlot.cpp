@@ -302,8 +302,12 @@ void ChartPlot::addCurve(std::size_t index)
     m_curves.push_back(item);
 }
 
+/// Above the points, or below those at the top: where there is room.
 void ChartPlot::addLabels(std::size_t index)
 {
+    double highest = 0.0;
+    for (const Curve::Point &point : m_chart.curves[index].points)
+        highest = std::max(highest, point.y);
     for (const Curve::Point &point : m_chart.curves[index].points) {
         if (point.label.empty())
             continue;
@@ -312,7 +316,7 @@ void ChartPlot::addLabels(std::size_t index)
         text.setColor(Theme::colours(*this).text);
         auto *item = new QwtPlotMarker;
         item->setLabel(text);
-        item->setLabelAlignment(Qt::AlignRight | Qt::AlignBottom);
+        item->setLabelAlignment(Qt::AlignRight | (point.y > 0.85 * highest ? Qt::AlignBottom : Qt::AlignTop));
         item->setSpacing(4);
         item->setValue(abscissa(point.x), ordinate(point.y));
         item->setZ(25.0);
@@ -415,7 +419,8 @@ void ChartPlot::placeKey()
     m_row->setDirection(isBelow ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     m_keyArea->setMinimumSize(isBelow ? 0 : widest, isBelow ? heightBelow : 0);
     m_keyArea->setMaximumSize(isBelow ? QWIDGETSIZE_MAX : widest, isBelow ? heightBelow : QWIDGETSIZE_MAX);
-    m_keyArea->setVisible(!m_boxes.empty());
+    const bool isNameless = m_chart.curves.size() == 1 && m_chart.curves.front().name.empty(); // the only one
+    m_keyArea->setVisible(!m_boxes.empty() && !isNameless);
 }
 
 void ChartPlot::resizeEvent(QResizeEvent *event)
@@ -486,7 +491,7 @@ void ChartPlot::showPlace(const std::optional<Place> &place)
     const Curve::Point &point = curve.points[place->point];
     m_ring->setValue(abscissa(point.x), ordinate(point.y));
     QString text =
-        tr("%1:  %2 = %3  →  %4").arg(words(curve.name), words(m_chart.xLabel), valueText(point.x), valueText(point.y));
+        tr("%1%2 = %3  →  %4").arg(curve.name.empty() ? QString() : words(curve.name) + QStringLiteral(":  "), words(m_chart.xLabel), valueText(point.x), valueText(point.y));
     if (!point.label.empty())
         text.prepend(words(point.label) + QStringLiteral(":  "));
     if (point.interval.low < point.interval.high)

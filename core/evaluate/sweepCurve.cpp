@@ -25,11 +25,6 @@ namespace {
         return field.name + (field.unit.empty() ? "" : " (" + field.unit + ")");
     }
 
-    std::string nameOf(const SweepExperiment &experiment)
-    {
-        return experiment.recording.empty() ? "simulated noise" : "this recording's noise";
-    }
-
     double shownFalseAlarms(const SweepPoint &point)
     {
         return point.falseAlarms > 0 ? point.falseAlarmsPerHour : unseen / point.hours;
@@ -89,7 +84,7 @@ Chart sweepChart(const Campaign &campaign, SweepMeasure measure)
         chart.title = "Latency";
         chart.yLabel = "start to detection (s)";
     }
-    Curve curve{nameOf(experiment), Curve::Kind::Measured, {}};
+    Curve curve{{}, Curve::Kind::Measured, {}}; // the only one needs no name
     for (const SweepPoint &point : sweepCurve(campaign)) {
         if (measure == SweepMeasure::Pd)
             curve.points.push_back({point.value, point.pd, point.pdInterval});
@@ -108,9 +103,18 @@ Chart tradeOffChart(const Campaign &campaign)
 {
     const auto &experiment = std::get<SweepExperiment>(campaign.experiment);
     Chart chart{"Trade-off of " + experiment.parameter, "false alarms per hour", "Pd", true, false, {}};
-    Curve curve{nameOf(experiment), Curve::Kind::Measured, {}};
-    for (const SweepPoint &point : sweepCurve(campaign))
-        curve.points.push_back({shownFalseAlarms(point), point.pd, point.pdInterval, formatNumber(point.value)});
+    Curve curve{{}, Curve::Kind::Measured, {}}; // the only one needs no name
+    for (const SweepPoint &point : sweepCurve(campaign)) {
+        const Curve::Point shown{shownFalseAlarms(point), point.pd, point.pdInterval, formatNumber(point.value)};
+        const auto same = std::find_if(curve.points.begin(), curve.points.end(),
+                                       [&](const Curve::Point &other) { return other.x == shown.x && other.y == shown.y; });
+        if (same == curve.points.end()) {
+            curve.points.push_back(shown);
+            continue;
+        }
+        same->label += ", " + shown.label; // one on top of the other: they share a label
+        curve.points.push_back({shown.x, shown.y, shown.interval});
+    }
     if (!curve.points.empty())
         chart.curves.push_back(std::move(curve));
     return chart;
@@ -119,7 +123,7 @@ Chart tradeOffChart(const Campaign &campaign)
 Chart costChart(const SweepExperiment &experiment, const std::vector<double> &seconds)
 {
     Chart chart{"Cost", labelOf(experiment), "processor time per hour of recording (s)", isLogarithmic(experiment.values), false, {}};
-    Curve curve{"this machine", Curve::Kind::Measured, {}};
+    Curve curve{{}, Curve::Kind::Measured, {}};
     for (std::size_t i = 0; i < std::min(seconds.size(), experiment.values.size()); ++i)
         curve.points.push_back({experiment.values[i], seconds[i], {}});
     if (!curve.points.empty())

@@ -1,3 +1,4 @@
+#include "evaluate/boxExceedance.h"
 #include "evaluate/closedForm.h"
 #include "evaluate/theory.h"
 
@@ -62,6 +63,30 @@ private slots:
         QVERIFY2(largestGap(settings) < 0.15, qPrintable(QString::number(largestGap(settings))));
         settings.spectrogram.stepsPerWindow = 2; // looks that overlap are not independent
         QVERIFY(closedFormExceedance(settings, Calibration()).empty());
+    }
+
+    void ofABoxByEye()
+    {
+        PeakPyramid picture({"time", "s", 0.0, 1.0, 20, false}, 4, ByteScale(ByteScale::Kind::ScoreNats));
+        for (int frame = 0; frame < 20; ++frame)
+            picture.append(std::vector<float>{0.0f, 1.0f, 2.0f, 30.0f});
+        picture.finish();
+        // Of columns 0 … 2: all above -1, two of three above ½, one of three above 1½, none above 2½.
+        const auto at = [](const std::vector<ExceedancePoint> &points, double level) {
+            double found = 0.0;
+            for (const ExceedancePoint &point : points)
+                if (std::abs(point.level - level) < 0.2)
+                    found = point.probability;
+            return found;
+        };
+        const auto points = boxExceedance(picture, 0, 20, 0, 3);
+        QCOMPARE(at(points, -1.0), 1.0);
+        QCOMPARE(at(points, 0.5), 2.0 / 3.0);
+        QCOMPARE(at(points, 1.5), 1.0 / 3.0);
+        QVERIFY(points.back().level < 2.0);
+        QVERIFY(boxExceedance(picture, 5, 5, 0, 3).empty());
+        QVERIFY(boxExceedance(picture, 0, 9, 2, 3).empty()); // nine cells say nothing
+        QCOMPARE(boxExceedance(picture, -7, 900, 0, 900).size(), boxExceedance(picture, 0, 20, 0, 4).size());
     }
 
     void markov()
