@@ -41,6 +41,8 @@ namespace {
 AnalysisController::AnalysisController(Document &document, QObject *parent) : QObject(parent), m_document(document)
 {
     connect(&m_document, &Document::settingsChanged, this, &AnalysisController::run);
+    connect(&m_document.viewport(), &Viewport::spanChanged, this, &AnalysisController::dropPartialPreview);
+    connect(&m_document, &Document::opened, this, [this] { m_kept.reset(); });
     connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
     connect(&m_runner, &JobRunner::progressed, this, &AnalysisController::progressed);
     connect(&m_runner, &JobRunner::finished, this, &AnalysisController::end);
@@ -94,6 +96,12 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
     m_document.edit(after, text, field);
 }
 
+void AnalysisController::editNumber(const QString &field, double value)
+{
+    const bool isWhole = settingField(field.toStdString()).kind == FieldKind::Integer;
+    edit(field, isWhole ? FieldValue(static_cast<int>(std::lround(value))) : FieldValue(value), tr("Take a value of the sweep"));
+}
+
 void AnalysisController::setSettings(const AnalysisSettings &settings, const QString &text)
 {
     m_document.edit(settings, text);
@@ -129,8 +137,19 @@ void AnalysisController::run()
 
 void AnalysisController::startAnalysis()
 {
-    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.settings(),
-                    previous = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
+    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.settings(), previous = m_document.analysis(),
+                    visible = m_document.viewport().time(), kept = m_kept](const RunContext &context) -> JobRunner::Delivery {
+        if (const bool isSame = previous && opened.recording && previous->recording == opened.recording;
+            isSame && isWorthAPreview(*previous, settings)) {
+            const Axis &time = previous->time();
+            const FrameRange range = previewRange(*previous->frames, time.nearest(visible.low), time.nearest(visible.high));
+            if (!range.isEmpty()) {
+                const bool isKept = kept && kept->holds(previous->frames, range.readFirst, range.end);
+                const auto frames = isKept ? kept : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst, context.part(0.0, 0.01));
+                const StatisticPreview preview = previewStatistic(*previous, settings, *frames, range, context.part(0.01, 0.02));
+                m_runner.deliver([this, settings, preview, frames] { showPreview(settings, preview, frames); });
+            }
+        }
         // What is seen already is not taken away for a part of what comes.
         PictureSink pictures;
         if (!previous)
@@ -143,6 +162,26 @@ void AnalysisController::startAnalysis()
             m_document.setAnalysis(analysis, found);
         };
     });
+}
+
+void AnalysisController::showPreview(const AnalysisSettings &settings, const StatisticPreview &preview, std::shared_ptr<const KeptFrames> kept)
+{
+    m_kept = std::move(kept);
+    if (settings == m_document.settings() && !m_document.isCurrent() && m_runner.isRunning())
+        m_document.setProvisional(preview.statistic);
+    dropPartialPreview();
+}
+
+/// Who looks farther than the preview reaches sees the analysis there is.
+void AnalysisController::dropPartialPreview()
+{
+    const auto &shown = m_document.provisional();
+    if (!shown)
+        return;
+    const Span &visible = m_document.viewport().time();
+    const Axis &time = shown->time();
+    if (visible.low < time.value(-1.5) || visible.high > time.value(static_cast<double>(time.count) + 0.5))
+        m_document.setProvisional(nullptr);
 }
 
 void AnalysisController::stop()
@@ -211,6 +250,7 @@ void AnalysisController::end()
     // An opening that failed or was cancelled had displaced the analysis of what is still open.
     if (std::exchange(m_isOpening, false) && !m_document.isEmpty() && !m_document.isCurrent())
         return startAnalysis();
+    m_document.setProvisional(nullptr); // of settings that could not be analysed
     emit busyChanged(false);
     if (m_pendingView && m_document.analysis())
         emit viewRestored(*std::exchange(m_pendingView, {}));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/previewStatistic.h"
 #include "app/Document.h"
 #include "app/JobRunner.h"
 #include "app/Session.h"
@@ -15,6 +16,8 @@ namespace faintline {
 ///
 /// Whatever computes runs in the job runner, and the newest wish wins. A dragged threshold is shown at once on the
 /// results there are (`previewThreshold`); let go (`commitThreshold`), it becomes a setting and the chain runs again.
+/// A changed detector or model is seen at once as well: its statistic of the visible frames comes first, provisionally, beside the threshold
+/// there was; calibration, decisions and the rest of the recording follow.
 class AnalysisController : public QObject
 {
     Q_OBJECT
@@ -38,6 +41,8 @@ public:
 
     /// Changes one setting as one undoable step.
     void edit(const QString &field, const FieldValue &value, const QString &text);
+    /// The same of a setting that is a number, whole or not.
+    void editNumber(const QString &field, double value);
     void setSettings(const AnalysisSettings &settings, const QString &text);
     /// Adds a line of a known SNR in the noise at its place to what is open, as one undoable step.
     void inject(const LineSettings &line);
@@ -73,10 +78,13 @@ private:
     void open(const QString &path, const OpenOptions &options, const Adjust &adjust, const Annotations &annotations);
     void deliver(const Opening &opening);
     void startAnalysis();
+    void showPreview(const AnalysisSettings &settings, const StatisticPreview &preview, std::shared_ptr<const KeptFrames> kept);
+    void dropPartialPreview();
     void end();
 
     Document &m_document;
     std::optional<ViewState> m_pendingView;
+    std::shared_ptr<const KeptFrames> m_kept; ///< of the last preview
     bool m_isOpening = false;
     JobRunner m_runner; ///< last, so that its jobs end first
 };

@@ -63,6 +63,7 @@ void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, 
     m_annotations = std::move(annotations);
     m_sessionPath = sessionPath;
     m_analysis.reset();
+    m_provisional.reset();
     m_events.clear();
     m_viewport.setExtents({}, {});
     m_undoStack.clear();
@@ -97,11 +98,20 @@ void Document::setSaved(const QString &sessionPath)
 void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events)
 {
     m_analysis = std::move(analysis);
+    m_provisional.reset();
     m_events = std::move(events);
     m_shownThreshold = m_analysis->threshold;
     emit analysisChanged();
     emit shownThresholdChanged();
     emit shownEventsChanged();
+}
+
+void Document::setProvisional(std::shared_ptr<const PeakPyramid> statistic)
+{
+    if (statistic == m_provisional || !m_analysis)
+        return;
+    m_provisional = std::move(statistic);
+    emit provisionalChanged();
 }
 
 bool Document::isCurrent() const

@@ -73,6 +73,10 @@ public:
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
     bool isCurrent() const;
 
+    /// What the changed settings make of the visible frames, until their analysis is there; null where there is no such thing.
+    void setProvisional(std::shared_ptr<const PeakPyramid> statistic);
+    const std::shared_ptr<const PeakPyramid> &provisional() const { return m_provisional; }
+
     void setShownThreshold(double nats);
     double shownThreshold() const { return m_shownThreshold; }
     /// Events and tracks that exceed the shown threshold.
@@ -86,6 +90,7 @@ signals:
     void picturesGrew(const faintline::PicturesSoFar &pictures); ///< of a long recording, while its first analysis is still under way
     void annotationsChanged();
     void analysisChanged();
+    void provisionalChanged();
     void shownThresholdChanged();
     void shownEventsChanged(); ///< the threshold passed one, or they are new
     void sessionChanged();     ///< its path, or whether there is something to save
@@ -110,6 +115,7 @@ private:
     QString m_sessionPath;
     Viewport m_viewport;
     std::shared_ptr<const Analysis> m_analysis;
+    std::shared_ptr<const PeakPyramid> m_provisional;
     std::vector<Event> m_events;
     double m_shownThreshold = 0.0;
     QUndoStack m_undoStack;

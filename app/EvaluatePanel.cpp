@@ -33,12 +33,6 @@ namespace {
         return chart;
     }
 
-    const std::vector<double> &snrsOf(const Campaign &campaign)
-    {
-        return std::visit([](const auto &one) -> const std::vector<double> & { return one.snrDb; },
-                          campaign.experiment);
-    }
-
 } // namespace
 
 EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments, QWidget *parent)
@@ -126,6 +120,10 @@ EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments,
         if (id == m_shown)
             show(0);
     });
+    connect(&document, &Document::shownThresholdChanged, this, [this] {
+        if (const Experiments::Entry *entry = m_experiments.entry(m_shown); entry && entry->campaign && isVisible())
+            showOperatingPoint(*entry);
+    });
     connect(&document, &Document::analysisChanged, this, &EvaluatePanel::followDocument);
     connect(&document, &Document::opened, this, &EvaluatePanel::followDocument);
     connect(&document, &Document::settingsChanged, this, &EvaluatePanel::followDocument);
@@ -194,7 +192,7 @@ void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
     m_snr->clear();
     if (!entry.campaign)
         return;
-    const std::vector<double> &snrs = snrsOf(*entry.campaign);
+    const std::vector<double> snrs = snrsOf(entry.campaign->experiment);
     for (const double db : snrs)
         m_snr->addItem(tr("%1 dB").arg(numberText(db, db == std::floor(db) ? 0 : 1)));
     m_snr->setCurrentIndex(static_cast<int>(snrs.size() / 2));
@@ -203,16 +201,35 @@ void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
 void EvaluatePanel::showPd(const Experiments::Entry &entry)
 {
     m_pd->setInvitation(entry.campaign ? tr("click to see one of its trials") : QString());
-    m_pd->setChart(entry.imported ? chartOf(*entry.imported) : entry.campaign ? pdChart(*entry.campaign) : Chart());
+    m_pdChart = entry.imported ? chartOf(*entry.imported) : entry.campaign ? pdChart(*entry.campaign) : Chart();
+    showOperatingPoint(entry);
+}
+
+/// Follows the threshold under the user's finger, on curves that are there.
+void EvaluatePanel::showOperatingPoint(const Experiments::Entry &entry)
+{
+    const auto shown = [](Chart chart, const std::optional<Curve> &extra) {
+        if (extra)
+            chart.curves.push_back(*extra);
+        return chart;
+    };
+    const bool hasThreshold = entry.campaign && m_document.analysis();
+    const AnalysisSettings &settings = m_document.settings();
+    const double threshold = m_document.shownThreshold();
+    m_pd->setChart(shown(m_pdChart, hasThreshold ? pdAtOperatingPoint(*entry.campaign, settings, threshold) : std::nullopt));
+    if (m_tabs->currentIndex() == 1 && m_snr->currentIndex() >= 0)
+        m_roc->setChart(shown(m_rocChart, hasThreshold ? operatingPoint(*entry.campaign, static_cast<std::size_t>(m_snr->currentIndex()), settings, threshold)
+                                                       : std::nullopt));
 }
 
 /// Only while it is looked at: it costs more than Pd.
 void EvaluatePanel::showRoc(const Experiments::Entry &entry)
 {
-    if (m_tabs->currentIndex() == 1)
-        m_roc->setChart(entry.campaign && m_snr->currentIndex() >= 0
-                            ? rocChart(*entry.campaign, static_cast<std::size_t>(m_snr->currentIndex()))
-                            : Chart());
+    if (m_tabs->currentIndex() != 1)
+        return;
+    m_rocChart = entry.campaign && m_snr->currentIndex() >= 0 ? rocChart(*entry.campaign, static_cast<std::size_t>(m_snr->currentIndex())) : Chart();
+    m_roc->setChart(m_rocChart);
+    showOperatingPoint(entry);
 }
 
 void EvaluatePanel::showState(const Experiments::Entry &entry)

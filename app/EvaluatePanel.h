@@ -50,6 +50,7 @@ private:
     void follow(int id);
     void showPd(const Experiments::Entry &entry);
     void showRoc(const Experiments::Entry &entry);
+    void showOperatingPoint(const Experiments::Entry &entry);
     void showState(const Experiments::Entry &entry);
     void fillSnrs(const Experiments::Entry &entry);
 
@@ -64,6 +65,8 @@ private:
     ChartPlot *m_pd;
     ChartPlot *m_roc;
     QComboBox *m_snr;
+    Chart m_pdChart; ///< without the operating point
+    Chart m_rocChart;
     int m_shown = 0;
 };
 

@@ -158,6 +158,16 @@ void Experiments::startCampaign(const Entry &entry)
                 },
                 Qt::QueuedConnection);
             trials->run(openRuns(campaign), context.part(0.3, 1.0), sink);
+        } else if (const auto *sweep = std::get_if<SweepExperiment>(&campaign.experiment)) {
+            const SweepTrials trials(*sweep, recording, context.part(0.0, 0.3));
+            QMetaObject::invokeMethod(
+                this,
+                [this, id, thresholds = trials.thresholds()] {
+                    if (Entry *prepared = find(id))
+                        prepared->campaign->thresholds = thresholds;
+                },
+                Qt::QueuedConnection);
+            trials.run(openRuns(campaign), context.part(0.3, 1.0), sink);
         } else {
             Campaign whole = campaign;
             carryOut(whole, openRuns(whole), context, sink);

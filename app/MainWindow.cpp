@@ -3,6 +3,7 @@
 #include "app/ActivityBar.h"
 #include "app/CommandPalette.h"
 #include "app/EquationSheet.h"
+#include "app/ComparePanel.h"
 #include "app/EvaluatePanel.h"
 #include "app/EventReviews.h"
 #include "app/ExperimentForm.h"
@@ -29,6 +30,8 @@
 #include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
 #include "app/StateSlicePanel.h"
+#include "app/SweepPanel.h"
+#include "app/ThresholdCurves.h"
 #include "app/TrialViewer.h"
 #include "app/TrialWindow.h"
 #include "app/WelcomePage.h"
@@ -98,7 +101,7 @@ namespace {
 } // namespace
 
 MainWindow::MainWindow(std::unique_ptr<QSettings> memory, const QString &recoveryFolder, QWidget *parent)
-    : QMainWindow(parent), m_controller(m_document), m_memory(std::move(memory)), m_recoveryFolder(recoveryFolder)
+    : QMainWindow(parent), m_controller(m_document), m_comparer(m_document), m_memory(std::move(memory)), m_recoveryFolder(recoveryFolder)
 {
     setObjectName(QStringLiteral("MainWindow"));
     setAnimated(false);
@@ -129,6 +132,7 @@ MainWindow::~MainWindow()
 {
     m_controller.disconnect(this); // what is still running ends after the widgets are gone
     m_document.disconnect(this);
+    m_comparer.disconnect();
     m_experiments.disconnect();
     m_sequentialTests.disconnect();
     m_trials.reset();
@@ -146,6 +150,15 @@ void MainWindow::buildCentre()
     m_pages->addWidget(m_workbench);
     m_pings = new PingBench(m_document);
     m_pages->addWidget(m_pings);
+    // What is not seen must not keep a small window from showing what is.
+    const auto measureCurrent = [this](int current) {
+        for (int i = 0; i < m_pages->count(); ++i) {
+            const auto policy = i == current ? QSizePolicy::Expanding : QSizePolicy::Ignored;
+            m_pages->widget(i)->setSizePolicy(policy, policy);
+        }
+    };
+    connect(m_pages, &QStackedWidget::currentChanged, this, measureCurrent);
+    measureCurrent(m_pages->currentIndex());
 
     auto *centre = new QWidget;
     auto *layout = new QVBoxLayout(centre);
@@ -163,6 +176,7 @@ void MainWindow::buildDocks()
     m_threshold = new ExceedancePlot;
     m_threshold->setObjectName(QStringLiteral("threshold"));
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    new ThresholdCurves(m_document, *m_threshold, this);
     m_events = new EventTable;
     m_events->setEmptySentence(tr("No event at this threshold."));
     m_reviews = new EventReviews(m_document, *m_events, {m_workbench->input(), m_workbench->output()}, this);
@@ -172,7 +186,9 @@ void MainWindow::buildDocks()
     m_states = new StateSlicePanel(m_document, m_pings->viewports());
     m_latency = new LatencyPanel(m_document);
     m_handLine = new HandLinePanel(m_document, *m_workbench);
+    m_compare = new ComparePanel(m_document, m_controller, m_comparer);
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
+    m_sweep = new SweepPanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
     m_reproduction = new ReproductionPanel;
     m_sequential = new SequentialPanel(m_document, m_sequentialTests);
@@ -189,6 +205,8 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("handDock"), tr("By hand"), m_handLine, Place::RightBottom);
     m_handLine->parentWidget()->hide(); // until it is asked for
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
+    m_panels->add(QStringLiteral("compareDock"), tr("Compare"), m_compare, Place::Bottom);
+    m_panels->add(QStringLiteral("sweepDock"), tr("Sweep"), m_sweep, Place::Bottom);
     m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
     m_panels->add(QStringLiteral("reproductionDock"), tr("Reproduction"), m_reproduction, Place::Bottom);
     m_panels->add(QStringLiteral("sequentialDock"), tr("Sequential test"), m_sequential, Place::Bottom);
@@ -250,6 +268,7 @@ void MainWindow::connectDocument()
         showWorkbench();
     });
     connect(&m_document, &Document::analysisChanged, this, &MainWindow::showAnalysis);
+    connect(&m_document, &Document::provisionalChanged, this, &MainWindow::showHint);
     connect(&m_document, &Document::shownThresholdChanged, m_threshold,
             [this] { m_threshold->setThreshold(m_document.shownThreshold()); });
     connect(&m_document, &Document::shownEventsChanged, this, &MainWindow::showEvents);
@@ -303,6 +322,8 @@ void MainWindow::connectViews()
     connect(m_reviews, &EventReviews::told, this, [this](const QString &where, const QString &what) {
         m_messages->showMessage(MessageBar::Kind::Notice, where, what);
     });
+    connect(m_compare, &ComparePanel::eventActivated, this, goTo);
+    connect(m_workbench->output(), &WaterfallView::orientationChanged, m_compare->picture(), &WaterfallView::setOrientation);
     connect(m_workbench, &Workbench::readingChanged, m_readOut, &ReadOut::setReading);
     connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
             [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });
@@ -324,6 +345,8 @@ void MainWindow::connectEvaluation()
     m_trials = std::make_unique<TrialViewer>(m_experiments, this);
     connect(m_evaluate, &EvaluatePanel::trialRequested, m_trials.get(), &TrialViewer::open);
     connect(m_evaluate, &EvaluatePanel::failed, this, &MainWindow::showError);
+    connect(m_sweep, &SweepPanel::failed, this, &MainWindow::showError);
+    connect(m_sweep, &SweepPanel::valueChosen, &m_controller, &AnalysisController::editNumber);
     connect(m_sequential, &SequentialPanel::failed, this, &MainWindow::showError);
     auto *dock = static_cast<QDockWidget *>(m_sequential->parentWidget());
     connect(dock->toggleViewAction(), &QAction::toggled, this, [this, dock] {
@@ -591,8 +614,9 @@ void MainWindow::setAsking(bool isAsking)
 
 const QStringList &MainWindow::viewNames()
 {
-    static const QStringList names{"window", "input",     "output",     "threshold", "events", "noise",    "noisefit",  "pd",   "why", "map", "polar",
-                                   "slice",  "histories", "latency",    "hand",    "sequential", "walk",  "stopping", "posterior", "scan", "asn", "prior", "sectors"};
+    static const QStringList names{"window",  "input",      "output", "threshold", "events",    "noise", "noisefit", "pd",    "why",
+                                   "compare", "sweep",      "hand",   "map",       "polar",     "slice", "histories", "latency",
+                                   "sequential", "walk",    "stopping", "posterior", "scan",    "asn",   "prior",    "sectors"};
     return names;
 }
 
@@ -609,6 +633,8 @@ QWidget *MainWindow::view(const QString &name)
         {"noisefit", m_noiseFit},
         {"pd", m_evaluate},
         {"why", m_why},
+        {"compare", m_compare},
+        {"sweep", m_sweep},
         {"map", m_pings->maps()},
         {"polar", m_pings->maps()},
         {"slice", m_states},
@@ -662,6 +688,10 @@ void MainWindow::showExperiment(int id)
     }
     if (entry->reproducible)
         return;
+    if (entry->campaign && std::holds_alternative<SweepExperiment>(entry->campaign->experiment)) {
+        m_sweep->show(id);
+        return m_panels->show(m_sweep);
+    }
     m_evaluate->show(id);
     m_panels->show(m_evaluate);
 }
@@ -689,6 +719,16 @@ void MainWindow::showLatency()
 void MainWindow::showHandLine()
 {
     m_panels->show(m_handLine);
+}
+
+void MainWindow::showSweep()
+{
+    m_panels->show(m_sweep);
+}
+
+void MainWindow::showCompare()
+{
+    m_panels->show(m_compare);
 }
 
 void MainWindow::setTheme(Theme::Kind kind)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/AnalysisController.h"
+#include "app/Comparer.h"
 #include "app/Document.h"
 #include "app/Experiments.h"
 #include "app/SequentialTests.h"
@@ -22,6 +23,7 @@ class ActivityBar;
 class Bench;
 class CommandPalette;
 class EquationSheet;
+class ComparePanel;
 class EvaluatePanel;
 class EventReviews;
 class EventTable;
@@ -45,6 +47,7 @@ class ScenarioCard;
 class SequentialPanel;
 class SessionSaver;
 class StateSlicePanel;
+class SweepPanel;
 class TrialViewer;
 class WelcomePage;
 class WhyPanel;
@@ -87,6 +90,9 @@ public:
     TrialViewer &trials() { return *m_trials; }
     LessonGuide &lessonGuide() { return *m_lessons; }
     HandLinePanel &handLine() { return *m_handLine; }
+    Comparer &comparer() { return m_comparer; }
+    ComparePanel &comparePanel() { return *m_compare; }
+    SweepPanel &sweep() { return *m_sweep; }
 
     /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
     void openScans(const ScanTest &test);
@@ -94,7 +100,7 @@ public:
     SequentialPanel &sequential() { return *m_sequential; }
 
     /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd", "why"; "hand"; of a sonar's pings "map", "polar", "histories", "slice", "latency"; of sequential tests "sequential",
+    /// "noisefit", "pd", "why", "compare", "sweep", "hand"; the states' "slice"; of a sonar's pings "map", "polar", "histories", "latency"; of sequential tests "sequential",
     /// "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
@@ -104,6 +110,8 @@ public:
     void showStates();
     void showLatency();
     void showHandLine();
+    void showCompare();
+    void showSweep();
 
     /// Off: nobody is there to answer a dialog.
     void setAsking(bool isAsking);
@@ -162,6 +170,7 @@ private:
 
     Document m_document;
     AnalysisController m_controller;
+    Comparer m_comparer;
     Experiments m_experiments;
     SequentialTests m_sequentialTests;
     WindowMemory m_memory;
@@ -190,6 +199,8 @@ private:
     StateSlicePanel *m_states = nullptr;
     LatencyPanel *m_latency = nullptr;
     HandLinePanel *m_handLine = nullptr;
+    ComparePanel *m_compare = nullptr;
+    SweepPanel *m_sweep = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
     LessonGuide *m_lessons = nullptr;
     OverviewStrip *m_overview = nullptr;

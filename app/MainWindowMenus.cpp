@@ -3,6 +3,7 @@
 #include "app/MainWindow.h"
 
 #include "app/CommandPalette.h"
+#include "app/ComparePanel.h"
 #include "app/EvaluatePanel.h"
 #include "app/EventReviews.h"
 #include "app/ExperimentsPanel.h"
@@ -170,6 +171,13 @@ void MainWindow::buildDetectMenu()
     addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
     addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
     menu->addSeparator();
+    addViewAction(*menu, tr("&Keep as A"), QKeySequence(Qt::CTRL | Qt::Key_B), [this] {
+        showCompare();
+        m_compare->keep();
+    });
+    addViewAction(*menu, tr("Swap &A and B"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_B), [this] { m_compare->swap(); });
+    addViewAction(*menu, tr("&Go to A"), {}, [this] { m_compare->goToA(); });
+    menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
     m_playAction->setCheckable(true);
     connect(m_playAction, &QAction::toggled, this, [this](bool isPlaying) { bench().setPlaying(isPlaying); });
@@ -197,6 +205,7 @@ void MainWindow::buildEvaluateMenu()
     QMenu *menu = menuBar()->addMenu(tr("E&valuate"));
     addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
+    addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::Key_E), [this] { showSweep(); });
     addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
     addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showLatency(); });
     menu->addSeparator();

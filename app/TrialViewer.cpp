@@ -9,15 +9,9 @@ namespace faintline {
 
 namespace {
 
-    const std::vector<Contestant> &detectorsOf(const Campaign &campaign)
-    {
-        return std::visit([](const auto &one) -> const std::vector<Contestant> & { return one.detectors; },
-                          campaign.experiment);
-    }
-
     double snrOf(const Campaign &campaign, std::size_t snr)
     {
-        return std::visit([snr](const auto &one) { return one.snrDb[snr]; }, campaign.experiment);
+        return snrsOf(campaign.experiment)[snr];
     }
 
 } // namespace
@@ -94,7 +88,7 @@ void TrialViewer::show(const ShownTrial &trial)
     const Campaign &campaign = *entry->campaign;
     const auto all = trialsOf(campaign, m_detector, m_snr);
     const TrialOutcome &outcome = all[static_cast<std::size_t>(m_trial)];
-    const Contestant &detector = detectorsOf(campaign)[m_detector];
+    const Contestant detector = detectorsOf(campaign.experiment)[m_detector];
     const QString name = QString::fromStdString(detector.name);
     const QString db = numberText(snrOf(campaign, m_snr), 1);
     const QString unit = statisticUnit(detector.settings);

@@ -117,6 +117,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
+    setMinimumHeight(220); // of the pictures: the curves' own would keep a window small enough to hide them from becoming so
 
     m_regulation->setRightTitle(tr("resets"));
     m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
@@ -127,6 +128,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = m_isFirstPicture = true; });
     connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
     connect(&document, &Document::analysisChanged, this, &Workbench::showAnalysis);
+    connect(&document, &Document::provisionalChanged, this, &Workbench::showStatistic);
     connect(&document, &Document::shownThresholdChanged, this, &Workbench::showThreshold);
     connect(&document, &Document::shownEventsChanged, this, &Workbench::showEvents);
     m_player.setInterval(playerInterval);
@@ -182,16 +184,12 @@ void Workbench::showAnalysis()
     const Axis &frequency = analysis.grid().axes.back();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
 
-    const QString unit = statisticUnit(analysis.settings);
-    showHeading();
-    m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
     followExtents(analysis.time(), frequency);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
     m_input->setPicture(analysis.input, frequency);
-    m_output->setPicture(analysis.statistic, frequency);
+    showStatistic();
     for (WaterfallView *view : {m_input, m_output})
         view->setTruth(m_document.truth().lines);
-    m_statistic->setProfile(tr("D at the cursor"), analysis.statistic, frequency);
 
     std::vector<float> resetFraction(analysis.continuedFraction.size());
     std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),
@@ -224,8 +222,23 @@ void Workbench::showHeading()
     m_outputPane->findChild<ColourBar *>()->setVisible(isStatistic);
     if (!m_document.analysis() || m_document.hasPings())
         return;
-    const QString unit = statisticUnit(m_document.analysis()->settings);
-    m_output->setStatisticUnit(unit, isStatistic ? tr("Statistic D (%1)").arg(unit) : m_layers->heading());
+    const bool isProvisional = m_document.provisional() != nullptr;
+    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
+    const QString statistic = isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
+    m_output->setStatisticUnit(unit, isStatistic ? statistic : m_layers->heading());
+    m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
+}
+
+/// The analysis's, or what changed settings make of the visible part of it in the meantime.
+void Workbench::showStatistic()
+{
+    if (m_document.hasPings() || !m_document.analysis())
+        return;
+    showHeading();
+    const auto &picture = m_document.provisional() ? m_document.provisional() : m_document.analysis()->statistic;
+    const Axis &frequency = m_document.analysis()->grid().axes.back();
+    m_output->setPicture(picture, frequency);
+    m_statistic->setProfile(tr("D at the cursor"), picture, frequency);
 }
 
 void Workbench::showThreshold()

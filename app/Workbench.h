@@ -57,6 +57,7 @@ private:
     void showAnalysis();
     void showPictures(const PicturesSoFar &pictures);
     void showHeading();
+    void showStatistic();
     void showThreshold();
     void showEvents();
     void followExtents(const Axis &time, const Axis &frequency);

@@ -36,7 +36,7 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
                            faintline::cli::addStatistic, faintline::cli::addExplain, faintline::cli::addSimulate,
                            faintline::cli::addReproduce, faintline::cli::addEvaluate, faintline::cli::addMerge,
                            faintline::cli::addCalibrate, faintline::cli::addInject, faintline::cli::addSequential,
-                           faintline::cli::addReplay, faintline::cli::addBench})
+                           faintline::cli::addCompare, faintline::cli::addReplay, faintline::cli::addBench})
         add(app, common);
 }
 

@@ -13,6 +13,8 @@ QString hint(const Document &document)
         return tr("Click a picture, or drop a recording anywhere on the window.");
     if (!document.analysis())
         return tr("Reading the recording and listening to its noise.");
+    if (document.provisional())
+        return tr("Provisional: the new statistic of what is visible, beside the old threshold and events. Calibrating …");
     if (document.hasPings() && !document.shownEvents().empty())
         return tr("J and L step from ping to ping, Space plays, P looks from above; N goes to the next track.");
     if (document.shownEvents().empty())

@@ -65,6 +65,7 @@ namespace {
                                       {"E   G   Shift + G", "note on it; merge, separate several"},
                                       {"W", "why detected, or why not"},
                                       {"Ctrl + D", "draw a line by hand"},
+                                      {"Ctrl + B", "keep as A, to compare what comes after with"},
                                       {"M   B", "measure a box; annotate it"},
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"Space", "play"},

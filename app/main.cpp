@@ -58,7 +58,7 @@ namespace {
             ->required();
         command
             ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise, noisefit, pd, why, sequential, walk, posterior; of a sonar's pings "
+                         "window, input, output, threshold, events, noise, noisefit, pd, why, compare, sweep, sequential, walk, posterior; of a sonar's pings "
                          "also map, polar, histories, slice, latency; of a radar's scans stopping, scan, asn, prior, sectors; several with commas")
             ->delimiter(',')
             ->allow_extra_args(false)
@@ -75,6 +75,8 @@ namespace {
             ->capture_default_str();
         command->add_option("--preset", options.preset, "Settings to begin with");
         command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
+        command->add_option("--preset-a", options.presetA, "Settings that A of a comparison begins with");
+        command->add_option("--set-a", options.settingsA, "name=value of A of a comparison, as often as wanted")->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
         command->add_option("--step", options.step, "Of a lesson (.json with steps): the one shown, counted from 1");
         addOpening(*command, options.opening);

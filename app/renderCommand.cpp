@@ -1,5 +1,6 @@
 #include "app/renderCommand.h"
 
+#include "app/ComparePanel.h"
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
 #include "app/LatencyPanel.h"
@@ -10,6 +11,8 @@
 #include "app/PingBench.h"
 #include "app/SequentialPanel.h"
 #include "app/StateSlicePanel.h"
+#include "app/SweepForm.h"
+#include "app/SweepPanel.h"
 #include "app/WhyPanel.h"
 #include "app/Workbench.h"
 #include "app/scanScenario.h"
@@ -24,6 +27,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 
 namespace faintline {
 
@@ -45,19 +49,39 @@ namespace {
         checkSettings(settings);
     }
 
-    /// Opens and waits until nothing is left to do.
-    void openAndSettle(MainWindow &window, const RenderOptions &options)
+    /// What A is made with: the same, and A's own.
+    RenderOptions optionsOfA(RenderOptions options)
     {
+        if (!options.presetA.empty())
+            options.preset = options.presetA;
+        options.settings.insert(options.settings.end(), options.settingsA.begin(), options.settingsA.end());
+        return options;
+    }
+
+    bool has(const std::vector<std::string> &views, const char *name)
+    {
+        return std::find(views.begin(), views.end(), name) != views.end();
+    }
+
+    /// Opens and waits until nothing is left to do. The answer is what the settings would be without A's own.
+    AnalysisSettings openAndSettle(MainWindow &window, const RenderOptions &options)
+    {
+        const auto settingsOfB = std::make_shared<AnalysisSettings>();
         QEventLoop loop;
         std::optional<Error> failure;
         QObject::connect(&window.controller(), &AnalysisController::failed, &loop,
                          [&](const Error &error) { failure = error; });
         QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
         window.open(QString::fromStdString(options.source), options.opening,
-                    [options](AnalysisSettings &settings) { adjust(settings, options); });
+                    [options, settingsOfB](AnalysisSettings &settings) {
+                        *settingsOfB = settings;
+                        adjust(*settingsOfB, options);
+                        adjust(settings, optionsOfA(options));
+                    });
         loop.exec();
         if (failure)
             throw *failure;
+        return *settingsOfB;
     }
 
     /// What a picture of the curves shows: a small experiment on lines such as the papers', the same from run to run.
@@ -75,6 +99,29 @@ namespace {
         const Experiments::Entry *entry = window.experiments().entry(window.evaluation().shown());
         if (entry->state == Experiments::State::Failed)
             throw Error("experiment", entry->failure.toStdString(), Error::Kind::Failure);
+    }
+
+    /// What a picture of a sweep shows: a small one of the threshold, the same from run to run.
+    void sweepThreshold(MainWindow &window)
+    {
+        constexpr int trials = 24;
+        SweepPanel &panel = window.sweep();
+        panel.setMeasuringCost(false);
+        panel.form().setParameter(QStringLiteral("decide.thresholdNats"));
+        panel.form().setRange(4.0, 16.0, 7, false);
+        panel.form().setLines(0.0, 30.0, trials);
+        QEventLoop loop;
+        QObject::connect(&window.experiments(), &Experiments::busyChanged, &loop, [&](bool isBusy) {
+            if (!isBusy)
+                loop.quit();
+        });
+        window.showSweep();
+        panel.start();
+        if (window.experiments().isBusy())
+            loop.exec();
+        const Experiments::Entry *entry = window.experiments().entry(panel.shown());
+        if (!entry || entry->state == Experiments::State::Failed)
+            throw Error("--view sweep", entry ? entry->failure.toStdString() : "cannot be made of this source", Error::Kind::Failure);
     }
 
     void explainCursor(MainWindow &window)
@@ -209,11 +256,35 @@ namespace {
         loop.exec();
     }
 
+    /// What was opened with A's settings becomes A; the settings then become B's.
+    void compareWithA(MainWindow &window, const AnalysisSettings &settings)
+    {
+        window.comparer().setMeasuringCost(false);
+        window.comparePanel().keep();
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) { failure = error; });
+        QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
+        window.controller().setSettings(settings, QStringLiteral("B"));
+        if (window.controller().isBusy())
+            loop.exec();
+        if (failure)
+            throw *failure;
+        QEventLoop comparing;
+        QObject::connect(&window.comparer(), &Comparer::settled, &comparing, &QEventLoop::quit);
+        window.showCompare();
+        window.comparer().setActive(true);
+        if (window.comparer().isBusy())
+            comparing.exec();
+    }
+
     void prepare(MainWindow &window, const std::vector<std::string> &views)
     {
-        const auto has = [&](const char *name) { return std::find(views.begin(), views.end(), name) != views.end(); };
+        const auto has = [&](const char *name) { return faintline::has(views, name); };
         if (has("pd"))
             measureCurves(window);
+        if (has("sweep"))
+            sweepThreshold(window);
         if (has("why"))
             explainCursor(window);
         for (const char *view : {"map", "polar", "histories", "latency"})
@@ -316,7 +387,9 @@ void render(const RenderOptions &options)
         checkViewsOfScans(options.views);
         testScans(window, options);
     } else {
-        openAndSettle(window, options);
+        const AnalysisSettings settings = openAndSettle(window, options);
+        if (has(options.views, "compare") || !options.presetA.empty() || !options.settingsA.empty())
+            compareWithA(window, settings);
         placeCursor(window, options);
         prepare(window, options.views);
         showLayer(window, options);

@@ -27,6 +27,8 @@ struct RenderOptions {
     std::string theme = "light";
     std::string preset;
     std::vector<std::string> settings; ///< "name=value"
+    std::string presetA;               ///< of "compare": what A starts from
+    std::vector<std::string> settingsA; ///< of "compare": those of A alone
     OpenOptions opening;
     std::optional<int> channel;
     int step = 1;              ///< of a lesson

@@ -258,6 +258,9 @@ void ChartPlot::rebuild()
 {
     m_plot->detachItems(QwtPlotItem::Rtti_PlotCurve);
     m_plot->detachItems(QwtPlotItem::Rtti_PlotIntervalCurve);
+    for (QwtPlotMarker *label : m_labels)
+        delete label;
+    m_labels.clear();
     m_curves.clear();
     m_details.assign(m_chart.curves.size(), {});
     for (std::size_t i = 0; i < m_chart.curves.size(); ++i)
@@ -280,6 +283,7 @@ void ChartPlot::addCurve(std::size_t index)
     const std::size_t style = styleOf(index).value_or(0);
     const QColor colour = colourOf(index);
     addIntervals(index, colour);
+    addLabels(index);
 
     auto *item = new QwtPlotCurve(words(curve.name));
     item->setRenderHint(QwtPlotItem::RenderAntialiased);
@@ -296,6 +300,31 @@ void ChartPlot::addCurve(std::size_t index)
     item->setVisible(isShown(index));
     item->attach(m_plot);
     m_curves.push_back(item);
+}
+
+/// Above the points, or below those at the top: where there is room.
+void ChartPlot::addLabels(std::size_t index)
+{
+    double highest = 0.0;
+    for (const Curve::Point &point : m_chart.curves[index].points)
+        highest = std::max(highest, point.y);
+    for (const Curve::Point &point : m_chart.curves[index].points) {
+        if (point.label.empty())
+            continue;
+        QwtText text(words(point.label));
+        text.setFont(Theme::plotFont());
+        text.setColor(Theme::colours(*this).text);
+        auto *item = new QwtPlotMarker;
+        item->setLabel(text);
+        item->setLabelAlignment(Qt::AlignRight | (point.y > 0.85 * highest ? Qt::AlignBottom : Qt::AlignTop));
+        item->setSpacing(4);
+        item->setValue(abscissa(point.x), ordinate(point.y));
+        item->setZ(25.0);
+        item->setVisible(isShown(index));
+        item->attach(m_plot);
+        m_details[index].push_back(item);
+        m_labels.push_back(item);
+    }
 }
 
 void ChartPlot::addIntervals(std::size_t index, const QColor &colour)
@@ -390,7 +419,8 @@ void ChartPlot::placeKey()
     m_row->setDirection(isBelow ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     m_keyArea->setMinimumSize(isBelow ? 0 : widest, isBelow ? heightBelow : 0);
     m_keyArea->setMaximumSize(isBelow ? QWIDGETSIZE_MAX : widest, isBelow ? heightBelow : QWIDGETSIZE_MAX);
-    m_keyArea->setVisible(!m_boxes.empty());
+    const bool isNameless = m_chart.curves.size() == 1 && m_chart.curves.front().name.empty(); // the only one
+    m_keyArea->setVisible(!m_boxes.empty() && !isNameless);
 }
 
 void ChartPlot::resizeEvent(QResizeEvent *event)
@@ -461,7 +491,9 @@ void ChartPlot::showPlace(const std::optional<Place> &place)
     const Curve::Point &point = curve.points[place->point];
     m_ring->setValue(abscissa(point.x), ordinate(point.y));
     QString text =
-        tr("%1:  %2 = %3  →  %4").arg(words(curve.name), words(m_chart.xLabel), valueText(point.x), valueText(point.y));
+        tr("%1%2 = %3  →  %4").arg(curve.name.empty() ? QString() : words(curve.name) + QStringLiteral(":  "), words(m_chart.xLabel), valueText(point.x), valueText(point.y));
+    if (!point.label.empty())
+        text.prepend(words(point.label) + QStringLiteral(":  "));
     if (point.interval.low < point.interval.high)
         text += tr("  (95 %: %1 … %2)").arg(valueText(point.interval.low), valueText(point.interval.high));
     if (!m_invitation.isEmpty() && isMeasured(place->curve))

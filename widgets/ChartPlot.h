@@ -77,6 +77,7 @@ private:
     void restyle();
     void rebuild();
     void addCurve(std::size_t index);
+    void addLabels(std::size_t index);
     void addIntervals(std::size_t index, const QColor &colour);
     void rebuildKey();
     void layAxes();
@@ -106,7 +107,8 @@ private:
     QVBoxLayout *m_keyLayout;
     QLabel *m_readOut;
     std::vector<QwtPlotCurve *> m_curves;              ///< owned by the plot
-    std::vector<std::vector<QwtPlotItem *>> m_details; ///< intervals of each curve
+    std::vector<std::vector<QwtPlotItem *>> m_details; ///< intervals and labels of each curve
+    std::vector<QwtPlotMarker *> m_labels;             ///< of all points that have one
     std::vector<QCheckBox *> m_boxes;
 };
 

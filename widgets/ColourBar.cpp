@@ -165,23 +165,25 @@ void ColourBar::paintHistogram(QPainter &painter) const
     // Density, not count: the bytes of the upper nats are wider than those of the lower ones. Fourth root, to see
     // tails.
     const QRectF bar = barRect();
-    const auto density = [&](int byte) {
-        const double width = m_byteScale.value(byte) - m_byteScale.value(byte - 1);
-        return std::pow(m_counts[static_cast<std::size_t>(byte)] / width, 0.25);
+    const std::vector<int> bytes = m_byteScale.ascending();
+    const auto widthOf = [&](std::size_t i) { return m_byteScale.value(bytes[i]) - m_byteScale.value(bytes[i - 1]); };
+    const auto density = [&](std::size_t i) {
+        const double width = widthOf(i);
+        return width > 0.0 ? std::pow(m_counts[static_cast<std::size_t>(bytes[i])] / width, 0.25) : 0.0;
     };
     double highest = 0.0;
-    for (int byte = 1; byte < 256; ++byte)
-        highest = std::max(highest, density(byte));
+    for (std::size_t i = 1; i < bytes.size(); ++i)
+        highest = std::max(highest, density(i));
     if (highest == 0.0)
         return;
-    QPainterPath path(QPointF(bar.left() - 2.0, yOf(m_byteScale.value(0))));
-    for (int byte = 1; byte < 256; ++byte) {
-        const double x = bar.left() - 2.0 - density(byte) / highest * histogramWidth;
-        const double middle = 0.5 * (m_byteScale.value(byte) - m_byteScale.value(byte - 1));
-        path.lineTo(x, yOf(m_byteScale.value(byte) - middle));
-        path.lineTo(x, yOf(m_byteScale.value(byte) + middle));
+    QPainterPath path(QPointF(bar.left() - 2.0, yOf(m_byteScale.value(bytes.front()))));
+    for (std::size_t i = 1; i < bytes.size(); ++i) {
+        const double x = bar.left() - 2.0 - density(i) / highest * histogramWidth;
+        const double middle = 0.5 * widthOf(i);
+        path.lineTo(x, yOf(m_byteScale.value(bytes[i]) - middle));
+        path.lineTo(x, yOf(m_byteScale.value(bytes[i]) + middle));
     }
-    path.lineTo(bar.left() - 2.0, yOf(m_byteScale.value(255)));
+    path.lineTo(bar.left() - 2.0, yOf(m_byteScale.value(bytes.back())));
     painter.save();
     painter.setClipRect(QRectF(0.0, bar.top(), bar.left(), bar.height()));
     QColor fill = Theme::colours(*this).faintText;

@@ -12,7 +12,7 @@ namespace {
 
     // Viridis, magma, inferno: S. van der Walt and N. Smith (2015, CC0); cividis: J. Nuñez, C. Anderton, R. Renslow,
     // PLOS ONE 13(7), 2018; every 15th of their 256 colours, which is within 5 of 255 everywhere. Blue-red: C. Brewer's
-    // RdBu.
+    // RdBu. Ice-fire: the same idea round a dark middle.
     std::vector<ColourMap> makeMaps()
     {
         std::vector<ColourMap> maps;
@@ -37,6 +37,9 @@ namespace {
         maps.emplace_back(QStringLiteral("blue-red"),
                           QList<QRgb>{0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582,
                                       0xd6604d, 0xb2182b, 0x67001f});
+        maps.emplace_back(QStringLiteral("ice-fire"),
+                          QList<QRgb>{0xd2f0ff, 0x86cdf2, 0x3f9edb, 0x1f6aa8, 0x17406a, 0x14181f, 0x5a2a14, 0x9c431a,
+                                      0xdb6f2b, 0xf5a95c, 0xffe2ba});
         return maps;
     }
 

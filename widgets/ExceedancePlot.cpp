@@ -65,6 +65,7 @@ namespace {
 ExceedancePlot::ExceedancePlot(QWidget *parent)
     : QwtPlot(parent), m_grid(new QwtPlotGrid), m_histogram(new QwtPlotHistogram), m_simulated(makeCurve(this, 20.0)),
       m_tail(makeCurve(this, 19.0)), m_closedForm(makeCurve(this, 21.0)), m_measured(makeCurve(this, 18.0)),
+      m_selection(makeCurve(this, 18.5)),
       m_line(new QwtPlotMarker), m_label(new LineLabel), m_sentence(new CanvasSentence),
       m_key(new CurveKey(Qt::AlignRight | Qt::AlignTop))
 {
@@ -90,7 +91,8 @@ ExceedancePlot::ExceedancePlot(QWidget *parent)
     canvas()->setMouseTracking(true);
     canvas()->installEventFilter(this);
     setAccessibleName(tr("Threshold: exceedance of the statistic on noise"));
-    setToolTip(tr("Drag the line to move the threshold, or press comma and full stop for a quarter of its unit."));
+    setToolTip(tr("Drag the line to move the threshold, or press comma and full stop for a quarter of its unit. "
+                  "Right button: units; per cell there is also the closed form, this recording, and the box measured with M."));
     restyle();
 }
 
@@ -113,6 +115,14 @@ void ExceedancePlot::setClosedForm(const QPolygonF &points)
 {
     m_closedFormPoints = points;
     restyle();
+}
+
+void ExceedancePlot::setSelectionExceedance(const QPolygonF &points)
+{
+    if (points == m_selectionPoints)
+        return;
+    m_selectionPoints = points;
+    updateCurves();
 }
 
 void ExceedancePlot::setStatisticUnit(const QString &unit)
@@ -202,6 +212,7 @@ void ExceedancePlot::restyle()
     m_tail->setPen(colours.curves[0], 1.2, Qt::DashLine);
     m_closedForm->setPen(colours.curves[2], 1.4, Qt::DotLine);
     m_measured->setPen(colours.curves[1], 1.4);
+    m_selection->setPen(colours.curves[3], 1.8);
     m_line->setLinePen(colours.threshold, 2.0);
     m_sentence->colour = colours.faintText;
     m_key->textColour = colours.text;
@@ -230,7 +241,7 @@ void ExceedancePlot::updateCurves()
 
 void ExceedancePlot::drawNoise()
 {
-    QPolygonF simulated, tail, closedForm;
+    QPolygonF simulated, tail, closedForm, selection;
     if (m_calibration) {
         for (std::size_t i = 0; i < m_calibration->levels.size() && !isRate(); ++i)
             if (isCountedWell(i))
@@ -241,7 +252,10 @@ void ExceedancePlot::drawNoise()
             tail << QPointF(nats, ordinate(nats));
         for (const QPointF &point : isRate() ? QPolygonF() : m_closedFormPoints)
             closedForm << QPointF(point.x(), log10OrFloor(point.y()));
+        for (const QPointF &point : isRate() ? QPolygonF() : m_selectionPoints)
+            selection << QPointF(point.x(), log10OrFloor(point.y()));
     }
+    m_selection->setSamples(selection);
     m_simulated->setSamples(simulated);
     m_tail->setSamples(tail);
     m_closedForm->setSamples(closedForm);
@@ -278,6 +292,7 @@ void ExceedancePlot::nameCurves()
     name(*m_tail, isRate() ? tr("noise, fitted law") : tr("its exponential tail"));
     name(*m_closedForm, tr("closed form"));
     name(*m_measured, tr("this recording"));
+    name(*m_selection, tr("the measured box"));
     if (m_histogram->dataSize() > 0)
         m_key->entries.push_back({tr("its cells"), QPen(m_histogram->brush().color()), true});
 }

@@ -46,6 +46,8 @@ public:
     void setHistogram(const std::vector<double> &counts);
     /// Points (nat, P(D > nat)) of a closed form; empty for none.
     void setClosedForm(const QPolygonF &points);
+    /// The same measured in a box of this recording that holds noise only; empty for none.
+    void setSelectionExceedance(const QPolygonF &points);
 
     /// What the statistic is measured in: "nat" unless said otherwise.
     void setStatisticUnit(const QString &unit);
@@ -95,6 +97,7 @@ private:
     double m_cellFramesPerHour = 0.0;
     std::vector<double> m_counts;
     QPolygonF m_closedFormPoints;
+    QPolygonF m_selectionPoints;
     double m_threshold = 20.0;
     Unit m_unit = Unit::FalseAlarmsPerHour;
     QString m_statisticUnit = QStringLiteral("nat");
@@ -106,6 +109,7 @@ private:
     QwtPlotCurve *m_tail;
     QwtPlotCurve *m_closedForm;
     QwtPlotCurve *m_measured;
+    QwtPlotCurve *m_selection;
     QwtPlotMarker *m_line;
     LineLabel *m_label;
     CanvasSentence *m_sentence;

@@ -165,7 +165,7 @@ void WaterfallView::setEmptySentence(const QString &sentence)
 
 QString WaterfallView::valueUnit() const
 {
-    return m_picture && m_picture->scale().kind() == ByteScale::Kind::ScoreNats ? m_statisticUnit : tr("dB");
+    return m_picture && m_picture->scale().kind() != ByteScale::Kind::PowerDb ? m_statisticUnit : tr("dB");
 }
 
 void WaterfallView::setStatisticUnit(const QString &unit, const QString &heading)
@@ -322,6 +322,12 @@ void WaterfallView::setRange(double low, double high)
 {
     constexpr double smallest = 0.5;
     m_isRangeAutomatic = false;
+    if (m_picture && m_picture->scale().kind() == ByteScale::Kind::DifferenceNats) {
+        // Zero stays in the middle of the colours: the end that was moved takes the other one along.
+        const double half = std::max(low != m_range.low ? -low : high, smallest);
+        applyRange({-half, half});
+        return replot();
+    }
     applyRange({low, std::max(high, low + smallest)});
     replot();
 }

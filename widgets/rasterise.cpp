@@ -66,6 +66,21 @@ namespace {
         return scale.value(255);
     }
 
+    /// Black and white level of differences: as far from zero on either side, to where all but the strongest lie.
+    Span rangeOfDifferences(const ByteScale &scale, const std::vector<double> &counts)
+    {
+        constexpr double smallest = 6.0, largest = 40.0;
+        const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
+        double sum = 0.0;
+        double magnitude = 0.0;
+        for (int byte = 0; byte < 256 && sum < 0.998 * total; ++byte) {
+            sum += counts[static_cast<std::size_t>(byte)];
+            magnitude = std::abs(scale.value(byte));
+        }
+        const double half = std::clamp(std::ceil(magnitude), smallest, largest);
+        return {-half, half};
+    }
+
 } // namespace
 
 void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out)
@@ -160,6 +175,8 @@ BoxValues boxValues(const PeakPyramid &picture, Index beginFrame, Index endFrame
 
 Span automaticRange(const ByteScale &scale, const std::vector<double> &counts)
 {
+    if (scale.kind() == ByteScale::Kind::DifferenceNats)
+        return rangeOfDifferences(scale, counts);
     if (std::accumulate(counts.begin() + (counts.empty() ? 0 : 1), counts.end(), 0.0) == 0.0)
         return scale.kind() == ByteScale::Kind::PowerDb ? Span{-6.0, 14.0} : Span{0.0, 30.0};
     const double middle = quantile(scale, counts, 0.5);

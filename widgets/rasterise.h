@@ -34,7 +34,7 @@ void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow 
 std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel);
 
 /// Black and white level suggested by such counts: dB from somewhat under the noise's middle to 10 … 16 dB above it;
-/// nats from the noise's middle to where only a detection gets.
+/// nats from the noise's middle to where only a detection gets; differences as far to either side of zero.
 Span automaticRange(const ByteScale &scale, const std::vector<double> &counts);
 
 /// What a box of whole cells holds.

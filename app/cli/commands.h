@@ -58,6 +58,7 @@ void addMerge(CLI::App &app, Common &common);
 void addCalibrate(CLI::App &app, Common &common);
 void addInject(CLI::App &app, Common &common);
 void addSequential(CLI::App &app, Common &common);
+void addCompare(CLI::App &app, Common &common);
 void addReplay(CLI::App &app, Common &common);
 
 /// Does what a command line asks for. Throws CLI::ParseError, Error, Cancelled.

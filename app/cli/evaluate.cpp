@@ -4,11 +4,14 @@
 #include "base/json.h"
 #include "base/AtomicFile.h"
 #include "evaluate/campaignCharts.h"
+#include "evaluate/sweepCurve.h"
+#include "recording/openRecording.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeChart.h"
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -41,8 +44,32 @@ namespace {
         writeCurve(merge(std::move(parts)), out);
     }
 
+    void printSweep(const Campaign &campaign)
+    {
+        std::printf("%-28s %8s   %-17s %8s   %12s   %-21s %10s\n", std::get<SweepExperiment>(campaign.experiment).parameter.c_str(), "Pd",
+                    "95 % interval", "trials", "false alarms/h", "95 % interval", "latency (s)");
+        for (const SweepPoint &point : sweepCurve(campaign))
+            std::printf("%-28s %8.4f   %.4f … %.4f   %8lld   %14.4g   %9.4g … %-9.4g %11s\n", formatNumber(point.value).c_str(), point.pd,
+                        point.pdInterval.low, point.pdInterval.high, static_cast<long long>(point.trials), point.falseAlarmsPerHour,
+                        point.falseAlarmInterval.low, point.falseAlarmInterval.high,
+                        point.detections > 0 ? formatNumber(std::round(100.0 * point.latencySeconds) / 100.0).c_str() : "never");
+    }
+
+    void printCosts(const SweepExperiment &sweep, const RunContext &context)
+    {
+        OpenOptions options;
+        options.iq = sweep.iq;
+        const SweepTrials trials(sweep, sweep.recording.empty() ? nullptr : openRecording(sweep.recording, options), context);
+        const std::vector<double> seconds = trials.costs(context);
+        std::printf("processor time for an hour of recording\n");
+        for (std::size_t i = 0; i < seconds.size(); ++i)
+            std::printf("%-28s %8.3g s\n", formatNumber(sweep.values[i]).c_str(), seconds[i]);
+    }
+
     void print(const Campaign &campaign)
     {
+        if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+            return printSweep(campaign);
         std::printf("%-28s %8s %8s   %-17s %8s\n", "detector", "SNR (dB)", "Pd", "95 % interval", "trials");
         for (const CurvePoint &point : pdCurve(campaign))
             std::printf("%-28s %8s %8.4f   %.4f … %.4f   %8lld\n", point.detector.c_str(), formatNumber(point.snrDb).c_str(), point.pd,
@@ -65,14 +92,19 @@ void addEvaluate(CLI::App &app, Common &common)
         std::string chart;
         std::string shard;
         int seed = -1;
+        bool cost = false;
     };
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("evaluate", "Monte-Carlo detection probability of an experiment; resumes where it was interrupted");
-    command->add_option("EXPERIMENT", options->files, "The experiment, JSON; or: merge SHARD…")->required();
+    command->add_option("EXPERIMENT", options->files,
+                        "The experiment, JSON, of kind lines, injection or sweep (the values of one setting tried on the same lines: Pd, false "
+                        "alarms, latency); or: merge SHARD…")
+        ->required();
     command->add_option("--out", options->out, "Curve to write, .csv; with --shard the shard's runs");
     command->add_option("--chart", options->chart, "Pd against SNR to draw, .svg");
     command->add_option("--shard", options->shard, "Only part I of N, for 'merge'");
     command->add_option("--seed", options->seed, "Seed in place of the experiment's own")->check(CLI::Range(0, 2147483647));
+    command->add_flag("--cost", options->cost, "Of a sweep: say what each value costs, in seconds of this machine");
     command->callback([options, &common] {
         if (options->files.front() == "merge") {
             if (options->files.size() < 2 || options->out.empty())
@@ -85,6 +117,9 @@ void addEvaluate(CLI::App &app, Common &common)
         Experiment experiment = experimentFromJson(readJsonFile(options->files.front()), options->files.front());
         if (options->seed >= 0)
             setSeed(experiment, options->seed);
+        const auto *sweep = std::get_if<SweepExperiment>(&experiment);
+        if (options->cost && !sweep)
+            throw Error("--cost", "is of a sweep, an experiment of kind \"sweep\"");
         const Shard shard = options->shard.empty() ? Shard{} : shardFrom(options->shard);
         const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
         if (options->out.empty()) {
@@ -94,6 +129,8 @@ void addEvaluate(CLI::App &app, Common &common)
             carryOut(campaign, runs, common.context());
             print(campaign);
             draw(campaign, options->chart);
+            if (options->cost)
+                printCosts(*sweep, common.context());
             return;
         }
         const Campaign campaign = carryOutResumably(experiment, runs, options->out, common.context());
@@ -103,6 +140,8 @@ void addEvaluate(CLI::App &app, Common &common)
             writeCampaign(campaign, options->out);
         draw(campaign, options->chart);
         removeParts(options->out);
+        if (options->cost)
+            printCosts(*sweep, common.context());
     });
 }
 

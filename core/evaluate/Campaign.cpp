@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "evaluate/PdCurve.h"
+#include "evaluate/sweepCurve.h"
 #include "recording/openRecording.h"
 
 #include <algorithm>
@@ -21,6 +22,23 @@ namespace {
         OpenOptions options;
         options.iq = experiment.iq;
         return InjectionTrials(experiment, openRecording(experiment.recording, options), context);
+    }
+
+    SweepTrials trialsOf(const SweepExperiment &experiment, const RunContext &context)
+    {
+        if (experiment.recording.empty())
+            return SweepTrials(experiment, nullptr, context);
+        OpenOptions options;
+        options.iq = experiment.iq;
+        return SweepTrials(experiment, openRecording(experiment.recording, options), context);
+    }
+
+    std::vector<CurvePoint> curveOfSweep(const Campaign &campaign, const SweepExperiment &sweep)
+    {
+        std::vector<CurvePoint> curve;
+        for (const SweepPoint &point : sweepCurve(campaign))
+            curve.push_back({sweep.parameter + " = " + formatNumber(point.value), sweep.snrDb, point.pd, point.pdInterval, point.trials, point.threshold});
+        return curve;
     }
 
     /// Pd among the trials whose place was free of detections without the line.
@@ -56,7 +74,9 @@ Experiment experimentFromJson(const Json &json, const std::string &where)
         return lineExperimentFromJson(json, where);
     if (kind == "injection")
         return injectionExperimentFromJson(json, where);
-    throw Error(jsonName(where, "kind") + " = " + kind, "must be lines or injection");
+    if (kind == "sweep")
+        return sweepExperimentFromJson(json, where);
+    throw Error(jsonName(where, "kind") + " = " + kind, "must be lines, injection or sweep");
 }
 
 Json toJson(const Experiment &experiment)
@@ -67,7 +87,27 @@ Json toJson(const Experiment &experiment)
 int runCount(const Experiment &experiment)
 {
     return std::visit(Overloaded{[](const LineExperiment &lines) { return lines.runs; },
-                                 [](const InjectionExperiment &injection) { return injection.trials; }},
+                                 [](const InjectionExperiment &injection) { return injection.trials; },
+                                 [](const SweepExperiment &sweep) { return sweep.runs(); }},
+                      experiment);
+}
+
+std::vector<double> snrsOf(const Experiment &experiment)
+{
+    return std::visit(Overloaded{[](const SweepExperiment &sweep) { return std::vector{sweep.snrDb}; },
+                                 [](const auto &one) { return one.snrDb; }},
+                      experiment);
+}
+
+std::vector<Contestant> detectorsOf(const Experiment &experiment)
+{
+    return std::visit(Overloaded{[](const SweepExperiment &sweep) {
+                                     std::vector<Contestant> detectors;
+                                     for (std::size_t i = 0; i < sweep.values.size(); ++i)
+                                         detectors.push_back({sweep.parameter + " = " + formatNumber(sweep.values[i]), settingsAt(sweep, i)});
+                                     return detectors;
+                                 },
+                                 [](const auto &one) { return one.detectors; }},
                       experiment);
 }
 
@@ -81,11 +121,14 @@ std::vector<CurvePoint> pdCurve(const Campaign &campaign)
     std::vector<CurvePoint> curve;
     if (campaign.outcomes.empty())
         return curve;
+    if (const auto *sweep = std::get_if<SweepExperiment>(&campaign.experiment))
+        return curveOfSweep(campaign, *sweep);
     std::visit(
-        [&](const auto &experiment) {
+        [&]<class E>(const E &experiment) {
+            if constexpr (!std::is_same_v<E, SweepExperiment>)
             for (std::size_t d = 0; d < experiment.detectors.size(); ++d)
                 for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
-                    if constexpr (std::is_same_v<std::decay_t<decltype(experiment)>, LineExperiment>) {
+                    if constexpr (std::is_same_v<E, LineExperiment>) {
                         const PdPoint point = pdAgainstBlocks(experiment, campaign.outcomes, d, s);
                         curve.push_back({experiment.detectors[d].name, point.snrDb, point.pd, point.interval, point.trials, {}});
                     } else {
@@ -102,6 +145,8 @@ Campaign begin(const Experiment &experiment, const RunContext &context)
     Campaign campaign{experiment, {}, {}};
     if (const auto *injection = std::get_if<InjectionExperiment>(&experiment))
         campaign.thresholds = trialsOf(*injection, context).thresholds();
+    else if (const auto *sweep = std::get_if<SweepExperiment>(&experiment))
+        campaign.thresholds = trialsOf(*sweep, context).thresholds();
     return campaign;
 }
 
@@ -114,9 +159,7 @@ void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(open), [&](int run) { return !done.contains(run); });
     const auto outcomes = std::visit(
         Overloaded{[&](const LineExperiment &lines) { return runExperiment(lines, open, context, sink); },
-                   [&](const InjectionExperiment &injection) {
-                       return trialsOf(injection, context.part(0.0, 0.1)).run(open, context.part(0.1, 1.0), sink);
-                   }},
+                   [&](const auto &one) { return trialsOf(one, context.part(0.0, 0.1)).run(open, context.part(0.1, 1.0), sink); }},
         campaign.experiment);
     campaign.outcomes.insert(campaign.outcomes.end(), outcomes.begin(), outcomes.end());
     std::sort(campaign.outcomes.begin(), campaign.outcomes.end(), inRunOrder);

@@ -3,6 +3,7 @@
 #include "evaluate/InjectionExperiment.h"
 #include "evaluate/Interval.h"
 #include "evaluate/LineExperiment.h"
+#include "evaluate/SweepExperiment.h"
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +14,7 @@
 namespace faintline {
 
 /// Any experiment that yields detection probabilities.
-using Experiment = std::variant<LineExperiment, InjectionExperiment>;
+using Experiment = std::variant<LineExperiment, InjectionExperiment, SweepExperiment>;
 
 /// By its "kind"; throws Error.
 Experiment experimentFromJson(const Json &json, const std::string &where);
@@ -22,6 +23,10 @@ Json toJson(const Experiment &experiment);
 /// How many runs (fields, or single trials) the experiment consists of.
 int runCount(const Experiment &experiment);
 void setSeed(Experiment &experiment, int seed);
+
+/// The signal-to-noise ratios and the detectors of an experiment; a sweep has one ratio, and a detector for each value.
+std::vector<double> snrsOf(const Experiment &experiment);
+std::vector<Contestant> detectorsOf(const Experiment &experiment);
 
 /// An experiment with as many of its runs as have been done: a part of a campaign, or all of it.
 struct Campaign {

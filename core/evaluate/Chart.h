@@ -18,6 +18,7 @@ struct Curve {
         double x = 0.0;
         double y = 0.0;
         Interval interval; ///< empty (low = high = 0) where there is none
+        std::string label{}; ///< written beside it; empty: nothing
     };
 
     std::string name;

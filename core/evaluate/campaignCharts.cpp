@@ -3,6 +3,7 @@
 #include "base/Field.h"
 #include "base/logmath.h"
 #include "evaluate/PdCurve.h"
+#include "evaluate/sweepCurve.h"
 #include "evaluate/theory.h"
 
 #include <algorithm>
@@ -104,10 +105,78 @@ namespace {
         }
     }
 
+    /// The detector of the campaign that works as the current settings do.
+    std::optional<std::size_t> detectorLike(const Campaign &campaign, const AnalysisSettings &current)
+    {
+        if (campaign.outcomes.empty() || std::holds_alternative<SweepExperiment>(campaign.experiment))
+            return {};
+        const std::vector<Contestant> detectors = detectorsOf(campaign.experiment);
+        for (std::size_t d = 0; d < detectors.size(); ++d)
+            if (detectors[d].settings.model == current.model && detectors[d].settings.detector == current.detector)
+                return d;
+        return {};
+    }
+
+    std::string nameAt(const Campaign &campaign, std::size_t detector, double threshold)
+    {
+        return detectorsOf(campaign.experiment)[detector].name + ", T = " + formatNumber(std::round(100.0 * threshold) / 100.0);
+    }
+
+    /// Of all values of the runs' lists, the share above a threshold.
+    template <class ListOf>
+    std::pair<std::int64_t, std::int64_t> countAbove(const Campaign &campaign, double threshold, ListOf listOf)
+    {
+        std::int64_t above = 0;
+        std::int64_t all = 0;
+        for (const RunOutcome &outcome : campaign.outcomes)
+            for (const float value : listOf(outcome)) {
+                ++all;
+                above += static_cast<double>(value) > threshold ? 1 : 0;
+            }
+        return {above, all};
+    }
+
+    Curve::Point pdPoint(const Campaign &campaign, std::size_t detector, std::size_t snr, double threshold, double x)
+    {
+        const auto [above, all] =
+            countAbove(campaign, threshold, [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.signal[detector][snr]; });
+        return {x, static_cast<double>(above) / static_cast<double>(all), wilsonInterval(above, all)};
+    }
+
 } // namespace
+
+std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const AnalysisSettings &current, double threshold)
+{
+    const std::optional<std::size_t> detector = detectorLike(campaign, current);
+    if (!detector)
+        return {};
+    Curve curve{nameAt(campaign, *detector, threshold), Curve::Kind::Theory, {}};
+    const std::vector<double> snrs = snrsOf(campaign.experiment);
+    for (std::size_t s = 0; s < snrs.size(); ++s) {
+        const Curve::Point point = pdPoint(campaign, *detector, s, threshold, snrs[s]);
+        curve.points.push_back({point.x, point.y, {}});
+    }
+    return curve;
+}
+
+std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, const AnalysisSettings &current, double threshold)
+{
+    const std::optional<std::size_t> detector = detectorLike(campaign, current);
+    if (!detector)
+        return {};
+    const auto [above, all] =
+        countAbove(campaign, threshold, [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.noise[*detector]; });
+    // None above, or all, has no place on a logarithmic axis: half a block away from it.
+    const double share = std::clamp(static_cast<double>(above), 0.5, static_cast<double>(all) - 0.5) / static_cast<double>(all);
+    const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
+    return Curve{nameAt(campaign, *detector, threshold), Curve::Kind::Paper,
+                 {pdPoint(campaign, *detector, snr, threshold, isInBlocks ? -std::log1p(-share) : share)}};
+}
 
 Chart pdChart(const Campaign &campaign)
 {
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        return sweepChart(campaign, SweepMeasure::Pd);
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
     Chart chart{"Detection probability",
                 "SNR (dB), at 1 false alarm per block",
@@ -133,6 +202,8 @@ Chart pdChart(const Campaign &campaign)
 
 Chart rocChart(const Campaign &campaign, std::size_t snr)
 {
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        return tradeOffChart(campaign);
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
     Chart chart{"Receiver operating characteristic",
                 lines ? "False alarms per block" : "P(path without the line exceeds)",

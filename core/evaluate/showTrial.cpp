@@ -91,6 +91,8 @@ ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, st
 {
     if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment))
         return showLine(campaign, *lines, detector, snr, place, context);
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        throw Error("trial", "a sweep's trials cannot be shown; take its value over and inject a line");
     if (!trials)
         throw Error("trial", "of an injection that was done elsewhere: run it here to look at its trials");
     return showInjected(campaign, std::get<InjectionExperiment>(campaign.experiment), *trials, detector, snr, place,

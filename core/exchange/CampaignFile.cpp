@@ -2,6 +2,7 @@
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "evaluate/sweepCurve.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -84,11 +85,12 @@ namespace {
     /// Every detector and SNR of the experiment must have its answers.
     void checkShape(const Campaign &campaign, const RunOutcome &outcome, const std::string &where)
     {
-        const auto [detectors, snrs] =
-            std::visit([](const auto &one) { return std::pair(one.detectors.size(), one.snrDb.size()); }, campaign.experiment);
+        const bool isSweep = std::holds_alternative<SweepExperiment>(campaign.experiment);
+        const std::size_t detectors = isSweep ? 1 : detectorsOf(campaign.experiment).size();
+        const std::size_t snrs = snrsOf(campaign.experiment).size();
         bool isWhole = outcome.noise.size() == detectors && outcome.signal.size() == detectors;
         for (const auto &noise : outcome.noise)
-            isWhole = isWhole && !noise.empty();
+            isWhole = isWhole && (isSweep ? noise.size() == 2 : !noise.empty());
         for (const auto &signal : outcome.signal) {
             isWhole = isWhole && signal.size() == snrs;
             for (const auto &values : signal)
@@ -96,6 +98,24 @@ namespace {
         }
         if (!isWhole)
             throw Error(where, "must hold values for each of the " + std::to_string(detectors) + " detectors and " + std::to_string(snrs) + " SNRs");
+    }
+
+    std::string sweepCsv(const Campaign &campaign)
+    {
+        std::string csv = "parameter,value,pd,pd_low,pd_high,trials,false_alarms,hours,false_alarms_per_hour,false_alarms_low,false_alarms_high,"
+                          "latency_s,latency_low,latency_high,threshold\n";
+        const std::string &parameter = std::get<SweepExperiment>(campaign.experiment).parameter;
+        for (const SweepPoint &point : sweepCurve(campaign)) {
+            csv += parameter;
+            for (const double number : {point.value, point.pd, point.pdInterval.low, point.pdInterval.high, static_cast<double>(point.trials),
+                                        static_cast<double>(point.falseAlarms), point.hours, point.falseAlarmsPerHour,
+                                        point.falseAlarmInterval.low, point.falseAlarmInterval.high})
+                csv += "," + formatNumber(number);
+            for (const double number : {point.latencySeconds, point.latencyInterval.low, point.latencyInterval.high})
+                csv += "," + (point.detections > 0 ? formatNumber(number) : std::string());
+            csv += "," + formatNumber(point.threshold) + "\n";
+        }
+        return csv;
     }
 
     /// "name",snr,pd,low,high,trials,threshold: the last may be empty.
@@ -170,6 +190,8 @@ bool isCampaignFile(const std::string &path)
 
 void writeCurve(const Campaign &campaign, const std::string &path)
 {
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        return writeTextFile(path, sweepCsv(campaign));
     std::string csv = std::string(curveHead) + "\n";
     for (const CurvePoint &point : pdCurve(campaign))
         csv += "\"" + point.detector + "\"," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + "," + formatNumber(point.interval.low) + ","

@@ -19,7 +19,9 @@ Campaign readCampaign(const std::string &path);
 /// Whether the file's first line says that it is a campaign.
 bool isCampaignFile(const std::string &path);
 
-/// Detection probabilities as CSV: detector, snr_db, pd, pd_low, pd_high (95 %), trials, threshold.
+/// Detection probabilities as CSV: detector, snr_db, pd, pd_low, pd_high (95 %), trials, threshold. Of a sweep: parameter, value, pd,
+/// pd_low, pd_high, trials, false_alarms, hours, false_alarms_per_hour and its interval, latency_s and its interval (empty where nothing
+/// was detected), threshold.
 void writeCurve(const Campaign &campaign, const std::string &path);
 
 /// The points of such a file, in order. Throws Error naming the file and line.

@@ -162,6 +162,8 @@ namespace {
             if (curve.kind != Curve::Kind::Theory)
                 marks += "<circle cx=\"" + px + "\" cy=\"" + py + "\" r=\"3\" stroke=\"" + colour + "\" fill=\""
                     + (curve.kind == Curve::Kind::Paper ? "white" : colour) + "\"/>\n";
+            if (!point.label.empty())
+                marks += text(x.at(point.x) + 7.0, y.at(point.y) + 12.0, "start", point.label);
         }
         std::string svg;
         if (curve.kind != Curve::Kind::Paper && curve.points.size() > 1)

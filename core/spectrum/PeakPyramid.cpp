@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace faintline {
 
@@ -51,20 +52,59 @@ namespace {
         return most >= endOfEven;
     }
 
+    double valueOf(ByteScale::Kind kind, int byte)
+    {
+        switch (kind) {
+        case ByteScale::Kind::PowerDb:
+            break;
+        case ByteScale::Kind::ScoreNats:
+            return byte <= 200 ? -4.0 + 0.25 * byte : 46.0 * std::pow(1.15, byte - 200);
+        case ByteScale::Kind::DifferenceNats: {
+            const int level = byte / 2;
+            const double magnitude = level <= 96 ? 0.25 * level : 24.0 * std::pow(1.3, level - 96);
+            return byte % 2 == 1 || level == 0 ? magnitude : -magnitude;
+        }
+        }
+        return -15.0 + 0.5 * byte;
+    }
+
+    /// The nearest byte of a difference: by magnitude among the positive ones, which ascend, then the sign.
+    std::uint8_t differenceByte(const std::vector<float> &values, double value)
+    {
+        if (std::isnan(value))
+            return 0;
+        const double magnitude = std::abs(value);
+        int low = 0;
+        int high = 127;
+        while (high - low > 1) {
+            const int middle = (low + high) / 2;
+            (static_cast<double>(values[static_cast<std::size_t>(2 * middle + 1)]) <= magnitude ? low : high) = middle;
+        }
+        const auto at = [&](int level) { return static_cast<double>(values[static_cast<std::size_t>(2 * level + 1)]); };
+        const int nearest = at(high) - magnitude < magnitude - at(low) ? high : low;
+        return static_cast<std::uint8_t>(2 * nearest + (value > 0.0 && nearest > 0 ? 1 : 0));
+    }
+
 } // namespace
 
 ByteScale::ByteScale(Kind kind) : m_kind(kind), m_values(256)
 {
-    for (int byte = 0; byte < 256; ++byte) {
-        double value = -15.0 + 0.5 * byte;
-        if (kind == Kind::ScoreNats)
-            value = byte <= 200 ? -4.0 + 0.25 * byte : 46.0 * std::pow(1.15, byte - 200);
-        m_values[static_cast<std::size_t>(byte)] = static_cast<float>(value);
-    }
+    for (int byte = 0; byte < 256; ++byte)
+        m_values[static_cast<std::size_t>(byte)] = static_cast<float>(valueOf(kind, byte));
+}
+
+std::vector<int> ByteScale::ascending() const
+{
+    std::vector<int> bytes(256);
+    std::iota(bytes.begin(), bytes.end(), 0);
+    std::stable_sort(bytes.begin(), bytes.end(), [this](int a, int b) { return value(a) < value(b); });
+    return bytes;
 }
 
 std::uint8_t ByteScale::byte(double value) const
 {
+    if (m_kind == Kind::DifferenceNats)
+        return differenceByte(m_values, value);
     if (!(value > static_cast<double>(m_values.front())))
         return 0;
     const auto upper = std::upper_bound(m_values.begin(), m_values.end(), static_cast<float>(value));
@@ -79,6 +119,11 @@ void ByteScale::encode(std::span<const float> values, std::span<std::uint8_t> by
 {
     if (m_kind == Kind::PowerDb) {
         encodePower(values.data(), bytes.data(), std::ssize(values));
+        return;
+    }
+    if (m_kind == Kind::DifferenceNats) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            bytes[i] = byte(static_cast<double>(values[i]));
         return;
     }
     // The even part of the scale covers nearly all cells; the rest goes the long way.

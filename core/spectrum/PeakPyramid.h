@@ -12,10 +12,12 @@ namespace faintline {
 /// Values as one byte, for pictures only: no decision is ever taken on them.
 ///
 /// Power: -15 … +112 dB in steps of ½ dB. Score: -4 … 46 nat in steps of ¼ nat, above that in steps of 15 %, to 10⁵ nat.
+/// Difference of scores: 0 … ±24 nat in steps of ¼ nat, above that in steps of 30 %, to ±8·10⁴ nat. Its bytes ascend by magnitude, the
+/// lowest bit being the sign, so that the maximum of bytes is the difference of largest magnitude (of two equal ones the positive one). Zero is byte 0; byte 1 stays unused.
 class ByteScale
 {
 public:
-    enum class Kind { PowerDb, ScoreNats };
+    enum class Kind { PowerDb, ScoreNats, DifferenceNats };
 
     explicit ByteScale(Kind kind = Kind::PowerDb);
 
@@ -24,7 +26,9 @@ public:
     double value(int byte) const { return static_cast<double>(m_values[static_cast<std::size_t>(byte)]); }
     /// The nearest byte of a value in dB or nat.
     std::uint8_t byte(double value) const;
-    /// Encodes power ratios (PowerDb) or scores (ScoreNats).
+    /// All bytes in the order of their values.
+    std::vector<int> ascending() const;
+    /// Encodes power ratios (PowerDb) or scores (ScoreNats, DifferenceNats).
     void encode(std::span<const float> values, std::span<std::uint8_t> bytes) const;
 
 private:

@@ -36,6 +36,7 @@ private slots:
     void keptCalibrationsChangeNoByte();
     void isTheLibrary();
     void explainsItsTerms();
+    void comparesTwoSettings();
     void framesInPlaceOfARecording();
     void pingsFromAScene();
 
@@ -392,6 +393,31 @@ void tst_cli::explainsItsTerms()
     QVERIFY(std::abs(shown - json["displayed"].get<double>()) < 1e-5);
 }
 
+void tst_cli::comparesTwoSettings()
+{
+    const QStringList options{"compare", "line.wav", "--set-b", "detector.kind=energy", "--set-b", "decide.thresholdNats=500"};
+    const Outcome one = run(m_folder, options + QStringList{"--threads", "1", "--events", "compared1.csv", "--difference", "compared1.npy"} + settings);
+    QCOMPARE(one.err, QByteArray());
+    QCOMPARE(one.code, 0);
+    QVERIFY2(one.out.contains("  detector.kind: smd in A, energy in B\n"), one.out.data());
+    QVERIFY2(one.out.contains("only in A: 1"), one.out.data());
+    QVERIFY(content("compared1.csv").startsWith("in,event_a,event_b,t_onset,"));
+    QVERIFY(content("compared1.csv").contains("\nA,1,,"));
+    const NumPyArray difference = readNumPy(pathOf("compared1.npy"));
+    QCOMPARE(difference.shape, (std::vector<Index>{119, 501}));
+
+    const Outcome two = run(m_folder, options + QStringList{"--threads", "2", "--events", "compared2.csv", "--difference", "compared2.npy"} + settings);
+    QCOMPARE(two.out, one.out);
+    QVERIFY(content("compared2.csv") == content("compared1.csv"));
+    QVERIFY(content("compared2.npy") == content("compared1.npy"));
+
+    // The same on both sides: everything in both, no difference.
+    const Outcome same = run(m_folder, QStringList{"compare", "line.wav", "--difference", "same.npy"} + settings);
+    QVERIFY2(same.out.contains("their settings are the same\nin both: 1, only in A: 0, only in B: 0\n"), same.out.data());
+    for (const float value : readNumPy(pathOf("same.npy")).values)
+        QCOMPARE(value, 0.0f);
+}
+
 void tst_cli::framesInPlaceOfARecording()
 {
     // Exponential noise with a target that climbs a cell a frame from cell 5 on.
@@ -698,6 +724,9 @@ void tst_cli::mistakes_data()
     row("settings that disagree", {"detect", "line.wav", "--summary", "--set", "model.slopeChange=0.5"}, "model.slopeChange = 0.5: h(0) + 2·");
     row("slopes upside down", {"detect", "line.wav", "--summary", "--set", "model.lowestSlope=3"}, "model.lowestSlope = 3: must not exceed");
     row("no output", {"detect", "line.wav"}, "detect: says nothing without at least one of --events");
+    row("comparison without a recording", {"compare"}, "command line: FILE is required");
+    row("comparison in another format", {"compare", "line.wav", "--events", "e.txt"}, "e.txt: the kind of file is told by its extension: .csv");
+    row("comparison with a misspelt setting", {"compare", "line.wav", "--set-b", "smd.thresold=3"}, "smd.thresold: is no setting");
     row("no input", {"detect", "--summary"}, "detect: needs a recording, or --frames");
     row("two inputs", {"detect", "line.wav", "--frames", "y.npy", "--summary"}, "detect: takes a recording or --frames, not both");
     row("unknown kind of events", {"detect", "line.wav", "--events", "e.xml"}, "e.xml: the kind of file is told by its extension");

@@ -19,6 +19,7 @@ private slots:
     void byteIsTheNearest_data();
     void byteIsTheNearest();
     void encodingIsTheScale();
+    void differencesKeepTheirSign();
     void strangeValues();
     void nineFramesByEye();
     void maximaOfEveryLevel_data();
@@ -122,6 +123,33 @@ void tst_PeakPyramid::byteIsTheNearest()
     QFETCH(double, shown);
     const ByteScale scale(static_cast<ByteScale::Kind>(kind));
     QVERIFY(std::abs(scale.value(scale.byte(value)) - shown) < 1e-6 * std::max(1.0, shown));
+}
+
+void tst_PeakPyramid::differencesKeepTheirSign()
+{
+    const ByteScale scale(ByteScale::Kind::DifferenceNats);
+    for (int byte = 0; byte < 256; ++byte) {
+        QCOMPARE(int(scale.byte(scale.value(byte))), byte == 1 ? 0 : byte);
+        if (byte > 1)
+            QVERIFY(std::abs(scale.value(byte)) >= std::abs(scale.value(byte - 1)));
+    }
+    const std::vector<int> ascending = scale.ascending();
+    for (std::size_t i = 1; i < ascending.size(); ++i)
+        QVERIFY(scale.value(ascending[i]) >= scale.value(ascending[i - 1]));
+    QCOMPARE(scale.value(scale.byte(-7.3)), -7.25);
+    QCOMPARE(scale.value(scale.byte(0.1)), 0.0);
+    QCOMPARE(scale.value(scale.byte(-0.1)), 0.0);
+    QCOMPARE(scale.value(scale.byte(NAN)), 0.0);
+    QVERIFY(scale.value(scale.byte(1e9)) > 8e4 && scale.value(scale.byte(-1e9)) < -8e4);
+
+    // The larger magnitude wins, of equal ones the positive.
+    PeakPyramid pyramid(timeOf(4), 3, scale, std::size_t(1) << 20);
+    pyramid.append(std::vector<float>{1.0f, -3.0f, 0.0f, -2.0f, 3.0f, 0.0f, 0.5f, -3.0f, -0.25f, 0.0f, 2.0f, 0.0f});
+    pyramid.finish();
+    const auto top = pyramid.row(1, 0);
+    QCOMPARE(scale.value(top[0]), -2.0);
+    QCOMPARE(scale.value(top[1]), 3.0);
+    QCOMPARE(scale.value(top[2]), -0.25);
 }
 
 void tst_PeakPyramid::encodingIsTheScale()

@@ -138,7 +138,7 @@ void tst_Theme::mapsAreEven()
 {
     // Lightness rises (or falls) all the way, and no step is much larger than the others.
     for (const QString &name : ColourMap::names()) {
-        if (name == "blue-red")
+        if (name == "blue-red" || name == "ice-fire") // light or dark in the middle
             continue;
         const ColourMap &map = ColourMap::named(name);
         const double whole = lightness(map.at(1.0)) - lightness(map.at(0.0));

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "evaluate/SweepExperiment.h"
+
+#include <QString>
+#include <QWidget>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QSpinBox;
+
+namespace faintline {
+
+/// Which setting is to take which values, and on what lines they are tried.
+class SweepForm : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit SweepForm(QWidget *parent = nullptr);
+
+    /// All other settings are these. `recording`: path of what is open, empty where no recording is.
+    void setCurrent(const AnalysisSettings &settings, const QString &recording, double windowSeconds);
+
+    /// What is asked for. Throws Error where that cannot be.
+    SweepExperiment experiment() const;
+    bool isInRecording() const;
+    /// "Threshold 5 … 15 nat, simulated".
+    QString name() const;
+
+    /// For a first look, and for tests.
+    void setParameter(const QString &parameter);
+    void setRange(double from, double to, int steps, bool isLogarithmic);
+    void setLines(double snrDb, double durationSeconds, int trials);
+
+signals:
+    void changed();
+
+private:
+    void fillParameters();
+    void suggestRange();
+    void showMeaning();
+    const FieldInfo &field() const;
+
+    AnalysisSettings m_settings;
+    QString m_recording;
+    double m_windowSeconds = 0.0;
+    QComboBox *m_parameter;
+    QLineEdit *m_from;
+    QLineEdit *m_to;
+    QSpinBox *m_steps;
+    QCheckBox *m_byFactors;
+    QComboBox *m_noise;
+    QDoubleSpinBox *m_snr;
+    QDoubleSpinBox *m_duration;
+    QDoubleSpinBox *m_margin;
+    QDoubleSpinBox *m_drift;
+    QDoubleSpinBox *m_wander;
+    QSpinBox *m_trials;
+    QSpinBox *m_seed;
+    QLabel *m_meaning;
+};
+
+} // namespace faintline

@@ -1,0 +1,137 @@
+#include "app/cli/commands.h"
+#include "app/cli/provenance.h"
+
+#include "analysis/analyse.h"
+#include "base/Error.h"
+#include "evaluate/compareAnalyses.h"
+#include "evaluate/differencePicture.h"
+#include "evaluate/measureCost.h"
+#include "evaluate/settingDifferences.h"
+#include "exchange/writeComparison.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace faintline::cli {
+
+namespace {
+
+    struct CompareOptions {
+        AnalysisOptions common;
+        std::string presetA, presetB;
+        std::vector<std::string> setA, setB;
+        CompareTolerance tolerance;
+        std::string events;
+        std::string difference;
+        bool cost = false;
+    };
+
+    AnalysisSettings settingsOf(AnalysisOptions options, const std::string &preset, const std::vector<std::string> &assignments)
+    {
+        if (!preset.empty())
+            options.preset = preset;
+        options.assignments.insert(options.assignments.end(), assignments.begin(), assignments.end());
+        return options.settings();
+    }
+
+    std::string orNone(const std::string &value)
+    {
+        return value.empty() ? "none" : value;
+    }
+
+    void printSide(const char *name, const Analysis &analysis)
+    {
+        const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
+        const std::string_view unit = detectorUnits[analysis.settings.detector.index()];
+        std::printf("%s: %zu event(s), threshold %.2f %.*s (%.3g false alarms an hour on noise)\n", name, analysis.tracks.size(),
+                    analysis.threshold, static_cast<int>(unit.size()), unit.data(), perHour);
+    }
+
+    void printDifferences(const AnalysisSettings &a, const AnalysisSettings &b)
+    {
+        const std::vector<SettingDifference> differences = settingDifferences(a, b);
+        std::printf("%s\n", differences.empty() ? "their settings are the same" : "A and B differ in");
+        for (const SettingDifference &difference : differences)
+            std::printf("  %s%s%s: %s in A, %s in B\n", difference.field.name.c_str(), difference.field.unit.empty() ? "" : ", ",
+                        difference.field.unit.c_str(), orNone(difference.a).c_str(), orNone(difference.b).c_str());
+    }
+
+    void printEvents(const Comparison &comparison, const Grid &grid)
+    {
+        using In = ComparedEvent::In;
+        std::printf("in both: %td, only in A: %td, only in B: %td\n", comparison.count(In::Both), comparison.count(In::A), comparison.count(In::B));
+        for (const ComparedEvent &compared : comparison.events) {
+            const Event &event = compared.event();
+            std::printf("%-4s  %.6g … %.6g s, at", compared.in() == In::A ? "A" : compared.in() == In::B ? "B" : "both", event.onsetSeconds,
+                        event.endSeconds);
+            for (std::size_t axis = 0; axis < event.position.size(); ++axis)
+                std::printf(" %.8g %s", event.position[axis], grid.axes[axis].unit.c_str());
+            for (const auto &[name, side] : {std::pair{"A", &compared.a}, std::pair{"B", &compared.b}})
+                if (*side)
+                    std::printf("; %s: event %d, detected at %.6g s, %.1f", name, (*side)->id, (*side)->detectSeconds, (*side)->statistic);
+            std::printf("\n");
+        }
+    }
+
+    void compare(const CompareOptions &options, const Common &common)
+    {
+        if (!options.events.empty())
+            checkComparisonPath(options.events);
+        const AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
+        const AnalysisSettings settingsB = settingsOf(options.common, options.presetB, options.setB);
+        const RunContext context = common.context();
+        const NormalisedFramesPointer frames = openPings(options.common.file);
+        const RecordingPointer recording = frames ? nullptr : options.common.recording();
+        const auto analysed = [&](const AnalysisSettings &settings, const RunContext &part, const Analysis *previous) {
+            return frames ? analyse(frames, settings, part, previous) : analyse(recording, settings, part, previous);
+        };
+        const auto a = analysed(settingsA, context.part(0.0, 0.5), nullptr);
+        const auto b = analysed(settingsB, context.part(0.5, 1.0), a.get());
+        const Comparison comparison = compareAnalyses(*a, *b, options.tolerance);
+        context.checkpoint(1.0, "done");
+        RunContext quiet;
+        quiet.stop = context.stop;
+        if (!options.events.empty())
+            writeComparison(comparison, b->grid(), options.events);
+        if (!options.difference.empty()) {
+            const auto difference = differencePicture(*a, *b, quiet);
+            if (!difference)
+                throw Error("--difference", "is of lines over time; pings have no such picture");
+            writeDifference(*difference, options.difference);
+        }
+        writeProvenance(common, {options.common.file, options.common.session}, {options.events, options.difference});
+        printSide("A", *a);
+        printSide("B", *b);
+        printDifferences(settingsA, settingsB);
+        printEvents(comparison, b->grid());
+        if (options.cost)
+            std::printf("processor time for an hour of recording: A %.3g s, B %.3g s\n", measureCost(*a, quiet), measureCost(*b, quiet));
+    }
+
+} // namespace
+
+void addCompare(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<CompareOptions>();
+    CLI::App *command = app.add_subcommand("compare", "Two detectors or two settings on one recording: what both find, and what only one does");
+    options->common.addTo(*command);
+    command->add_option("--preset-a", options->presetA, "Named settings that A starts from, in place of --preset");
+    command->add_option("--preset-b", options->presetB, "Named settings that B starts from, in place of --preset");
+    command->add_option("--set-a", options->setA, "A setting of A alone, name=value; may be repeated")->take_all()->allow_extra_args(false);
+    command->add_option("--set-b", options->setB, "A setting of B alone, name=value; may be repeated")->take_all()->allow_extra_args(false);
+    command->add_option("--cells", options->tolerance.cells, "How far apart two paths of one signal may run, in steps of the coarser grid")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    command->add_option("--frames", options->tolerance.frames, "How far apart in time, in frames of the coarser one")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    command->add_option("--events", options->events, "Write the events of both, .csv: column 'in' is A, B or both");
+    command->add_option("--difference", options->difference,
+                        "Write the difference layer, .npy: how much farther above its threshold B lies than A, nat, to a quarter of one");
+    command->add_flag("--cost", options->cost, "Say what each costs, in seconds of this machine");
+    command->callback([options, &common] { compare(*options, common); });
+}
+
+} // namespace faintline::cli

@@ -1,0 +1,161 @@
+#include "analysis/previewStatistic.h"
+#include "recording/SimulatedRecording.h"
+
+#include <QtTest>
+
+#include <cmath>
+
+using namespace faintline;
+
+namespace {
+
+    std::shared_ptr<const Analysis> analysed()
+    {
+        LineScene scene;
+        scene.sampleRateHz = 400.0;
+        scene.durationSeconds = 120.0;
+        const auto recording = std::make_shared<SimulatedRecording>(scene);
+        AnalysisSettings settings;
+        settings.spectrogram.windowSeconds = 0.5;
+        settings.selection.lowHz = 20.0; // a band of one's own has no blind edges
+        settings.selection.highHz = 180.0;
+        settings.decide.by = DecideSettings::By::Nats;
+        settings.decide.thresholdNats = 500.0; // nothing is detected, so no feedback
+        return analyse(recording, settings);
+    }
+
+    std::vector<float> valuesOf(const PeakPyramid &picture)
+    {
+        std::vector<float> values;
+        for (Index row = 0; row < picture.rowCount(0); ++row)
+            for (const std::uint8_t byte : picture.row(0, row))
+                values.push_back(static_cast<float>(picture.scale().value(byte)));
+        return values;
+    }
+
+    StatisticPreview previewed(const Analysis &before, const AnalysisSettings &settings, Index first, Index last, int threads = 1)
+    {
+        const FrameRange range = previewRange(*before.frames, first, last);
+        const auto kept = keepFrames(before.frames, range.readFirst, range.end - range.readFirst);
+        RunContext context;
+        context.threads = threads;
+        return previewStatistic(before, settings, *kept, range, context);
+    }
+
+} // namespace
+
+/// A changed detector's statistic of a few frames, before anything is calibrated for it.
+class tst_previewStatistic : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void rangesByHand()
+    {
+        const auto before = analysed();
+        const FrameRange middle = previewRange(*before->frames, 200, 300);
+        QCOMPARE(middle.readFirst, Index(72)); // 128 before
+        QCOMPARE(middle.first, Index(200));
+        QCOMPARE(middle.end, Index(301));
+        const FrameRange all = previewRange(*before->frames, -5, 100000);
+        QCOMPARE(all.readFirst, Index(0));
+        QCOMPARE(all.first, Index(0));
+        QCOMPARE(all.end, before->time().count);
+        const auto large = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 100000, false}, Grid{{{"frequency", "Hz", 0.0, 1.0, 1000, false}}},
+                                                        std::vector<float>());
+        QVERIFY(previewRange(*large, 0, 99999).isEmpty());
+        QVERIFY(!previewRange(*large, 5000, 6000).isEmpty());
+        const FrameArray pings(Axis{"time", "s", 0.0, 1.0, 10, false}, Grid{{{"range", "m", 0.0, 1.0, 10, false}, {"bearing", "°", 0.0, 1.0, 10, true}}}, {});
+        QVERIFY(previewRange(pings, 0, 9).isEmpty());
+    }
+
+    void whatIsWorthIt()
+    {
+        const auto before = analysed();
+        AnalysisSettings settings = before->settings;
+        QVERIFY(!isWorthAPreview(*before, settings));
+        settings.decide.thresholdNats = 20.0;
+        QVERIFY(!isWorthAPreview(*before, settings)); // its statistic changes where tracks start only
+        settings.model.snr = 0.25;
+        QVERIFY(isWorthAPreview(*before, settings));
+        settings.spectrogram.windowSeconds = 0.25;
+        QVERIFY(!isWorthAPreview(*before, settings)); // other frames
+    }
+
+    void isTheRecursion()
+    {
+        // With the same ln K from frame 0 on it is what the analysis shows, byte for byte.
+        const auto before = analysed();
+        AnalysisSettings settings = before->settings;
+        settings.model.snr = 0.3;
+        settings.detector = SmdSettings{SmdSettings::Reset::Fixed, -0.7};
+        const StatisticPreview preview = previewed(*before, settings, 0, before->time().count - 1);
+        const auto after = analyse(before->recording, settings, {}, before.get());
+        QCOMPARE(preview.lnK, -0.7);
+        QVERIFY(valuesOf(*preview.statistic) == valuesOf(*after->statistic));
+        QCOMPARE(preview.statistic->time().first, before->time().first);
+    }
+
+    void findsNearlyTheCalibratedK()
+    {
+        const auto before = analysed();
+        for (const double snr : {0.2, 1.0, 2.0}) {
+            AnalysisSettings settings = before->settings;
+            settings.model.snr = snr;
+            const StatisticPreview preview = previewed(*before, settings, 200, 300);
+            const auto calibration = calibrate(settings);
+            QVERIFY2(std::abs(preview.lnK - calibration->lnK) < 0.1, qPrintable(QStringLiteral("%1 %2").arg(preview.lnK).arg(calibration->lnK)));
+        }
+    }
+
+    void showsTheRightFrames()
+    {
+        // The middle of a longer one: the same values, once the detector has settled, at the same times.
+        const auto before = analysed();
+        AnalysisSettings settings = before->settings;
+        settings.detector = SmdSettings{SmdSettings::Reset::Fixed, before->calibration->lnK};
+        const StatisticPreview part = previewed(*before, settings, 200, 299);
+        const StatisticPreview whole = previewed(*before, settings, 0, 400);
+        QCOMPARE(part.statistic->frameCount(), Index(100));
+        QCOMPARE(part.statistic->time().first, before->time().value(200.0));
+        const std::vector<float> there = valuesOf(*whole.statistic);
+        const std::vector<float> here = valuesOf(*part.statistic);
+        const Index cells = before->grid().size();
+        Index different = 0;
+        for (std::size_t i = 0; i < here.size(); ++i)
+            different += here[i] != there[i + static_cast<std::size_t>(200 * cells)] ? 1 : 0;
+        QVERIFY2(different < std::ssize(here) / 1000, qPrintable(QString::number(different)));
+    }
+
+    void otherDetectorsAndThreads()
+    {
+        const auto before = analysed();
+        AnalysisSettings settings = before->settings;
+        settings.detector = EnergySettings{};
+        const StatisticPreview energy = previewed(*before, settings, 10, 20);
+        std::vector<float> y(static_cast<std::size_t>(before->grid().size()));
+        before->frames->read(10, 1, y);
+        QVERIFY(std::abs(valuesOf(*energy.statistic)[7] - std::max(y[7], -4.0f)) <= 0.126f);
+        settings = before->settings;
+        settings.model.snr = 1.5;
+        const StatisticPreview one = previewed(*before, settings, 100, 400, 1), four = previewed(*before, settings, 100, 400, 4);
+        QVERIFY(valuesOf(*one.statistic) == valuesOf(*four.statistic));
+        QCOMPARE(one.lnK, four.lnK);
+    }
+
+    void keptFramesKnowWhatTheyAre()
+    {
+        const auto before = analysed();
+        const auto kept = keepFrames(before->frames, 50, 100);
+        QVERIFY(kept->holds(before->frames, 50, 150));
+        QVERIFY(!kept->holds(before->frames, 49, 150));
+        QVERIFY(!kept->holds(before->frames, 60, 151));
+        QVERIFY(!kept->holds(analysed()->frames, 60, 100));
+        std::vector<float> y(static_cast<std::size_t>(before->grid().size()));
+        before->frames->read(149, 1, y);
+        QVERIFY(std::equal(y.begin(), y.end(), kept->values.end() - std::ssize(y)));
+    }
+};
+
+QTEST_GUILESS_MAIN(tst_previewStatistic)
+#include "tst_previewStatistic.moc"

@@ -1,0 +1,117 @@
+#include "app/ComparePanel.h"
+#include "app/Comparer.h"
+#include "app/MainWindow.h"
+#include "widgets/WaterfallView.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTableWidget>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+
+using namespace faintline;
+
+/// A kept, B changed: what the window shows of the two.
+class tst_Comparer : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+
+    QString scene(const QString &name, double hz)
+    {
+        QFile file(m_folder.filePath(name));
+        if (file.open(QIODevice::WriteOnly))
+            file.write(QStringLiteral(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "seed": 3,
+                "lines": [{"snrDb": 0, "referenceSeconds": 0.25, "frequencyHz": %1, "startSeconds": 10, "durationSeconds": 45}]})")
+                           .arg(hz)
+                           .toUtf8());
+        return file.fileName();
+    }
+
+    static void settle(MainWindow &window, QSignalSpy &settled)
+    {
+        if (settled.isEmpty())
+            QVERIFY(settled.wait(60000));
+        settled.clear();
+        QTRY_VERIFY(!window.comparer().isBusy());
+    }
+
+private slots:
+    void keepChangeSwapGoBack()
+    {
+        MainWindow window;
+        window.setAsking(false);
+        window.resize(1200, 800);
+        window.show();
+        QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+        window.open(scene("a.json", 90.0), {}, [](AnalysisSettings &settings) {
+            settings = preset("billon").settings;
+            settings.spectrogram.windowSeconds = 0.25;
+        });
+        settle(window, settled);
+        const AnalysisSettings first = window.document().settings();
+        ComparePanel &panel = window.comparePanel();
+        QVERIFY(!panel.swapButton()->isEnabled());
+
+        QTest::keyClick(&window, Qt::Key_B, Qt::ControlModifier);
+        QVERIFY(panel.isVisible());
+        QTRY_VERIFY(window.comparer().result().has_value());
+        QCOMPARE(window.comparer().result()->comparison.count(ComparedEvent::In::Both), std::ptrdiff_t(1));
+        QVERIFY(panel.differences().contains("same settings"));
+
+        // One frame's power alone does not find the line.
+        window.controller().edit("detector.kind", FieldValue(std::string("energy")), "Choose a detector");
+        settle(window, settled);
+        QTRY_COMPARE(window.comparer().result()->b, window.document().analysis());
+        const Comparison &comparison = window.comparer().result()->comparison;
+        QCOMPARE(comparison.count(ComparedEvent::In::A), std::ptrdiff_t(1));
+        QVERIFY(panel.differences().contains(QString::fromUtf8("sequential Markov → single-frame energy")));
+        QVERIFY(panel.picture()->picture() == window.comparer().result()->difference);
+        QTRY_VERIFY(window.comparer().cost().has_value());
+        QVERIFY(panel.sentence().contains("processor"));
+
+        // A click on what only A has found puts the cursor there.
+        int row = -1;
+        for (int i = 0; i < panel.table()->rowCount(); ++i)
+            if (panel.table()->item(i, 0)->text() == "A")
+                row = i;
+        QVERIFY(row >= 0);
+        const QRect cell = panel.table()->visualItemRect(panel.table()->item(row, 1));
+        QTest::mouseClick(panel.table()->viewport(), Qt::LeftButton, {}, cell.center());
+        QVERIFY(std::abs(window.document().viewport().cursor()->hz - 90.0) < 4.0);
+
+        panel.swapButton()->click();
+        settle(window, settled);
+        QCOMPARE(window.document().settings(), first);
+        QVERIFY(std::holds_alternative<EnergySettings>(window.comparer().kept()->settings.detector));
+        QTRY_COMPARE(window.comparer().result()->b, window.document().analysis());
+        QCOMPARE(window.comparer().result()->comparison.count(ComparedEvent::In::B), std::ptrdiff_t(1));
+
+        panel.goToButton()->click();
+        settle(window, settled);
+        QVERIFY(std::holds_alternative<EnergySettings>(window.document().settings().detector));
+        window.document().undoStack().undo();
+        settle(window, settled);
+        QCOMPARE(window.document().settings(), first);
+
+        // Something else: A stays, and is computed there only when asked for.
+        const auto kept = window.comparer().kept();
+        window.open(scene("b.json", 150.0));
+        settle(window, settled);
+        QCOMPARE(window.comparer().kept(), kept);
+        QVERIFY(!window.comparer().isOfWhatIsOpen());
+        QVERIFY(!window.comparer().result().has_value());
+        QVERIFY(panel.computeButton()->isVisible());
+        QVERIFY(panel.sentence().contains("something else"));
+        panel.computeButton()->click();
+        QTRY_VERIFY_WITH_TIMEOUT(window.comparer().result().has_value(), 60000);
+        QVERIFY(!panel.computeButton()->isVisible());
+        QCOMPARE(window.comparer().kept()->settings, kept->settings);
+    }
+};
+
+QTEST_MAIN(tst_Comparer)
+#include "tst_Comparer.moc"

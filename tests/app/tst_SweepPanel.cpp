@@ -1,0 +1,108 @@
+#include "app/MainWindow.h"
+#include "app/SweepForm.h"
+#include "app/SweepPanel.h"
+#include "widgets/ChartPlot.h"
+
+#include <qwt_plot.h>
+
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+
+using namespace faintline;
+
+/// A sweep in the window: it grows, can be cancelled, and a click takes a value.
+class tst_SweepPanel : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+
+    static void openAndSettle(MainWindow &window, const QString &path)
+    {
+        QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+        window.open(path, {}, [](AnalysisSettings &settings) {
+            settings.spectrogram.windowSeconds = 0.5;
+            settings.model.lowestSlope = settings.model.highestSlope = 0;
+            settings.model.slopeChange = {1.0};
+        });
+        QVERIFY(settled.wait(60000));
+    }
+
+    QString scene()
+    {
+        QFile file(m_folder.filePath("scene.json"));
+        if (file.open(QIODevice::WriteOnly))
+            file.write(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "lines": [{"snrDb": 5, "frequencyHz": 90}]})");
+        return file.fileName();
+    }
+
+private slots:
+    void aClickTakesTheValue()
+    {
+        MainWindow window;
+        window.setAsking(false);
+        window.resize(1400, 900);
+        window.show();
+        openAndSettle(window, scene());
+        window.showSweep();
+        SweepPanel &panel = window.sweep();
+        panel.form().setParameter("decide.thresholdNats");
+        panel.form().setRange(5.0, 15.0, 3, false);
+        panel.form().setLines(3.0, 10.0, 4);
+        QSignalSpy busy(&window.experiments(), &Experiments::busyChanged);
+        panel.start();
+        QVERIFY(window.experiments().isBusy());
+        QTRY_VERIFY_WITH_TIMEOUT(!window.experiments().isBusy(), 60000);
+        const Experiments::Entry *entry = window.experiments().entry(panel.shown());
+        QCOMPARE(entry->state, Experiments::State::Done);
+        QCOMPARE(entry->runsDone(), 12);
+        QCOMPARE(panel.tradeOff().chart().curves.front().points.size(), std::size_t(3));
+        QTRY_COMPARE(panel.cost().chart().curves.size(), std::size_t(1));
+
+        const double before = window.document().settings().decide.thresholdNats;
+        QPointF at = panel.tradeOff().canvasPosition(0, 1);
+        QTest::mouseClick(panel.tradeOff().plot()->canvas(), Qt::LeftButton, {}, at.toPoint());
+        QCOMPARE(window.document().settings().decide.thresholdNats, 10.0);
+        QCOMPARE(window.document().settings().decide.by, DecideSettings::By::Nats);
+        window.document().undoStack().undo();
+        QCOMPARE(window.document().settings().decide.thresholdNats, before);
+        QTRY_VERIFY_WITH_TIMEOUT(!window.controller().isBusy(), 60000);
+    }
+
+    void cancelledItKeepsWhatThereIs()
+    {
+        MainWindow window;
+        window.setAsking(false);
+        window.show();
+        openAndSettle(window, scene());
+        SweepPanel &panel = window.sweep();
+        panel.form().setRange(5.0, 15.0, 3, false);
+        panel.form().setLines(3.0, 10.0, 5000);
+        panel.start();
+        QTRY_VERIFY_WITH_TIMEOUT(window.experiments().entry(panel.shown())->runsDone() > 3, 60000);
+        panel.cancel();
+        QTRY_VERIFY_WITH_TIMEOUT(!window.experiments().isBusy(), 60000);
+        const Experiments::Entry *entry = window.experiments().entry(panel.shown());
+        QCOMPARE(entry->state, Experiments::State::Cancelled);
+        QVERIFY(entry->runsDone() < 15000);
+        QVERIFY(!panel.pd().chart().curves.empty());
+    }
+
+    void whatCannotBeIsSaid()
+    {
+        MainWindow window;
+        window.setAsking(false);
+        SweepPanel &panel = window.sweep();
+        QSignalSpy failed(&panel, &SweepPanel::failed);
+        panel.form().setParameter("model.snr");
+        panel.form().setRange(-3.0, 1.0, 3, false);
+        panel.start();
+        QCOMPARE(failed.size(), 1);
+        QVERIFY(!window.experiments().isBusy());
+    }
+};
+
+QTEST_MAIN(tst_SweepPanel)
+#include "tst_SweepPanel.moc"
