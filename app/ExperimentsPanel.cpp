@@ -1,5 +1,6 @@
 #include "app/ExperimentsPanel.h"
 
+#include "app/Provenance.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeReproduction.h"
 
@@ -145,6 +146,14 @@ int ExperimentsPanel::importFile(const QString &path)
                                 : m_experiments.add(name, readCurve(file));
 }
 
+/// The curve, and beside it the experiment that `evaluate` makes it from again.
+static void writeWithOrigin(const Campaign &campaign, const QString &path)
+{
+    writeCurve(campaign, path.toStdString());
+    const Json json = {{"version", FAINTLINE_VERSION}, {"experiment", toJson(campaign.experiment)}};
+    writeProvenanceBeside(path, json.dump(2) + "\n");
+}
+
 void ExperimentsPanel::exportTo(int id, const QString &path) const
 {
     const Experiments::Entry *entry = m_experiments.entry(id);
@@ -153,7 +162,7 @@ void ExperimentsPanel::exportTo(int id, const QString &path) const
     if (entry->reproduction)
         writeReproduction(*entry->reproduction, path.toStdString());
     else if (path.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive))
-        writeCurve(*entry->campaign, path.toStdString());
+        writeWithOrigin(*entry->campaign, path);
     else
         writeCampaign(*entry->campaign, path.toStdString());
 }

@@ -25,6 +25,7 @@
 #include "app/PingBench.h"
 #include "app/PipelinePanel.h"
 #include "app/Recovery.h"
+#include "app/ReportWriter.h"
 #include "app/ReproductionPanel.h"
 #include "app/ScenarioCard.h"
 #include "app/SequentialPanel.h"
@@ -39,6 +40,7 @@
 #include "app/Workbench.h"
 #include "app/currentView.h"
 #include "app/hint.h"
+#include "app/saveView.h"
 #include "app/scanScenario.h"
 #include "app/statisticUnit.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -56,6 +58,7 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDateTime>
+#include <QDir>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -291,6 +294,13 @@ void MainWindow::connectController()
         m_document, [this] { return bench().viewState(); }, this);
     m_recovery = new Recovery(
         m_document, [this] { return bench().viewState(); }, m_recoveryFolder, this);
+    m_report = new ReportWriter(*this);
+    connect(m_report, &ReportWriter::busyChanged, m_activity, &ActivityBar::setBusy);
+    connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
+    connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
+    connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
+    connect(m_report, &ReportWriter::written, this,
+            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, QFileInfo(path).fileName(), tr("is written.")); });
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::closable, this, &QWidget::close);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
@@ -651,6 +661,30 @@ QWidget *MainWindow::view(const QString &name)
         {"sectors", m_sequential->sectorsPage()},
     };
     return views.value(name);
+}
+
+void MainWindow::exportPicture(const QString &name)
+{
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export picture"), name + QStringLiteral(".png"),
+                                                      tr("Picture (*.png);;Drawing (*.svg);;Document (*.pdf)"));
+    if (path.isEmpty())
+        return;
+    m_reviews->provenance().with([this, name, path](const std::string &provenance) {
+        try {
+            saveView(*view(name), {}, path, provenance);
+        } catch (const Error &error) {
+            showError(error);
+        }
+    });
+}
+
+void MainWindow::exportReport()
+{
+    const QFileInfo source(m_document.source().path);
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export report"), source.dir().filePath(source.completeBaseName() + QStringLiteral(".html")),
+                                                      tr("Report (*.html)"));
+    if (!path.isEmpty())
+        m_report->write(path);
 }
 
 void MainWindow::injectLine()

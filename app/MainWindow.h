@@ -42,6 +42,7 @@ class PingBench;
 class PipelinePanel;
 class ReadOut;
 class Recovery;
+class ReportWriter;
 class ReproductionPanel;
 class ScenarioCard;
 class SequentialPanel;
@@ -157,6 +158,8 @@ private:
     void openScenario(ScenarioCard *card);
     void chooseFile();
     void chooseRawFile();
+    void exportPicture(const QString &view);
+    void exportReport();
     void injectLine();
     void reproduce(const Reproducible &reproducible, bool quick);
     void showExperiment(int id);
@@ -189,6 +192,7 @@ private:
     ExceedancePlot *m_threshold = nullptr;
     EventTable *m_events = nullptr;
     EventReviews *m_reviews = nullptr;
+    ReportWriter *m_report = nullptr;
     WhyPanel *m_why = nullptr;
     InfoPanel *m_info = nullptr;
     EvaluatePanel *m_evaluate = nullptr;

@@ -65,6 +65,14 @@ void MainWindow::buildFileMenu()
     addViewAction(*menu, tr("&Save session"), QKeySequence::Save, [this] { m_saver->save(); });
     addViewAction(*menu, tr("Save session &as…"), QKeySequence::SaveAs, [this] { m_saver->saveAs(); });
     menu->addSeparator();
+    QMenu *pictures = menu->addMenu(tr("Export &picture"));
+    const std::pair<const char *, QString> views[] = {{"window", tr("&Window")},       {"input", tr("&Input")}, {"output", tr("&Statistic")},
+                                                      {"threshold", tr("&Threshold")}, {"why", tr("W&hy")},     {"noise", tr("&Noise and calibration")}};
+    for (const auto &[name, text] : views)
+        pictures->addAction(text, this, [this, name = QString::fromLatin1(name)] { exportPicture(name); });
+    m_viewActions.push_back(pictures->menuAction());
+    addViewAction(*menu, tr("Export repor&t…"), {}, [this] { exportReport(); });
+    menu->addSeparator();
     menu->addAction(tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), this, &QWidget::close);
 }
 

@@ -719,6 +719,22 @@ void SequentialPanel::keyPressEvent(QKeyEvent *event)
     QWidget::keyPressEvent(event);
 }
 
+std::string SequentialPanel::provenance() const
+{
+    Json json = {{"version", FAINTLINE_VERSION}};
+    json["sequential"] = m_tests.isOfScans() ? writeFields(m_tests.test(), ScanTest::fields()) : writeFields(m_tests.test().sprt, SprtSettings::fields());
+    if (!m_tests.isOfScans()) {
+        const SequentialTests::Selection &selection = m_tests.selection();
+        json["recording"] = {{"name", selection.name.toStdString()}};
+        json["settings"] = Json::parse(settingsToJson(m_document.settings()));
+        json["firstFrame"] = selection.firstFrame;
+        json["frameCount"] = selection.frameCount;
+        json["firstCell"] = selection.firstCell;
+        json["cellCount"] = selection.cellCount;
+    }
+    return json.dump(2) + "\n";
+}
+
 void SequentialPanel::save(const View &view)
 {
     const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title), QStringLiteral("sequential.png"),
@@ -726,7 +742,7 @@ void SequentialPanel::save(const View &view)
     if (path.isEmpty())
         return;
     try {
-        saveView(*view.widget, view.csv(), path);
+        saveView(*view.widget, view.csv(), path, provenance());
     } catch (const Error &error) {
         emit failed(error);
     }

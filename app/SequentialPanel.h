@@ -101,6 +101,7 @@ private:
     void selectStoppedAt(int stage);
     void followDocument();
     void save(const View &view);
+    std::string provenance() const;
     const PosteriorPicture *shownPosterior() const;
     Axis cellAxis(const PosteriorPicture &picture) const;
     QString trajectorySentence() const;

@@ -83,6 +83,18 @@ namespace {
         return command;
     }
 
+    CLI::App *addReport(CLI::App &program, RenderOptions &options)
+    {
+        CLI::App *command = program.add_subcommand("report", "Write one HTML page: pictures, events, reviews, calibration, ladders, provenance");
+        command->add_option("source", options.source, "Recording, scenario (.json) or session (.faintline)")->required();
+        command->add_option("--out", options.out, "The page (.html)")->required();
+        command->add_option("--preset", options.preset, "Settings to begin with");
+        command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
+        command->add_option("--channel", options.channel, "Channel, counted from 0");
+        addOpening(*command, options.opening);
+        return command;
+    }
+
     CLI::App *addCheckPictures(CLI::App &program, CheckOptions &options)
     {
         CLI::App *command = program.add_subcommand("check-pictures", "Compare pictures pixel for pixel; exit code 1 where one differs");
@@ -120,13 +132,13 @@ namespace {
             std::fprintf(stderr, "error: Qt: %s\n", qPrintable(message));
     }
 
-    int runRender(int argc, char *argv[], const RenderOptions &options)
+    int runRender(int argc, char *argv[], const RenderOptions &options, void (*draw)(const RenderOptions &) = render)
     {
         qInstallMessageHandler(keepQuiet);
         Theme::prepareEnvironment();
         const auto screen = useScreenOf(options.size);
         QApplication application(argc, argv);
-        render(options);
+        draw(options);
         return 0;
     }
 
@@ -161,6 +173,8 @@ namespace {
         RenderOptions rendering;
         std::string size = "1600x1000";
         const CLI::App *renderCommand = addRender(program, rendering, size);
+        RenderOptions reporting;
+        const CLI::App *reportCommand = addReport(program, reporting);
         CheckOptions checking;
         const CLI::App *checkCommand = addCheckPictures(program, checking);
         try {
@@ -174,6 +188,8 @@ namespace {
             runCheckPictures(checking);
             return 0;
         }
+        if (reportCommand->parsed())
+            return runRender(argc, argv, reporting, report);
         if (!renderCommand->parsed())
             return runWindow(argc, argv, files, opening);
         rendering.size = parseSize(size);

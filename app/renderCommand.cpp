@@ -9,6 +9,7 @@
 #include "app/NoiseFitPanel.h"
 #include "app/OutputLayers.h"
 #include "app/PingBench.h"
+#include "app/ReportWriter.h"
 #include "app/SequentialPanel.h"
 #include "app/StateSlicePanel.h"
 #include "app/SweepForm.h"
@@ -402,6 +403,30 @@ void render(const RenderOptions &options)
         settleLayers(window);
         write(pictureOf(widget, options.size), fileName(options, view));
     }
+}
+
+void report(const RenderOptions &options)
+{
+    if (isScanScenario(QString::fromStdString(options.source)))
+        throw Error(options.source, "is a radar's scenario; a report is of a recording, of pings, or of a session");
+    Theme::apply(Theme::named(QString::fromStdString(options.theme)));
+    MainWindow window;
+    window.setAsking(false);
+    window.resize(options.size);
+    window.show();
+    openAndSettle(window, options);
+    ReportWriter writer(window);
+    QEventLoop loop;
+    std::optional<Error> failure;
+    QObject::connect(&writer, &ReportWriter::failed, &loop, [&](const Error &error) { failure = error; });
+    QObject::connect(&writer, &ReportWriter::busyChanged, &loop, [&](bool isBusy) {
+        if (!isBusy)
+            loop.quit();
+    });
+    writer.write(QString::fromStdString(options.out));
+    loop.exec();
+    if (failure)
+        throw *failure;
 }
 
 } // namespace faintline

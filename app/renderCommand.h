@@ -38,4 +38,7 @@ struct RenderOptions {
 /// run to run. Needs a QApplication. Throws Error.
 void render(const RenderOptions &options);
 
+/// The same for a report as one HTML page: the same bytes from run to run.
+void report(const RenderOptions &options);
+
 } // namespace faintline

@@ -1,0 +1,73 @@
+#include "app/ReportWriter.h"
+
+#include "app/MainWindow.h"
+#include "app/Provenance.h"
+#include "base/AtomicFile.h"
+
+#include <QBuffer>
+#include <QPixmap>
+
+#include <utility>
+
+namespace faintline {
+
+std::vector<ReportMaterial::Picture> reportPictures(MainWindow &window)
+{
+    std::vector<ReportMaterial::Picture> pictures;
+    const std::pair<const char *, QString> views[] = {{"input", MainWindow::tr("Input, dB over the noise")},
+                                                      {"output", MainWindow::tr("Statistic of the detector, with events and tracks")},
+                                                      {"threshold", MainWindow::tr("False alarms against the threshold, and this recording's own cells")}};
+    for (const auto &[name, title] : views) {
+        QByteArray bytes;
+        QBuffer buffer(&bytes);
+        buffer.open(QIODevice::WriteOnly);
+        const QImage image = window.view(QString::fromLatin1(name))->grab().toImage().convertToFormat(QImage::Format_RGB32);
+        image.save(&buffer, "PNG");
+        pictures.push_back({title.toStdString(), bytes.toStdString(), image.width(), image.height()});
+    }
+    return pictures;
+}
+
+void writeReport(const Analysis &analysis, ReportMaterial material, const std::string &path, const RunContext &context)
+{
+    const std::vector<Event> chosen = eventsToExplain(analysis, material.events, material.annotations);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(chosen.size()); };
+        material.ladders.push_back({chosen[i].id, explain(analysis, chosen[i].detectSeconds, chosen[i].position, context.part(share(i), share(i + 1)))});
+    }
+    writeTextFile(path, reportHtml(analysis, material));
+}
+
+ReportWriter::ReportWriter(MainWindow &window) : QObject(&window), m_window(window)
+{
+    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
+    for (const auto ended : {&JobRunner::finished, &JobRunner::cancelled})
+        connect(&m_runner, ended, this, [this] { emit busyChanged(false); });
+    connect(&m_runner, &JobRunner::progressed, this, &ReportWriter::progressed);
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        emit busyChanged(false);
+        emit failed(error);
+    });
+}
+
+void ReportWriter::write(const QString &path)
+{
+    const Document &document = m_window.document();
+    if (!document.analysis())
+        return;
+    ReportMaterial material;
+    material.title = document.source().name().toStdString();
+    material.version = FAINTLINE_VERSION;
+    material.events = document.shownEvents();
+    material.annotations = document.annotations();
+    material.pictures = reportPictures(m_window);
+    m_runner.start([this, path, material = std::move(material), analysis = document.analysis(),
+                    source = document.source()](const RunContext &context) mutable -> JobRunner::Delivery {
+        context.checkpoint(0.0, "report");
+        material.provenance = provenanceOf(source, analysis->settings, material.annotations);
+        writeReport(*analysis, std::move(material), path.toStdString(), context);
+        return [this, path] { emit written(path); };
+    });
+}
+
+} // namespace faintline

@@ -1,0 +1,269 @@
+#include "exchange/writeReport.h"
+
+#include "base/utc.h"
+#include "spectrum/NormalisedFrames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t mostLadders = 10;
+    constexpr std::size_t mostRungs = 60;
+
+    std::string escaped(const std::string &text)
+    {
+        std::string result;
+        for (const char c : text)
+            switch (c) {
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '&':
+                result += "&amp;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += c;
+            }
+        return result;
+    }
+
+    std::string base64(const std::string &bytes)
+    {
+        static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        std::string text;
+        for (std::size_t i = 0; i < bytes.size(); i += 3) {
+            unsigned block = 0;
+            for (std::size_t j = 0; j < 3; ++j)
+                block = block << 8 | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+            for (std::size_t j = 0; j < 4; ++j)
+                text += i + j <= bytes.size() ? digits[block >> (18 - 6 * j) & 63] : '=';
+        }
+        return text;
+    }
+
+    /// So many decimals, the C locale's way; a minus sign that is one.
+    std::string fixed(double value, int decimals)
+    {
+        const double scale = std::pow(10.0, decimals);
+        if (std::abs(value) * scale < 1e15)
+            value = std::round(value * scale) / scale;
+        std::string text = formatNumber(value + 0.0);
+        if (text.find('e') == std::string::npos && decimals > 0) {
+            std::size_t point = text.find('.');
+            if (point == std::string::npos) {
+                point = text.size();
+                text += '.';
+            }
+            text.append(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, decimals - static_cast<std::ptrdiff_t>(text.size() - point - 1))), '0');
+        }
+        return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
+    }
+
+    /// Three significant digits.
+    std::string rough(double value)
+    {
+        if (value == 0.0 || !std::isfinite(value))
+            return formatNumber(value);
+        const double magnitude = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
+        const std::string text = formatNumber(std::round(value / magnitude) * magnitude);
+        return text.size() < 12 ? text : fixed(value, static_cast<int>(std::clamp(-std::log10(magnitude), 0.0, 12.0)));
+    }
+
+    std::string cells(const std::vector<std::string> &texts, const char *tag = "td")
+    {
+        std::string row = "<tr>";
+        for (const std::string &text : texts)
+            row += std::string("<") + tag + ">" + escaped(text) + "</" + tag + ">";
+        return row + "</tr>\n";
+    }
+
+    std::string fact(const std::string &name, const std::string &value)
+    {
+        return "<tr><th scope=\"row\">" + escaped(name) + "</th><td>" + escaped(value) + "</td></tr>\n";
+    }
+
+    std::string recordingFacts(const Analysis &analysis)
+    {
+        std::string text = "<table class=\"facts\">\n";
+        if (analysis.recording) {
+            const RecordingInfo &info = analysis.recording->info();
+            text += fact("Format", info.container + ", " + info.sampleType + (info.isComplex ? ", I/Q" : ""));
+            text += fact("Sample rate", formatNumber(info.sampleRateHz) + " Hz");
+            text += fact("Length", fixed(info.durationSeconds(), 3) + " s, " + std::to_string(info.sampleCount) + " samples");
+            text += fact("Channels", std::to_string(info.channelCount));
+            if (info.centreHz != 0.0)
+                text += fact("Centre frequency", formatNumber(info.centreHz) + " Hz");
+            if (info.startUnixSeconds)
+                text += fact("Begins", formatUtc(*info.startUnixSeconds));
+            for (const std::string &note : info.notes)
+                text += fact("Note", note);
+        }
+        text += fact("Frames", std::to_string(analysis.time().count) + ", every " + rough(analysis.time().step) + " " + analysis.time().unit);
+        for (const Axis &axis : analysis.grid().axes)
+            text += fact(axis.name, std::to_string(axis.count) + " cells of " + rough(axis.step) + " " + axis.unit);
+        return text + "</table>\n";
+    }
+
+    std::string settingsTable(const AnalysisSettings &settings)
+    {
+        std::string rows;
+        for (const Field<AnalysisSettings> &field : AnalysisSettings::fields()) {
+            const std::optional<FieldValue> value = field.get(settings);
+            if (!value || *value == defaultValue(field))
+                continue;
+            rows += cells({field.name, formatFieldValue(*value), formatFieldValue(defaultValue(field)), field.unit, field.sentence});
+        }
+        if (rows.empty())
+            return "<p>All settings have their defaults.</p>\n";
+        return "<table>\n" + cells({"Setting", "Value", "Default", "Unit", "Meaning"}, "th") + rows + "</table>\n";
+    }
+
+    std::string calibrationFacts(const Analysis &analysis)
+    {
+        const Calibration &calibration = *analysis.calibration;
+        const double eventRate = calibration.eventRateAt(analysis.threshold);
+        const double perHour = eventRate * analysis.cellFramesPerHour;
+        const double halfWidth = calibration.thresholdUncertainty(eventRate);
+        std::string text = "<table class=\"facts\">\n";
+        text += fact("Threshold", fixed(analysis.threshold, 2) + " nat; simulation knows it to \u00b1" + fixed(halfWidth, 2) + " nat (95 %)");
+        const double factor = std::exp(calibration.tailSlope * halfWidth);
+        text += fact("False alarms on noise", rough(perHour) + " per hour; 95 % interval " + rough(perHour / factor) + " \u2026 " + rough(perHour * factor));
+        text += fact("Pfa per cell", rough(calibration.exceedanceAt(analysis.threshold)));
+        text += fact("ln K", fixed(calibration.lnK, 3) + " nat; " + fixed(100.0 * calibration.continuedFraction, 1) + " % of noise's paths continued");
+        text += fact("Tail e^(\u2212\u03b8T)", "\u03b8 = " + fixed(calibration.tailSlope, 3) + " \u00b1 " + fixed(calibration.slopeError, 3) + " per nat");
+        return text + "</table>\n";
+    }
+
+    std::string eventsTable(const Analysis &analysis, const ReportMaterial &material)
+    {
+        if (material.events.empty())
+            return "<p>No event at this threshold.</p>\n";
+        const std::vector<Axis> &axes = analysis.grid().axes;
+        std::vector<std::string> names{"No.", "Onset (s)", "Detected (s)", "End (s)"};
+        for (const Axis &axis : axes)
+            names.push_back(axis.name + " (" + axis.unit + ")");
+        names.insert(names.end(), {"Drift (" + axes.back().unit + "/s)", "D (nat)", "State", "Review", "Note"});
+        std::string text = "<table class=\"numbers\">\n" + cells(names, "th");
+        const std::vector<EventReview> said = eventReviews(analysis, material.events, material.annotations.reviews);
+        for (std::size_t i = 0; i < material.events.size(); ++i) {
+            const Event &event = material.events[i];
+            std::vector<std::string> row{std::to_string(event.id), fixed(event.onsetSeconds, 2), fixed(event.detectSeconds, 2), fixed(event.endSeconds, 2)};
+            for (double position : event.position)
+                row.push_back(fixed(position, 2));
+            std::string review = nameOf(said[i].verdict);
+            if (said[i].signal != event.id)
+                review += (review.empty() ? "part of " : ", part of ") + std::to_string(said[i].signal);
+            row.insert(row.end(), {rough(event.driftPerSecond), fixed(event.statistic, 1),
+                                   std::string(event.isConfirmed ? "confirmed" : "tentative") + (event.isOpen ? ", open" : ""), review, said[i].note});
+            std::string line = cells(row);
+            if (said[i].verdict == Verdict::Rejected)
+                line.insert(3, " class=\"rejected\"");
+            text += line;
+        }
+        return text + "</table>\n";
+    }
+
+    std::string annotationsTable(const std::vector<Annotation> &boxes)
+    {
+        if (boxes.empty())
+            return {};
+        std::string text = "<h2>Annotations</h2>\n<table class=\"numbers\">\n" + cells({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, "th");
+        for (const Annotation &box : boxes)
+            text += cells({fixed(box.startSeconds, 2), fixed(box.endSeconds, 2), box.lowHz ? fixed(*box.lowHz, 2) : "", box.highHz ? fixed(*box.highHz, 2) : "",
+                           box.label, nameOf(box.verdict), box.note});
+        return text + "</table>\n";
+    }
+
+    std::string ladder(const Analysis &analysis, const ReportMaterial::Ladder &one)
+    {
+        const Explanation &why = one.explanation;
+        const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[why.model].model.space;
+        const std::vector<Axis> &axes = analysis.grid().axes;
+        std::string text = "<details>\n<summary>Event " + std::to_string(one.event) + ": " + fixed(why.statistic, 2) + " nat over "
+                           + std::to_string(why.steps.size()) + " frames, " + fixed(why.statistic - why.threshold, 2) + " nat above the threshold</summary>\n";
+        std::vector<std::string> names{"t (s)"};
+        for (const Axis &axis : axes)
+            names.push_back(axis.name + " (" + axis.unit + ")");
+        names.insert(names.end(), {"ln likelihood ratio", "ln P(transition)", "ln K", "Sum (nat)"});
+        text += "<table class=\"numbers\">\n" + cells(names, "th");
+        const std::size_t first = why.steps.size() > mostRungs ? why.steps.size() - mostRungs : 0;
+        if (first > 0) {
+            std::vector<std::string> row{std::to_string(first) + " frames before"};
+            row.resize(names.size() - 1);
+            row.push_back(fixed(why.steps[first - 1].score, 4));
+            text += cells(row);
+        }
+        for (std::size_t i = first; i < why.steps.size(); ++i) {
+            const PathStep &step = why.steps[i];
+            std::vector<std::string> row{fixed(analysis.time().value(static_cast<double>(step.frame)), 3)};
+            const std::vector<Index> at = analysis.grid().coordinates(space.cellOf(step.state));
+            for (std::size_t axis = 0; axis < axes.size(); ++axis)
+                row.push_back(fixed(axes[axis].value(static_cast<double>(at[axis])), 3));
+            row.insert(row.end(), {fixed(step.logLikelihoodRatio, 4), fixed(step.lnTransition, 4), fixed(step.lnK, 4), fixed(step.score, 4)});
+            text += cells(row);
+        }
+        text += "</table>\n";
+        if (why.offset != 0.0)
+            text += "<p>And " + fixed(why.offset, 4) + " nat that all states are given alike.</p>\n";
+        return text + "</details>\n";
+    }
+
+    const char *const style = "body{font:15px/1.5 system-ui,sans-serif;color:#1c2127;background:#fff;max-width:72em;margin:2em auto;padding:0 1.5em}"
+                              "h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #dde1e6}"
+                              "table{border-collapse:collapse;margin:.5em 0}td,th{padding:.2em 1em .2em 0;text-align:left;vertical-align:top;border-bottom:1px solid #edf0f3}"
+                              ".numbers td{font-variant-numeric:tabular-nums}tr.rejected td{color:#8a939d;text-decoration:line-through}"
+                              "figure{margin:1em 0}img{max-width:100%;height:auto;border:1px solid #dde1e6}figcaption{color:#59636e}"
+                              "pre{background:#f4f6f8;padding:1em;white-space:pre-wrap;overflow-wrap:anywhere}summary{cursor:pointer}"
+                              "@media print{body{margin:0;max-width:none}figure,tr{break-inside:avoid}}";
+
+} // namespace
+
+std::vector<Event> eventsToExplain(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations)
+{
+    const std::vector<EventReview> said = eventReviews(analysis, events, annotations.reviews);
+    std::vector<Event> accepted;
+    std::vector<Event> others;
+    for (std::size_t i = 0; i < events.size(); ++i)
+        if (said[i].verdict != Verdict::Rejected)
+            (said[i].verdict == Verdict::Accepted ? accepted : others).push_back(events[i]);
+    if (!accepted.empty())
+        return accepted;
+    std::stable_sort(others.begin(), others.end(), [](const Event &a, const Event &b) { return a.statistic > b.statistic; });
+    others.resize(std::min(others.size(), mostLadders));
+    return others;
+}
+
+std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
+{
+    std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
+                       "<meta name=\"generator\" content=\"Faintline " + escaped(material.version) + "\">\n<title>" + escaped(material.title) + "</title>\n<style>"
+                       + style + "</style>\n</head>\n<body>\n<h1>" + escaped(material.title) + "</h1>\n";
+    text += "<h2>Recording</h2>\n" + recordingFacts(analysis);
+    text += "<h2>Pictures</h2>\n";
+    for (const ReportMaterial::Picture &picture : material.pictures)
+        text += "<figure><img alt=\"" + escaped(picture.title) + "\" width=\"" + std::to_string(picture.width) + "\" height=\"" + std::to_string(picture.height)
+              + "\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption>" + escaped(picture.title) + "</figcaption></figure>\n";
+    text += "<h2>Events</h2>\n" + eventsTable(analysis, material) + annotationsTable(material.annotations.boxes);
+    text += "<h2>Threshold and calibration</h2>\n" + calibrationFacts(analysis);
+    if (!material.ladders.empty()) {
+        text += "<h2>Why they were detected</h2>\n<p>The best path up to the moment of detection, term by term from its last reset on; the terms add up to the statistic.</p>\n";
+        for (const ReportMaterial::Ladder &one : material.ladders)
+            text += ladder(analysis, one);
+    }
+    text += "<h2>Settings that differ from the defaults</h2>\n" + settingsTable(analysis.settings);
+    text += "<h2>Provenance</h2>\n<p>Faintline " + escaped(material.version) + ". The same recording with these settings gives the same results.</p>\n<pre>"
+          + escaped(material.provenance) + "</pre>\n";
+    return text + "</body>\n</html>\n";
+}
+
+} // namespace faintline
