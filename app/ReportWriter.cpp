@@ -7,9 +7,31 @@
 #include <QBuffer>
 #include <QPixmap>
 
+#include <algorithm>
 #include <utility>
 
 namespace faintline {
+
+namespace {
+
+    /// The cell whose statistic was largest in the frame of detection, close to where the tracker then took the signal to be.
+    std::vector<double> strongestNear(const Analysis &analysis, const Event &event)
+    {
+        constexpr Index reach = 3;
+        const PeakPyramid *statistic = analysis.statistic.get();
+        if (!statistic || event.position.size() != 1 || statistic->rowCount(0) == 0 || statistic->framesPerRow(0) != 1)
+            return event.position;
+        const Axis &frequency = analysis.grid().axes.back();
+        const auto row = statistic->row(0, std::clamp<Index>(analysis.time().nearest(event.detectSeconds), 0, statistic->rowCount(0) - 1));
+        const Index centre = frequency.nearest(event.position.back());
+        Index best = centre;
+        for (Index cell = std::max<Index>(0, centre - reach); cell <= std::min(frequency.count - 1, centre + reach); ++cell)
+            if (row[static_cast<std::size_t>(cell)] > row[static_cast<std::size_t>(best)])
+                best = cell;
+        return {frequency.value(static_cast<double>(best))};
+    }
+
+} // namespace
 
 std::vector<ReportMaterial::Picture> reportPictures(MainWindow &window)
 {
@@ -33,7 +55,7 @@ void writeReport(const Analysis &analysis, ReportMaterial material, const std::s
     const std::vector<Event> chosen = eventsToExplain(analysis, material.events, material.annotations);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(chosen.size()); };
-        material.ladders.push_back({chosen[i].id, explain(analysis, chosen[i].detectSeconds, chosen[i].position, context.part(share(i), share(i + 1)))});
+        material.ladders.push_back({chosen[i].id, explain(analysis, chosen[i].detectSeconds, strongestNear(analysis, chosen[i]), context.part(share(i), share(i + 1)))});
     }
     writeTextFile(path, reportHtml(analysis, material));
 }

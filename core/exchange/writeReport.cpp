@@ -190,7 +190,8 @@ namespace {
         const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[why.model].model.space;
         const std::vector<Axis> &axes = analysis.grid().axes;
         std::string text = "<details>\n<summary>Event " + std::to_string(one.event) + ": " + fixed(why.statistic, 2) + " nat over "
-                           + std::to_string(why.steps.size()) + " frames, " + fixed(why.statistic - why.threshold, 2) + " nat above the threshold</summary>\n";
+                           + std::to_string(why.steps.size()) + " frames, " + fixed(std::abs(why.statistic - why.threshold), 2)
+                           + (why.statistic > why.threshold ? " nat above" : " nat below") + " the threshold</summary>\n";
         std::vector<std::string> names{"t (s)"};
         for (const Axis &axis : axes)
             names.push_back(axis.name + " (" + axis.unit + ")");
@@ -222,7 +223,7 @@ namespace {
                               "h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #dde1e6}"
                               "table{border-collapse:collapse;margin:.5em 0}td,th{padding:.2em 1em .2em 0;text-align:left;vertical-align:top;border-bottom:1px solid #edf0f3}"
                               ".numbers td{font-variant-numeric:tabular-nums}tr.rejected td{color:#8a939d;text-decoration:line-through}"
-                              "figure{margin:1em 0}img{max-width:100%;height:auto;border:1px solid #dde1e6}figcaption{color:#59636e}"
+                              ".pictures{display:flex;flex-wrap:wrap;gap:1em;align-items:flex-end}figure{margin:0;flex:0 1 auto;min-width:18em;max-width:48%}img{max-width:100%;height:auto;border:1px solid #dde1e6}figcaption{color:#59636e}"
                               "pre{background:#f4f6f8;padding:1em;white-space:pre-wrap;overflow-wrap:anywhere}summary{cursor:pointer}"
                               "@media print{body{margin:0;max-width:none}figure,tr{break-inside:avoid}}";
 
@@ -249,11 +250,11 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
                        "<meta name=\"generator\" content=\"Faintline " + escaped(material.version) + "\">\n<title>" + escaped(material.title) + "</title>\n<style>"
                        + style + "</style>\n</head>\n<body>\n<h1>" + escaped(material.title) + "</h1>\n";
     text += "<h2>Recording</h2>\n" + recordingFacts(analysis);
-    text += "<h2>Pictures</h2>\n";
+    text += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
     for (const ReportMaterial::Picture &picture : material.pictures)
         text += "<figure><img alt=\"" + escaped(picture.title) + "\" width=\"" + std::to_string(picture.width) + "\" height=\"" + std::to_string(picture.height)
               + "\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption>" + escaped(picture.title) + "</figcaption></figure>\n";
-    text += "<h2>Events</h2>\n" + eventsTable(analysis, material) + annotationsTable(material.annotations.boxes);
+    text += "</div>\n<h2>Events</h2>\n" + eventsTable(analysis, material) + annotationsTable(material.annotations.boxes);
     text += "<h2>Threshold and calibration</h2>\n" + calibrationFacts(analysis);
     if (!material.ladders.empty()) {
         text += "<h2>Why they were detected</h2>\n<p>The best path up to the moment of detection, term by term from its last reset on; the terms add up to the statistic.</p>\n";

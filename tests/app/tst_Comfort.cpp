@@ -1,0 +1,186 @@
+// A walk over all widgets of the window in all its layouts: each can be named, reached, and no key means two things.
+
+#include "app/MainWindow.h"
+#include "app/OpenOptionsDialog.h"
+#include "app/InjectDialog.h"
+#include "app/Panels.h"
+
+#include <QAbstractButton>
+#include <QAccessible>
+#include <QAction>
+#include <QApplication>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSignalSpy>
+#include <QTabBar>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <set>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 60000; // ms
+
+/// What a screen reader says of a widget.
+QString spokenName(QWidget *widget)
+{
+    QAccessibleInterface *interface = QAccessible::queryAccessibleInterface(widget);
+    return interface ? interface->text(QAccessible::Name) : widget->accessibleName();
+}
+
+/// Whether it is a part of another one that has the name: a spin box's line, a combo box's list, a table's scroll bar.
+bool isInner(const QWidget *widget)
+{
+    if (widget->objectName().startsWith(QLatin1String("qt_")))
+        return true;
+    const QWidget *parent = widget->parentWidget();
+    return (parent && (parent->inherits("QAbstractSpinBox") || parent->inherits("QComboBox") || widget->inherits("QScrollBar")))
+           || widget->inherits("QComboBoxListView") || widget->inherits("QComboBoxPrivateContainer");
+}
+
+QString describe(const QWidget *widget)
+{
+    QStringList way;
+    for (const QWidget *w = widget; w; w = w->parentWidget())
+        way.prepend(w->objectName().isEmpty() ? QString::fromLatin1(w->metaObject()->className()) : w->objectName());
+    return way.join('/');
+}
+
+/// Focusable widgets without a name.
+QStringList nameless(QWidget &root)
+{
+    QStringList result;
+    for (QWidget *widget : root.findChildren<QWidget *>())
+        if (widget->focusPolicy() != Qt::NoFocus && !isInner(widget) && spokenName(widget).isEmpty())
+            result << describe(widget);
+    result.removeDuplicates();
+    return result;
+}
+
+} // namespace
+
+class tst_Comfort : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+
+private slots:
+    void initTestCase()
+    {
+        Theme::apply(Theme::Kind::Light);
+        const QString scene = m_folder.filePath("scene.json");
+        QFile file(scene);
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
+        file.close();
+        m_window = std::make_unique<MainWindow>();
+        m_window->setAsking(false);
+        m_window->resize(1280, 800);
+        m_window->show();
+        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
+        m_window->open(scene);
+        QVERIFY(settled.wait(patience));
+    }
+    void cleanupTestCase() { m_window.reset(); }
+
+    void everyWidgetHasAName()
+    {
+        const QStringList without = nameless(*m_window);
+        for (const QString &one : without)
+            qWarning("%s", qPrintable(one));
+        QVERIFY2(without.isEmpty(), qPrintable(without.join(QStringLiteral("\n"))));
+        OpenOptionsDialog opening(m_folder.filePath("scene.json"));
+        QVERIFY2(nameless(opening).isEmpty(), qPrintable(nameless(opening).join(QStringLiteral("\n"))));
+        InjectDialog inject(m_window->document().recording()->info(), 1.0, 100.0, 0.5);
+        QVERIFY2(nameless(inject).isEmpty(), qPrintable(nameless(inject).join(QStringLiteral("\n"))));
+    }
+
+    void everyActionSaysWhatItDoes()
+    {
+        for (QAction *action : m_window->findChildren<QAction *>())
+            if (!action->isSeparator() && action->parent() && action->isVisible() && !action->shortcut().isEmpty())
+                QVERIFY2(!action->text().isEmpty(), qPrintable(action->shortcut().toString()));
+    }
+
+    void noKeyMeansTwoThings()
+    {
+        QMap<QString, QString> keys;
+        QStringList clashes;
+        for (const QAction *menu : m_window->menuBar()->actions())
+            for (const QAction *action : menu->menu()->actions())
+                for (const QKeySequence &key : action->shortcuts()) {
+                    if (keys.contains(key.toString()))
+                        clashes << key.toString() + ": " + keys[key.toString()] + ", " + action->text();
+                    keys.insert(key.toString(), action->text());
+                }
+        QVERIFY2(clashes.isEmpty(), qPrintable(clashes.join(QStringLiteral("\n"))));
+        // Nor do two menus open with one letter.
+        std::set<QChar> letters;
+        for (const QAction *menu : m_window->menuBar()->actions()) {
+            const QChar letter = menu->text()[menu->text().indexOf('&') + 1].toLower();
+            QVERIFY2(letters.insert(letter).second, qPrintable(menu->text()));
+        }
+    }
+
+    void everyPanelIsReachedByTab_data()
+    {
+        QTest::addColumn<QString>("layout");
+        for (const QString &name : Panels::layoutNames())
+            QTest::newRow(qPrintable(name)) << name;
+    }
+
+    void everyPanelIsReachedByTab()
+    {
+        QFETCH(QString, layout);
+        m_window->findChild<Panels *>()->takeLayout(layout);
+        QCoreApplication::processEvents();
+        m_window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
+        std::set<const QDockWidget *> reached;
+        bool isCentreReached = false;
+        QWidget *first = nullptr;
+        for (int i = 0; i < 600; ++i) {
+            QTest::keyClick(m_window->focusWidget() ? m_window->focusWidget() : m_window.get(), Qt::Key_Tab);
+            QWidget *now = m_window->focusWidget();
+            if (!now || (first && now == first))
+                break;
+            first = first ? first : now;
+            for (QWidget *w = now; w; w = w->parentWidget()) {
+                if (const auto *dock = qobject_cast<QDockWidget *>(w))
+                    reached.insert(dock);
+                isCentreReached |= w == m_window->centralWidget();
+            }
+        }
+        QVERIFY(isCentreReached);
+        for (QDockWidget *dock : m_window->findChildren<QDockWidget *>()) {
+            const bool isSeen = dock->widget() && dock->widget()->isVisible() && !dock->widget()->visibleRegion().isEmpty();
+            bool canHaveFocus = false;
+            for (const QWidget *child : dock->widget()->findChildren<QWidget *>())
+                canHaveFocus |= (child->focusPolicy() & Qt::TabFocus) && child->isVisible() && child->isEnabled();
+            if (isSeen && canHaveFocus)
+                QVERIFY2(reached.count(dock), qPrintable(dock->windowTitle()));
+        }
+    }
+
+    void narrowWindowsKeepTheirPictures()
+    {
+        m_window->resize(1280, 800);
+        m_window->findChild<Panels *>()->takeDefault();
+        QCoreApplication::processEvents();
+        for (const char *name : {"input", "output"})
+            QVERIFY2(m_window->view(name)->width() >= 320, qPrintable(QString::number(m_window->view(name)->width())));
+    }
+};
+
+QTEST_MAIN(tst_Comfort)
+
+#include "tst_Comfort.moc"
