@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -202,7 +203,8 @@ namespace {
         if (explanation.reset.track > 0)
             json["reset"]["track"] = explanation.reset.track;
         if (explanation.otherState && std::isfinite(explanation.otherMargin))
-            json["runner_up"] = {{"rates", space.ratesOfPlane(space.planeOf(*explanation.otherState))}, {"margin", explanation.otherMargin}};
+            json["runner_up"] = {{"rates", space.ratesOfPlane(space.planeOf(*explanation.otherState))},
+                                 {"margin", explanation.otherMargin}};
         if (!analysis.bank.empty())
             json["model"] = explanation.model == 0 ? "nonManoeuvring" : "manoeuvring";
         json["steps"] = Json::array();
