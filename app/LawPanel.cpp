@@ -112,8 +112,8 @@ void LawPanel::show()
         law.plot->setAccessibleName(law.title);
         law.plot->setEditable(!law.field.isEmpty());
         law.plot->setToolTip(law.field.isEmpty() ? QString()
-                                                 : tr("Drag a bar, or choose one with ← → and change it with ↑ ↓: the law of the changes of "
-                                                      "rate, which always adds up to 1. One step of undo each."));
+                                                 : tr("Drag a bar, or choose one with ← → and change it with ↑ ↓: the law of the changes "
+                                                      "of rate, which always adds up to 1. One step of undo each."));
         law.plot->setLaw(law.values, law.mostChange);
     }
     m_laws = std::move(laws);
@@ -133,7 +133,11 @@ QString LawPanel::driftWords(const Analysis &analysis) const
         const QString cells = m_document.hasPings() ? tr("cells/ping") : tr("bins/frame");
         const QString words = lowest == -highest
             ? tr("±%1 (±%2 %3)").arg(perSecond(highest * unit, name)).arg(highest).arg(cells)
-            : tr("%1 … %2 (%3 … %4 %5)").arg(perSecond(lowest * unit, name), perSecond(highest * unit, name)).arg(lowest).arg(highest).arg(cells);
+            : tr("%1 … %2 (%3 … %4 %5)")
+                  .arg(perSecond(lowest * unit, name), perSecond(highest * unit, name))
+                  .arg(lowest)
+                  .arg(highest)
+                  .arg(cells);
         drifts << (axes.size() > 1 ? QString::fromStdString(axis.name) + QLatin1Char(' ') + words : words);
     }
     return tr("Largest drift: %1.").arg(drifts.join(QStringLiteral(", ")));
@@ -163,8 +167,8 @@ QString LawPanel::snrWords(const Analysis &analysis) const
         return tr("%1 dB").arg(numberText(dbFromRatio(snr), 1));
     };
     const QString lines = m_document.hasPings() ? tr("a target") : tr("a line");
-    return tr("At ln K = %1 evidence adds up from these SNRs in one frame: %2 for %3 that keeps its rate, %4 where it changes as the law says. "
-              "Below, a path by itself loses on the mean; those beside it help a little.")
+    return tr("At ln K = %1 evidence adds up from these SNRs in one frame: %2 for %3 that keeps its rate, %4 where it changes as the law "
+              "says. Below, a path by itself loses on the mean; those beside it help a little.")
         .arg(numberText(lnK, 2), words(kept), lines, words(changing));
 }
 
@@ -181,7 +185,8 @@ void LawPanel::sayWhatItMeans()
     }
     if (m_laws.size() == 2)
         costs = {tr("in range %1; in bearing %2").arg(costs[0], costs[1])};
-    m_sentence->setText(QStringList{driftWords(*analysis), tr("A step costs %1.").arg(costs.front()), snrWords(*analysis)}.join(QLatin1Char(' ')));
+    const QStringList words{driftWords(*analysis), tr("A step costs %1.").arg(costs.front()), snrWords(*analysis)};
+    m_sentence->setText(words.join(QLatin1Char(' ')));
 }
 
 } // namespace faintline

@@ -183,7 +183,7 @@ void MainWindow::buildDocks()
     m_events = new EventTable;
     m_events->setEmptySentence(tr("No event at this threshold."));
     m_reviews = new EventReviews(m_document, *m_events, {m_workbench->input(), m_workbench->output()}, this);
-    m_why = new WhyPanel(m_document);
+    m_why = new WhyPanel(m_document, m_pings->viewports());
     m_info = new InfoPanel(m_document);
     m_noiseFit = new NoiseFitPanel(m_document);
     m_states = new StateSlicePanel(m_document, m_pings->viewports());
@@ -338,7 +338,8 @@ void MainWindow::connectViews()
     connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
             [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });
 
-    connect(static_cast<QDockWidget *>(m_states->parentWidget()), &QDockWidget::visibilityChanged, &m_workbench->layers(), &OutputLayers::setWatching);
+    connect(static_cast<QDockWidget *>(m_states->parentWidget()), &QDockWidget::visibilityChanged, &m_workbench->layers(),
+            &OutputLayers::setWatching);
     connect(&m_workbench->layers(), &OutputLayers::failed, this, &MainWindow::showError);
     connect(m_states, &StateSlicePanel::lawRequested, this, [this](const QString &field, const std::vector<double> &law) {
         m_controller.edit(field, law, tr("Change “%1”").arg(SettingsForm::label(field)));

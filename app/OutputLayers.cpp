@@ -208,8 +208,8 @@ void OutputLayers::show()
         const KinematicAxis &axis = analysis->model.space.axes().front();
         const double step = analysis->grid().axes.front().step / analysis->time().step;
         const double largest = step * std::max({std::abs(axis.firstRate), std::abs(axis.firstRate + axis.rateCount - 1), 1});
-        const bool isHz = analysis->grid().axes.front().unit == "Hz";
-        const FrequencyUnit unit = isHz ? rateUnit(largest) : FrequencyUnit{QString::fromStdString(analysis->grid().axes.front().unit) + "/s", 1.0};
+        const QString name = QString::fromStdString(analysis->grid().axes.front().unit);
+        const FrequencyUnit unit = name == QLatin1String("Hz") ? rateUnit(largest) : FrequencyUnit{name + "/s", 1.0};
         m_item->setLayer(m_layer, {-largest, largest}, tr("Winning slope (%1)").arg(unit.name), unit.hz);
         break;
     }

@@ -66,7 +66,8 @@ namespace {
 StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
       m_others(new QComboBox), m_model(new QComboBox), m_sentence(new QLabel),
-      m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget), m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view))
+      m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
+      m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view))
 {
     m_others->addItems({tr("others at the cursor"), tr("best of the others")});
     m_others->setToolTip(tr("The axes that are not shown: at the cursor's cell with its best rates, or the maximum over all of them"));
@@ -387,7 +388,8 @@ QString StateSlicePanel::bestWords(const Cut &cut) const
     const Axis &frequency = cut.axes[0];
     const Axis &slope = cut.axes[1];
     const auto stateWords = [&](double hz, double rate) {
-        return tr("%1, %2 %3").arg(hertzText(hz, frequency.step), numberText(rate, decimalsFor(slope.step)), QString::fromStdString(slope.unit));
+        const QString unit = QString::fromStdString(slope.unit);
+        return tr("%1, %2 %3").arg(hertzText(hz, frequency.step), numberText(rate, decimalsFor(slope.step)), unit);
     };
     QString words = tr("at the cursor %1 nat (%2)").arg(numberText(scoreAtCursor(cut), 1), stateWords(cut.values[0], cut.values[1]));
     if (const auto best = m_marks->best())
@@ -430,7 +432,8 @@ void StateSlicePanel::placeMarks()
             if (axis != cut.slice.rows && axis != cut.slice.columns && cut.slice.places[axis])
                 isInSlice = isInSlice && *cut.slice.places[axis] == state[axis];
         if (isInSlice)
-            paths.push_back({rows.value(static_cast<double>(state[cut.slice.rows])), columns.value(static_cast<double>(state[cut.slice.columns]))});
+            paths.push_back({rows.value(static_cast<double>(state[cut.slice.rows])),
+                             columns.value(static_cast<double>(state[cut.slice.columns]))});
     }
     m_marks->set(best, std::move(paths));
 }

@@ -15,15 +15,17 @@ namespace faintline {
 
 class ChartPlot;
 class Document;
+class PingViewports;
 
-/// Why the cell under the cursor was detected, or was not: the best path that ends there, step by step, with terms that add up to
-/// the statistic displayed. Goes through the chain again, on a worker, while it is seen; the newest cursor wins.
+/// Why the cell under the cursor, of a line's frame or of a ping, was detected or was not: the best path that ends there, step by step,
+/// with terms that add up to the statistic displayed, how narrowly each step was won, and why the path begins where it does. Goes
+/// through the chain again, on a worker, while it is seen; the newest cursor wins.
 class WhyPanel : public QWidget
 {
     Q_OBJECT
 
 public:
-    explicit WhyPanel(Document &document, QWidget *parent = nullptr);
+    WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent = nullptr);
 
     const std::optional<Explanation> &explanation() const { return m_explanation; }
     QString sentence() const;
@@ -45,7 +47,11 @@ private:
     void explainCursor();
     void show(const Explanation &explanation, const Analysis &analysis);
 
+    void layColumns(const Analysis &analysis);
+    void say(const QString &sentence);
+
     Document &m_document;
+    const PingViewports &m_viewports;
     std::optional<Explanation> m_explanation;
     QLabel *m_sentence;
     ChartPlot *m_plot;
@@ -55,6 +61,6 @@ private:
 };
 
 /// The explanation in words: detected or not, by how much, since when, and what the terms amount to.
-QString whySentence(const Explanation &explanation, const Axis &time, const Axis &frequency);
+QString whySentence(const Explanation &explanation, const Analysis &analysis);
 
 } // namespace faintline

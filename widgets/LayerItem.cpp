@@ -141,7 +141,8 @@ void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
     const QFontMetricsF metrics(painter->font());
     const bool isFlag = m_layer == OutputLayer::Inhibited;
     const double width = std::max(140.0, metrics.horizontalAdvance(m_title)) + 16.0;
-    const QRectF plate(canvas.right() - width - 6.0, canvas.top() + 6.0, width, isFlag ? metrics.height() + 8.0 : 2.0 * metrics.height() + 20.0);
+    const double height = isFlag ? metrics.height() + 8.0 : 2.0 * metrics.height() + 20.0;
+    const QRectF plate(canvas.right() - width - 6.0, canvas.top() + 6.0, width, height);
     painter->setPen(Qt::NoPen);
     QColor ground = m_plate;
     ground.setAlpha(240);

@@ -16,8 +16,9 @@ namespace faintline {
 
 /// Draws a layer of the detector's output on a waterfall, instead of the statistic or over it, and its key in a corner.
 ///
-/// Rates have a diverging map about 0, grey where every state was reset and none has won; ages and reset fractions one that grows, inhibited cells a colour of their own. Over the statistic
-/// a layer is as opaque as the statistic stands out of the noise, so that what is seen is where there is something to say.
+/// Rates have a diverging map about 0, grey where every state was reset and none has won; ages and reset fractions one that grows,
+/// inhibited cells a colour of their own. Over the statistic a layer is as opaque as the statistic stands out of the noise, so that what
+/// is seen is where there is something to say.
 class LayerItem : public QwtPlotItem
 {
 public:
@@ -40,7 +41,7 @@ public:
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
     void setColours(const QColor &text, const QColor &plate);
 
-    /// The key, drawn over all that is marked: attached and detached with this item's plot by hand.
+    /// The key, an item of its own that is drawn over all that is marked; it must not outlive this one.
     std::unique_ptr<QwtPlotItem> makeKey() const;
 
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const override;

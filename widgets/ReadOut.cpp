@@ -49,7 +49,8 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     m_level.box->setToolTip(tr("Power over the mean of the noise"));
     m_statistic.box->setToolTip(tr("The detector's statistic D"));
     m_slope.box->setToolTip(tr("Slope of the best state here, or of the track that passes"));
-    m_age.box->setToolTip(tr("Age of the best path that ends here, since its last reset; known while a layer (V) or the state space (S) is shown"));
+    m_age.box->setToolTip(tr("Age of the best path that ends here, since its last reset; known while a layer (V) or the state space (S) "
+                               "is shown"));
     setAccessibleName(tr("Read-out"));
     setStartUnixSeconds({});
     clear();

@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -182,6 +183,8 @@ namespace {
         }
     }
 
+    constexpr const char *resetNames[]{"beginning", "background", "forgotten"};
+
     void printExplanation(const Explanation &explanation, const Analysis &analysis, bool asJson)
     {
         const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[explanation.model].model.space;
@@ -195,6 +198,13 @@ namespace {
         json["margin"] = explanation.statistic - explanation.threshold;
         json["tracked"] = explanation.isTracked;
         json["offset"] = explanation.offset;
+        json["reset"]["cause"] = resetNames[static_cast<std::size_t>(explanation.reset.kind)];
+        json["reset"]["lost"] = explanation.reset.lost;
+        if (explanation.reset.track > 0)
+            json["reset"]["track"] = explanation.reset.track;
+        if (explanation.otherState && std::isfinite(explanation.otherMargin))
+            json["runner_up"] = {{"rates", space.ratesOfPlane(space.planeOf(*explanation.otherState))},
+                                 {"margin", explanation.otherMargin}};
         if (!analysis.bank.empty())
             json["model"] = explanation.model == 0 ? "nonManoeuvring" : "manoeuvring";
         json["steps"] = Json::array();
@@ -206,6 +216,8 @@ namespace {
             json["steps"].push_back({{"t", analysis.time().value(static_cast<double>(step.frame))}, {"position", at},
                                      {"rates", space.ratesOfPlane(space.planeOf(step.state))}, {"llr", step.logLikelihoodRatio},
                                      {"ln_transition", step.lnTransition}, {"lnK", step.lnK}, {"sum", step.score}});
+            if (std::isfinite(step.runnerUp))
+                json["steps"].back()["runner_up_margin"] = step.runnerUp;
         }
         if (asJson) {
             std::printf("%s\n", json.dump(2).c_str());

@@ -1,7 +1,9 @@
 #include "analysis/explain.h"
 
+#include "analysis/StateReplay.h"
 #include "analysis/chain.h"
 #include "base/Error.h"
+#include "base/logmath.h"
 #include "detect/Smd.h"
 
 #include <algorithm>
@@ -26,11 +28,124 @@ namespace {
         return chain;
     }
 
+    const MarkovModel &modelOf(const Analysis &analysis, std::size_t model)
+    {
+        return analysis.bank.empty() ? analysis.model : analysis.bank[model].model;
+    }
+
     /// What a model's scores are raised by in the chain's newest frame to be the statistic.
     double offsetOf(const Analysis &analysis, const DetectionChain &chain, std::size_t model)
     {
         const auto *smd = dynamic_cast<const Smd *>(&chain.detector().member(model));
         return (smd ? smd->offset() : 0.0) - (analysis.bank.empty() ? 0.0 : analysis.bank[model].offset);
+    }
+
+    /// The chain frame by frame, and what the states it is about to go on from have: what no path can tell of its competitors.
+    class Competitors
+    {
+    public:
+        Competitors(const Analysis &analysis, std::size_t model)
+            : m_analysis(analysis), m_model(modelOf(analysis, model)), m_chain(makeScoringChain(analysis)),
+              m_detector(m_chain->detector().member(model)), m_y(static_cast<std::size_t>(analysis.grid().size())), m_statistic(m_y.size())
+        {
+        }
+
+        /// Stands before that frame.
+        void goTo(Index frame, const RunContext &context)
+        {
+            for (; m_next < frame; ++m_next) {
+                if (m_next % 64 == 0)
+                    context.checkpoint(static_cast<double>(m_next) / static_cast<double>(frame), "looking at what it beat");
+                m_analysis.frames->read(m_next, 1, m_y);
+                m_chain->update(m_next, m_y, m_statistic);
+            }
+        }
+
+        struct Ways {
+            double best = minusInfinity; ///< with what is forgotten forgotten
+            double second = minusInfinity;
+            double remembered = minusInfinity; ///< the best with all of it
+            std::optional<int> track;          ///< for which the remembered one was forgotten
+        };
+        Ways into(Index state) const
+        {
+            Ways ways;
+            const auto *smd = dynamic_cast<const Smd *>(&m_detector);
+            const double background = std::max(0.0, smd ? -smd->offset() : 0.0);
+            for (const StateSpace::Predecessor &p : m_model.space.predecessors(state)) {
+                const double ln = p.lnProbability * m_model.transitionScale;
+                const auto score = static_cast<double>(m_detector.scores()[static_cast<std::size_t>(p.state)]);
+                const std::optional<int> track = forgottenFor(m_model.space.cellOf(p.state));
+                const double left = (track ? std::min(score, background) : score) + ln;
+                ways.second = std::max(ways.second, std::min(left, ways.best));
+                ways.best = std::max(ways.best, left);
+                if (score + ln > ways.remembered) {
+                    ways.remembered = score + ln;
+                    ways.track = track;
+                }
+            }
+            return ways;
+        }
+
+        /// Of the last step.
+        double lnK() const { return m_detector.regulation().stepLnK; }
+
+    private:
+        std::optional<int> forgottenFor(Index cell) const
+        {
+            const std::vector<Index> place = m_analysis.grid().coordinates(cell);
+            for (const CellBox &box : m_chain->forgotten())
+                if (box.contains(m_analysis.grid(), place))
+                    for (const auto &inhibition : m_chain->inhibitions())
+                        if (inhibition.box.centre == box.centre && inhibition.box.halfWidth == box.halfWidth)
+                            return inhibition.track;
+            return {};
+        }
+
+        const Analysis &m_analysis;
+        const MarkovModel &m_model;
+        std::unique_ptr<DetectionChain> m_chain;
+        const Detector &m_detector;
+        std::vector<float> m_y;
+        std::vector<float> m_statistic;
+        Index m_next = 0;
+    };
+
+    /// Why the path was reset on its way into its first step, and how narrowly the detector's own steps were won.
+    void findCompetitors(Explanation &explanation, const Analysis &analysis, std::size_t ownSteps, const RunContext &context)
+    {
+        Competitors competitors(analysis, explanation.model);
+        for (std::size_t i = 0; i < ownSteps; ++i) {
+            PathStep &step = explanation.steps[i];
+            if (step.frame == 0)
+                continue;
+            competitors.goTo(step.frame, context);
+            const Competitors::Ways ways = competitors.into(step.state);
+            if (i > 0) {
+                step.runnerUp = ways.best - ways.second;
+                continue;
+            }
+            competitors.goTo(step.frame + 1, context);
+            const double lnK = competitors.lnK();
+            const bool isForgotten = ways.track && ways.remembered + lnK > 0.0;
+            explanation.reset = isForgotten ? ResetCause{ResetCause::Kind::Forgotten, ways.remembered + lnK, *ways.track}
+                                            : ResetCause{ResetCause::Kind::Background, -(ways.best + lnK), 0};
+        }
+    }
+
+    /// The second best state of the cell.
+    void findOther(Explanation &explanation, const Analysis &analysis, const DetectionChain &chain, Index frame, Index cell)
+    {
+        const StateSpace &space = modelOf(analysis, explanation.model).space;
+        const StateScores scores = scoresNow(analysis, chain, frame, explanation.model);
+        const Index own = explanation.steps.back().state;
+        double best = minusInfinity;
+        for (Index state = cell; state < space.stateCount(); state += space.cellCount())
+            if (const auto score = static_cast<double>(scores.values[static_cast<std::size_t>(state)]); state != own && score > best) {
+                best = score;
+                explanation.otherState = state;
+            }
+        explanation.otherMargin = static_cast<double>(scores.values[static_cast<std::size_t>(own)]) - best;
     }
 
 } // namespace
@@ -59,7 +174,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     Analysis detailed = analysis;
     detailed.settings.track.smoothingFrames = static_cast<int>(std::min<Index>(frame + 1, 1 << 30));
     std::vector<float> statistic;
-    const auto chain = runTo(detailed, frame, statistic, context.part(0.0, 0.6));
+    const auto chain = runTo(detailed, frame, statistic, context.part(0.0, 0.5));
     const DetectionChain::PathInto path = chain->pathInto(cell);
 
     Explanation explanation;
@@ -70,16 +185,23 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     explanation.threshold = analysis.threshold;
     explanation.isTracked = path.isTracked;
     explanation.steps = path.steps;
+    std::size_t ownSteps = path.steps.size(); // the detector's, before a tracker's
     explanation.model = path.model;
     explanation.offset = offsetOf(detailed, *chain, path.model);
+    findOther(explanation, detailed, *chain, frame, cell);
+    for (const DetectionChain::Inhibition &inhibition : chain->inhibitions())
+        if (inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))
+            explanation.inhibitedFor = inhibition.track;
     if (path.isTracked) {
         // Before its tracker was seeded, the path is the detector's own.
         const PathStep seed = path.steps.front();
-        const auto before = runTo(detailed, seed.frame, statistic, context.part(0.6, 1.0));
+        const auto before = runTo(detailed, seed.frame, statistic, context.part(0.5, 0.8));
         explanation.steps = before->detectorPathInto(seed.state, path.model);
+        ownSteps = explanation.steps.size();
         explanation.offset = offsetOf(detailed, *before, path.model);
         explanation.steps.insert(explanation.steps.end(), path.steps.begin() + 1, path.steps.end());
     }
+    findCompetitors(explanation, analysis, ownSteps, context.part(0.8, 1.0));
     for (PathStep &step : explanation.steps) {
         explanation.statistic += step.logLikelihoodRatio + step.lnTransition + step.lnK;
         step.score = explanation.statistic;

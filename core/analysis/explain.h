@@ -3,9 +3,22 @@
 #include "analysis/analyse.h"
 #include "detect/PathTrace.h"
 
+#include <optional>
 #include <vector>
 
 namespace faintline {
+
+/// Why a path begins where it does.
+struct ResetCause {
+    enum class Kind {
+        Beginning,  ///< with the recording
+        Background, ///< what came before stood below the background: starting afresh was better
+        Forgotten   ///< going on would have been better, had the detector not forgotten what a track had taken over
+    };
+    Kind kind = Kind::Beginning;
+    double lost = 0.0; ///< Background: how far below 0 going on would have begun, nat. Forgotten: what was given up
+    int track = 0;     ///< Forgotten: for which one
+};
 
 /// Why a cell has the statistic it has: the best path that ends there, term by term.
 struct Explanation {
@@ -17,6 +30,11 @@ struct Explanation {
     double displayed = 0.0;        ///< what the analysis shows there: the same, in single precision
     double threshold = 0.0;
     std::size_t model = 0;         ///< of a bank, the one whose path it is: it numbers the steps' states
+    ResetCause reset;              ///< before the first step
+    /// The best of the other states of the cell and how far it lies behind, nat; of a model with one rate a cell there is none.
+    std::optional<Index> otherState;
+    double otherMargin = 0.0;
+    std::optional<int> inhibitedFor; ///< the track for which the cell was kept from the detector in this frame; 0: a blind place
     bool isTracked = false;        ///< a tracker follows this cell; its path runs on without reset
 };
 

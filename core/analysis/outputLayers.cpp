@@ -267,7 +267,8 @@ LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const 
 CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell)
 {
     const auto i = static_cast<std::size_t>(cell);
-    return {analysis.model.space.ratesOfPlane(layers.plane[i]).front() * rateUnit(analysis), static_cast<double>(layers.age[i]) * analysis.time().step,
+    return {analysis.model.space.ratesOfPlane(layers.plane[i]).front() * rateUnit(analysis),
+            static_cast<double>(layers.age[i]) * analysis.time().step,
             layers.isInhibited[i] != 0, static_cast<double>(layers.statistic[i])};
 }
 

@@ -82,8 +82,8 @@ struct LayerWindow {
 };
 
 /// Layers of a window, made coarser where it has more frames or cells than the picture rows or columns: a row stands for `framesPerRow`
-/// frames, a column for `cellsPerColumn` cells, both counted from 0, and each shows the values of the cell whose D is largest among them, so
-/// that a line of one bin survives. Inhibited: whether any of them is.
+/// frames, a column for `cellsPerColumn` cells, both counted from 0, and each shows the values of the cell whose D is largest among
+/// them, so that a line of one bin survives. Inhibited: whether any of them is.
 struct LayerPicture {
     Index framesPerRow = 1, cellsPerColumn = 1;
     Index firstRow = 0, firstColumn = 0;

@@ -4,6 +4,7 @@
 #include "model/MarkovModel.h"
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct PathStep {
     double lnTransition = 0.0;       ///< ln P(this | previous), 0 in the first step
     double lnK = 0.0;                ///< 0 in the first step
     double score = 0.0;              ///< sum of all terms so far, nat above background
+    /// How far the second best predecessor lay behind the one that won, nat; ∞ where there was no other, in the first step, and in what
+    /// `tracePath` gives, whose corridor does not know all others.
+    double runnerUp = std::numeric_limits<double>::infinity();
 };
 
 /// What the recursion saw, for going through it again. Frames are asked for in ascending order.

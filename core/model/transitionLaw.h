@@ -28,7 +28,8 @@ struct LawDamping {
 };
 LawDamping damping(const std::vector<double> &law);
 
-/// E[λ | SNR] in one frame, of a signal as the likelihood takes it to be (constant amplitude, fluctuating), whatever SNR it was designed for.
+/// E[λ | SNR] in one frame, of a signal as the likelihood takes it to be (constant amplitude, fluctuating), whatever SNR that was
+/// designed for.
 double meanEvidence(const Likelihood &likelihood, double snr);
 
 /// The SNR, a power ratio in one frame, at which the mean evidence makes up for `lossNats` = -(ln P + ln K); 0 where even noise does.

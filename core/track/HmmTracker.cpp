@@ -261,10 +261,11 @@ Index HmmTracker::localOf(const Slice &slice, Index state) const
     return model.window.state(c);
 }
 
-Index HmmTracker::predecessorIn(const Slice &earlier, Index state, double &lnTransition) const
+Index HmmTracker::predecessorIn(const Slice &earlier, Index state, PathStep &step) const
 {
     const TrackerModel &model = *m_model;
     float best = unreached;
+    float second = unreached;
     Index origin = state;
     for (const StateSpace::Predecessor &p : model.space.predecessors(state)) {
         const Index from = localOf(earlier, p.state);
@@ -273,11 +274,16 @@ Index HmmTracker::predecessorIn(const Slice &earlier, Index state, double &lnTra
         const double ln = p.lnProbability * model.transitionScale;
         const float score = earlier.scores[static_cast<std::size_t>(from)] + static_cast<float>(ln);
         if (score > best) {
+            second = best;
             best = score;
             origin = p.state;
-            lnTransition = ln;
+            step.lnTransition = ln;
+        } else {
+            second = std::max(second, score);
         }
     }
+    if (second > unreached)
+        step.runnerUp = static_cast<double>(best - second);
     return origin;
 }
 
@@ -310,8 +316,8 @@ std::vector<HmmTracker::Origin> HmmTracker::origins() const
         if (cell < 0 || newest.scores[static_cast<std::size_t>(local)] == unreached)
             continue;
         const Index state = model.window.planeOf(local) * model.space.cellCount() + cell;
-        double lnTransition = 0.0;
-        result.push_back({state, m_history.size() < 2 ? state : predecessorIn(m_history[m_history.size() - 2], state, lnTransition)});
+        PathStep step;
+        result.push_back({state, m_history.size() < 2 ? state : predecessorIn(m_history[m_history.size() - 2], state, step)});
     }
     return result;
 }
@@ -329,7 +335,7 @@ std::vector<PathStep> HmmTracker::explain(Index state) const
         if (i > 0) {
             step.logLikelihoodRatio = static_cast<double>(slice.lambda[static_cast<std::size_t>(m_model->window.cellOf(local))]);
             step.lnK = slice.lnK;
-            state = predecessorIn(m_history[i - 1], state, step.lnTransition);
+            state = predecessorIn(m_history[i - 1], state, step);
         }
         path.push_back(step);
     }
@@ -350,8 +356,8 @@ void HmmTracker::commit(std::size_t count)
                    slice.offset + static_cast<double>(slice.scores[static_cast<std::size_t>(local)])};
         if (i == 0)
             break;
-        double lnTransition = 0.0;
-        state = predecessorIn(m_history[i - 1], state, lnTransition);
+        PathStep step;
+        state = predecessorIn(m_history[i - 1], state, step);
     }
     m_track.points.insert(m_track.points.end(), path.begin(), path.begin() + static_cast<std::ptrdiff_t>(count));
     m_history.erase(m_history.begin(), m_history.begin() + static_cast<std::ptrdiff_t>(count));

@@ -129,7 +129,7 @@ private:
     HmmTracker() = default;
     Slice cutOut(Index frame, const std::vector<Index> &centre, std::span<const float> lambda, double lnK) const;
     void follow(Index frame, std::span<const float> lambda, double lnK);
-    Index predecessorIn(const Slice &earlier, Index state, double &lnTransition) const;
+    Index predecessorIn(const Slice &earlier, Index state, PathStep &step) const; ///< fills in ln P and the runner-up
     Index localOf(const Slice &slice, Index state) const;
     void commit(std::size_t count);
 

@@ -2,15 +2,18 @@
 
 #include "app/MainWindow.h"
 #include "app/LatencyPanel.h"
+#include "app/LawPanel.h"
 #include "app/PingBench.h"
 #include "app/StateSlicePanel.h"
 #include "app/WelcomePage.h"
+#include "app/WhyPanel.h"
 #include "app/Workbench.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "spectrum/SimulatedPings.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/EventTable.h"
+#include "widgets/LawPlot.h"
 #include "widgets/PingMap.h"
 
 #include <qwt_plot_canvas.h>
@@ -19,6 +22,8 @@
 #include <QMenuBar>
 #include <QSignalSpy>
 #include <QSlider>
+#include <QTabBar>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -243,6 +248,59 @@ private slots:
         w->pingBench().showPing(5);
         QVERIFY(wait());
         QVERIFY(std::ranges::equal(states.view()->picture()->row(0, 40), w->pingBench().output()->plane()->picture()->row(0, 40)));
+    }
+
+    void theLawOfBothRatesIsDragged()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        w->showStates();
+        w->states().tabs()->setCurrentIndex(1);
+        QCOMPARE(w->states().law().plotCount(), 1); // a slope set has one law for both axes
+        LawPlot &plot = *w->states().law().plot(0);
+        const std::vector<double> before = w->document().settings().model.slopeChange;
+        const QPoint from = plot.canvasPosition(1, 0.2).toPoint();
+        const QPoint to = plot.canvasPosition(1, 0.05).toPoint();
+        QTest::mousePress(plot.canvas(), Qt::LeftButton, {}, from);
+        QTest::mouseMove(plot.canvas(), to);
+        QTest::mouseRelease(plot.canvas(), Qt::LeftButton, {}, to);
+        QVERIFY(std::abs(w->document().settings().model.slopeChange[1] - (before[1] - 0.15)) < 0.03);
+        QTest::keyClick(w.get(), Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(w->document().settings().model.slopeChange, before);
+        // Targets that turn have a law for each of their rates.
+        QSignalSpy settled(&w->controller(), &AnalysisController::settled);
+        w->controller().edit("model.motion", std::string("manoeuvring"), "motion");
+        QCOMPARE(w->states().law().plotCount(), 2);
+        emit w->states().law().lawRequested("model.bearingRateChange", {0.8, 0.1});
+        QCOMPARE(w->document().settings().model.bearingRateChange, (std::vector<double>{0.8, 0.1}));
+        QVERIFY(settled.wait(patience));
+        QCOMPARE(w->document().analysis()->model.space.axes()[1].rateChange, (std::vector<double>{0.8, 0.1}));
+    }
+
+    void theLadderOfACell()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QSignalSpy settled(&w->why(), &WhyPanel::settled);
+        w->pingBench().selectEvent(w->document().shownEvents().front().id);
+        QTest::keyClick(w.get(), Qt::Key_W);
+        QVERIFY(settled.wait(patience));
+        WhyPanel &why = w->why();
+        const Explanation &explanation = why.explanation().value();
+        QVERIFY2(why.sentence().startsWith("Detected"), qPrintable(why.sentence()));
+        QCOMPARE(why.ladder()->rowCount(), static_cast<int>(explanation.steps.size()));
+        QCOMPARE(why.ladder()->columnCount(), 8); // time, range, bearing, λ, ln P, ln K, sum, second best
+        QVERIFY(why.ladder()->horizontalHeaderItem(1)->text().startsWith("Range"));
+        double sum = explanation.offset;
+        for (const PathStep &step : explanation.steps)
+            sum += step.logLikelihoodRatio + step.lnTransition + step.lnK;
+        QVERIFY(std::abs(sum - explanation.displayed) < 1e-3 * std::abs(sum));
+        // A step back is another cell's ladder.
+        const int rows = why.ladder()->rowCount();
+        settled.clear();
+        QTest::keyClick(w->pingBench().output()->plane(), Qt::Key_J);
+        QVERIFY(settled.wait(patience));
+        QVERIFY(why.ladder()->rowCount() < rows);
     }
 
     void latencyOfTheScene()

@@ -11,6 +11,7 @@
 #include "widgets/SliceMarks.h"
 
 #include <qwt_plot_canvas.h>
+#include <qwt_text.h>
 
 #include <QFile>
 #include <QSignalSpy>
@@ -134,7 +135,10 @@ private slots:
         const QString there = states.sentence();
         QVERIFY2(there.startsWith(QStringLiteral("Frame %1 at").arg(analysis.time().nearest(30.0) + 1)), qPrintable(there));
         // Step on, and back: the same picture.
-        const auto row = [&] { return std::vector<std::uint8_t>(states.view()->picture()->row(0, 2).begin(), states.view()->picture()->row(0, 2).end()); };
+        const auto row = [&] {
+            const auto bytes = states.view()->picture()->row(0, 2);
+            return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+        };
         const auto before = row();
         QTest::keyClick(m_window->workbench().output(), Qt::Key_L);
         QVERIFY(settleStates(*m_window));

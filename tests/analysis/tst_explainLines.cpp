@@ -1,0 +1,139 @@
+#include "analysis/StateReplay.h"
+#include "analysis/explain.h"
+#include "base/Random.h"
+
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace faintline;
+
+namespace {
+
+constexpr Index frameCount = 90;
+constexpr Index cellCount = 48;
+
+/// Noise with a line that climbs a cell every third frame from frame 20 to 59.
+std::shared_ptr<const Analysis> lineInNoise(double thresholdNats, double linkCells = 3.0)
+{
+    std::vector<float> y(static_cast<std::size_t>(frameCount * cellCount));
+    Random random(8, 1);
+    random.exponentials(y);
+    for (Index frame = 20; frame < 60; ++frame)
+        y[static_cast<std::size_t>(frame * cellCount + 15 + (frame - 20) / 3)] += 5.0f;
+    AnalysisSettings settings;
+    settings.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.6};
+    settings.decide.by = DecideSettings::By::Nats;
+    settings.decide.thresholdNats = thresholdNats;
+    settings.decide.linkCells = {linkCells};
+    settings.model.slopeChange = {0.5, 0.2, 0.05};
+    const Grid grid{{{"frequency", "Hz", 100.0, 0.5, cellCount, false}}};
+    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frameCount, false}, grid, std::move(y)), settings);
+}
+
+Explanation at(const Analysis &analysis, Index frame, Index cell)
+{
+    return explain(analysis, analysis.time().value(static_cast<double>(frame)), {analysis.grid().axes[0].value(static_cast<double>(cell))});
+}
+
+/// The best two of the ways into a state, from all states' scores in the frame before.
+std::pair<double, double> bestWays(const StateSpace &space, const std::vector<float> &before, Index state)
+{
+    std::pair best{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const StateSpace::Predecessor &p : space.predecessors(state)) {
+        const double score = static_cast<double>(before[static_cast<std::size_t>(p.state)]) + p.lnProbability;
+        if (score > best.first)
+            best = {score, best.first};
+        else
+            best.second = std::max(best.second, score);
+    }
+    return best;
+}
+
+} // namespace
+
+class tst_explainLines : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void runnerUpsAndResetsAreThoseOfAllStates()
+    {
+        const auto analysis = lineInNoise(1000.0); // no track: nothing is forgotten
+        const StateSpace &space = analysis->model.space;
+        StateReplay replay(analysis);
+        int resets = 0;
+        for (const Index frame : {0, 5, 30, 55, 80})
+            for (Index cell = 1; cell < cellCount; cell += 5) {
+                const Explanation why = at(*analysis, frame, cell);
+                for (const PathStep &step : why.steps) {
+                    if (&step == &why.steps.front())
+                        continue;
+                    const auto [best, second] = bestWays(space, replay.at(step.frame - 1)->values, step.state);
+                    QVERIFY(std::abs(step.runnerUp - (best - second)) < 1e-4);
+                }
+                const PathStep &first = why.steps.front();
+                QVERIFY(std::isinf(first.runnerUp));
+                if (first.frame == 0) {
+                    QCOMPARE(why.reset.kind, ResetCause::Kind::Beginning);
+                    continue;
+                }
+                QCOMPARE(why.reset.kind, ResetCause::Kind::Background);
+                const double goingOn = bestWays(space, replay.at(first.frame - 1)->values, first.state).first + 0.6;
+                QVERIFY(goingOn <= 1e-6);
+                QVERIFY(std::abs(why.reset.lost + goingOn) < 1e-6);
+                ++resets;
+            }
+        QVERIFY(resets > 20);
+    }
+
+    void theOtherStateIsTheNextBestOfTheCell()
+    {
+        const auto analysis = lineInNoise(14.0);
+        QVERIFY(!analysis->tracks.empty());
+        StateReplay replay(analysis);
+        for (const Index frame : {10, 50}) {
+            for (Index cell = 3; cell < cellCount; cell += 4) {
+                const Explanation why = at(*analysis, frame, cell);
+                std::vector<float> scores;
+                for (Index plane = 0; plane < 5; ++plane)
+                    scores.push_back(replay.at(frame)->values[static_cast<std::size_t>(plane * cellCount + cell)]);
+                const float other = replay.at(frame)->values[static_cast<std::size_t>(*why.otherState)];
+                std::sort(scores.rbegin(), scores.rend());
+                QCOMPARE(other, scores[1]);
+                QVERIFY(std::abs(why.otherMargin - static_cast<double>(scores[0] - scores[1])) < 1e-6);
+            }
+        }
+    }
+
+    void whatATrackTookOverIsForgotten()
+    {
+        const auto analysis = lineInNoise(14.0, 8.0); // so much round a cluster is forgotten with it
+        const Track &track = analysis->tracks.front();
+        int forgotten = 0;
+        for (Index cell = track.points.front().cell - 12; cell < track.points.front().cell + 24; ++cell) {
+            const Explanation why = at(*analysis, track.detectFrame + 1, cell);
+            if (why.reset.kind != ResetCause::Kind::Forgotten)
+                continue;
+            ++forgotten;
+            QCOMPARE(why.reset.track, track.id);
+            QVERIFY(why.reset.lost > 0.0);
+            QCOMPARE(why.steps.front().frame, track.detectFrame + 1);
+        }
+        QVERIFY(forgotten > 0);
+    }
+
+    void inhibitedCellsNameTheirTrack()
+    {
+        const auto analysis = lineInNoise(14.0);
+        const Track &track = analysis->tracks.front();
+        const TrackPoint &point = track.points.back();
+        QCOMPARE(at(*analysis, point.frame, point.cell).inhibitedFor, std::optional(track.id));
+        QVERIFY(!at(*analysis, point.frame, (point.cell + 20) % cellCount).inhibitedFor);
+    }
+};
+
+QTEST_GUILESS_MAIN(tst_explainLines)
+#include "tst_explainLines.moc"
