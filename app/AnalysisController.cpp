@@ -1,5 +1,6 @@
 #include "app/AnalysisController.h"
 
+#include "analysis/knownCalibration.h"
 #include "analysis/lineInNoise.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "analysis/Calibration.h"
 
 #include "analysis/CalibrationStore.h"
+#include "analysis/knownCalibration.h"
 #include "analysis/chain.h"
 #include "base/Error.h"
 #include "base/Random.h"

@@ -45,9 +45,6 @@ struct Calibration {
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
                                              double cellFrames = 1.6e8);
 
-/// The same if it is kept already, else null.
-std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings, double cellFrames = 1.6e8);
-
 /// The model on a piece of its grid large enough to learn its answer to noise: where it has more than 20 000 cells, the longest
 /// bounded axis is cut to about 5000 cells in all and made cyclic, so that no path runs off the piece. A sonar's bounded range
 /// axis loses such paths, hence its false alarms come 13 to 40 % short of what is found here.
