@@ -149,7 +149,8 @@ void AnalysisController::startAnalysis()
                 const bool isKept = kept && kept->holds(previous->frames, range.readFirst, range.end);
                 std::shared_ptr<const KeptFrames> frames;
                 if (range.isKeepable)
-                    frames = isKept ? kept : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst, context.part(0.0, 0.01));
+                    frames = isKept ? kept
+                                    : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst, context.part(0.0, 0.01));
                 const StatisticPreview preview = previewStatistic(*previous, settings, range, frames.get(), context.part(0.01, 0.02));
                 m_runner.deliver([this, settings, preview, frames] { showPreview(settings, preview, frames); });
             }
@@ -168,7 +169,8 @@ void AnalysisController::startAnalysis()
     });
 }
 
-void AnalysisController::showPreview(const AnalysisSettings &settings, const StatisticPreview &preview, std::shared_ptr<const KeptFrames> kept)
+void AnalysisController::showPreview(const AnalysisSettings &settings, const StatisticPreview &preview,
+                                     std::shared_ptr<const KeptFrames> kept)
 {
     m_kept = std::move(kept);
     if (settings == m_document.settings() && !m_document.isCurrent() && m_runner.isRunning())

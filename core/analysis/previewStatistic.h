@@ -42,8 +42,8 @@ struct FrameRange {
 };
 FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last);
 
-/// Runs the detector that the settings describe over a range of frames, kept ones where there are: the same recursion, no threshold, no trackers and none of their
-/// feedback, so where something was detected D goes on growing.
+/// Runs the detector that the settings describe over a range of frames, kept ones where there are: the same recursion, but no threshold,
+/// no trackers and none of their feedback, so where something was detected D goes on growing.
 ///
 /// K, where it would be calibrated to 50 % of noise states continued, is found on these frames themselves: regulated toward that over
 /// the first of them (ResetLaw::Half) and held from then on. Most cells are noise, so it lies near the calibrated one; it is a preview's.

@@ -19,7 +19,8 @@ namespace {
         scene.seed = seed;
         SpectrogramSettings cut;
         cut.windowSeconds = 0.5;
-        const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), cut, SelectionSettings{0, 0.0, 0.0, 20.0, 180.0});
+        const SelectionSettings band{0, 0.0, 0.0, 20.0, 180.0};
+        const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), cut, band);
         const NormaliserSettings settings;
         return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, settings), settings);
     }
@@ -76,12 +77,14 @@ private slots:
         QCOMPARE(all.readFirst, Index(0));
         QCOMPARE(all.first, Index(0));
         QCOMPARE(all.end, before->time().count);
-        const auto large = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 100000, false}, Grid{{{"frequency", "Hz", 0.0, 1.0, 1000, false}}},
-                                                        std::vector<float>());
+        const Axis hertz{"frequency", "Hz", 0.0, 1.0, 1000, false};
+        const auto large =
+            std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 100000, false}, Grid{{hertz}}, std::vector<float>());
         QVERIFY(previewRange(*large, 0, 99999).isEmpty());
         QVERIFY(previewRange(*large, 5000, 6000).isKeepable);
         QVERIFY(!previewRange(*large, 5000, 55000).isEmpty() && !previewRange(*large, 5000, 55000).isKeepable);
-        const FrameArray pings(Axis{"time", "s", 0.0, 1.0, 10, false}, Grid{{{"range", "m", 0.0, 1.0, 10, false}, {"bearing", "°", 0.0, 1.0, 10, true}}}, {});
+        const Grid plane{{{"range", "m", 0.0, 1.0, 10, false}, {"bearing", "°", 0.0, 1.0, 10, true}}};
+        const FrameArray pings(Axis{"time", "s", 0.0, 1.0, 10, false}, plane, {});
         QVERIFY(previewRange(pings, 0, 9).isEmpty());
     }
 
