@@ -1,5 +1,6 @@
 #include "app/AnalysisController.h"
 
+#include "analysis/knownCalibration.h"
 #include "analysis/lineInNoise.h"
 
 #include <algorithm>
@@ -143,10 +144,14 @@ void AnalysisController::startAnalysis()
             isSame && isWorthAPreview(*previous, settings)) {
             const Axis &time = previous->time();
             const FrameRange range = previewRange(*previous->frames, time.nearest(visible.low), time.nearest(visible.high));
-            if (!range.isEmpty()) {
+            // What is calibrated already is there as soon as a preview of that much would be.
+            if (!range.isEmpty() && (range.isKeepable || !knownCalibration(settings))) {
                 const bool isKept = kept && kept->holds(previous->frames, range.readFirst, range.end);
-                const auto frames = isKept ? kept : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst, context.part(0.0, 0.01));
-                const StatisticPreview preview = previewStatistic(*previous, settings, *frames, range, context.part(0.01, 0.02));
+                std::shared_ptr<const KeptFrames> frames;
+                if (range.isKeepable)
+                    frames = isKept ? kept
+                                    : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst, context.part(0.0, 0.01));
+                const StatisticPreview preview = previewStatistic(*previous, settings, range, frames.get(), context.part(0.01, 0.02));
                 m_runner.deliver([this, settings, preview, frames] { showPreview(settings, preview, frames); });
             }
         }
@@ -164,7 +169,8 @@ void AnalysisController::startAnalysis()
     });
 }
 
-void AnalysisController::showPreview(const AnalysisSettings &settings, const StatisticPreview &preview, std::shared_ptr<const KeptFrames> kept)
+void AnalysisController::showPreview(const AnalysisSettings &settings, const StatisticPreview &preview,
+                                     std::shared_ptr<const KeptFrames> kept)
 {
     m_kept = std::move(kept);
     if (settings == m_document.settings() && !m_document.isCurrent() && m_runner.isRunning())

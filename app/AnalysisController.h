@@ -16,8 +16,8 @@ namespace faintline {
 ///
 /// Whatever computes runs in the job runner, and the newest wish wins. A dragged threshold is shown at once on the
 /// results there are (`previewThreshold`); let go (`commitThreshold`), it becomes a setting and the chain runs again.
-/// A changed detector or model is seen at once as well: its statistic of the visible frames comes first, provisionally, beside the threshold
-/// there was; calibration, decisions and the rest of the recording follow.
+/// A changed detector or model is seen at once as well: its statistic of the visible frames comes first, provisionally, beside the
+/// threshold there was; calibration, decisions and the rest of the recording follow.
 class AnalysisController : public QObject
 {
     Q_OBJECT

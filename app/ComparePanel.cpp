@@ -67,7 +67,8 @@ namespace {
 
     const Track *trackOf(const Analysis &analysis, int id)
     {
-        const auto found = std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [id](const Track &track) { return track.id == id; });
+        const auto found =
+            std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [id](const Track &track) { return track.id == id; });
         return found == analysis.tracks.end() ? nullptr : &*found;
     }
 
@@ -88,7 +89,8 @@ namespace {
 } // namespace
 
 ComparePanel::ComparePanel(Document &document, AnalysisController &controller, Comparer &comparer, QWidget *parent)
-    : QWidget(parent), m_document(document), m_controller(controller), m_comparer(comparer), m_picture(new WaterfallView(tr("B − A (nat)"))),
+    : QWidget(parent), m_document(document), m_controller(controller), m_comparer(comparer),
+      m_picture(new WaterfallView(tr("B − A (nat)"))),
       m_picturePane(buildPicture()), m_sentence(new QLabel), m_differences(new QLabel), m_keep(new QPushButton(tr("Keep as A"))),
       m_swap(new QPushButton(tr("Swap"))), m_goTo(new QPushButton(tr("Go to A"))), m_compute(new QPushButton(tr("Compute A here"))),
       m_filters{new QToolButton, new QToolButton, new QToolButton}, m_table(new QTableWidget(0, ColumnCount))
@@ -284,8 +286,8 @@ void ComparePanel::showPicture()
     const bool isPlain = haveCommonUnit(*result->a, *result->b);
     m_picture->setStatisticUnit(tr("nat"), isPlain ? tr("B − A (nat)") : tr("B − A, rarity (nat)"));
     m_picturePane->setToolTip(isPlain ? tr("How much farther above its threshold B lies than A. Blue: A is ahead; red: B is ahead.")
-                                      : tr("How much rarer than at its threshold B is on noise than A: their statistics have different units, their "
-                                           "false-alarm probabilities can be compared. Blue: A is ahead; red: B is ahead."));
+                                      : tr("How much rarer than at its threshold B is on noise than A: their statistics have other "
+                                           "units, their false-alarm probabilities can be compared. Blue: A is ahead; red: B is ahead."));
     m_picture->setPicture(result->difference, result->b->grid().axes.back());
 }
 
@@ -302,7 +304,8 @@ void ComparePanel::showEvents()
     if (result) {
         const Axis &place = result->b->grid().axes.back();
         const QString unitA = statisticUnit(result->a->settings), unitB = statisticUnit(result->b->settings);
-        m_table->setHorizontalHeaderLabels({tr("In"), tr("Onset"), place.unit == "Hz" ? tr("Frequency") : QString::fromStdString(place.name),
+        const QString placeName = place.unit == "Hz" ? tr("Frequency") : QString::fromStdString(place.name);
+        m_table->setHorizontalHeaderLabels({tr("In"), tr("Onset"), placeName,
                                             tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
         m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("When A detected it"));
         m_table->horizontalHeaderItem(DetectedB)->setToolTip(tr("When B detected it"));
@@ -368,8 +371,8 @@ void ComparePanel::showWords()
     if (!result) {
         m_differences->clear();
         if (!m_comparer.kept())
-            m_sentence->setText(tr("Keep what you see as A, then change the detector or any setting: the difference, and what only one of the "
-                                   "two has found, appear here."));
+            m_sentence->setText(tr("Keep what you see as A, then change the detector or any setting: the difference, and what only one of "
+                                   "the two has found, appear here."));
         else
             m_sentence->setText(m_comparer.isOfWhatIsOpen() ? tr("Comparing …") : tr("A was kept while something else was open."));
         return;

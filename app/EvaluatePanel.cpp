@@ -16,6 +16,7 @@
 #include <QTabWidget>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <cmath>
 
 namespace faintline {
@@ -218,8 +219,12 @@ void EvaluatePanel::showOperatingPoint(const Experiments::Entry &entry)
     const double threshold = m_document.shownThreshold();
     m_pd->setChart(shown(m_pdChart, hasThreshold ? pdAtOperatingPoint(*entry.campaign, settings, threshold) : std::nullopt));
     if (m_tabs->currentIndex() == 1 && m_snr->currentIndex() >= 0)
-        m_roc->setChart(shown(m_rocChart, hasThreshold ? operatingPoint(*entry.campaign, static_cast<std::size_t>(m_snr->currentIndex()), settings, threshold)
-                                                       : std::nullopt));
+        m_roc->setChart(shown(m_rocChart, hasThreshold ? operatingPoint(*entry.campaign, shownSnr(), settings, threshold) : std::nullopt));
+}
+
+std::size_t EvaluatePanel::shownSnr() const
+{
+    return static_cast<std::size_t>(std::max(m_snr->currentIndex(), 0));
 }
 
 /// Only while it is looked at: it costs more than Pd.
@@ -227,7 +232,7 @@ void EvaluatePanel::showRoc(const Experiments::Entry &entry)
 {
     if (m_tabs->currentIndex() != 1)
         return;
-    m_rocChart = entry.campaign && m_snr->currentIndex() >= 0 ? rocChart(*entry.campaign, static_cast<std::size_t>(m_snr->currentIndex())) : Chart();
+    m_rocChart = entry.campaign && m_snr->currentIndex() >= 0 ? rocChart(*entry.campaign, shownSnr()) : Chart();
     m_roc->setChart(m_rocChart);
     showOperatingPoint(entry);
 }

@@ -51,6 +51,7 @@ private:
     void showPd(const Experiments::Entry &entry);
     void showRoc(const Experiments::Entry &entry);
     void showOperatingPoint(const Experiments::Entry &entry);
+    std::size_t shownSnr() const;
     void showState(const Experiments::Entry &entry);
     void fillSnrs(const Experiments::Entry &entry);
 

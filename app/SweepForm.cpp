@@ -230,7 +230,8 @@ SweepExperiment SweepForm::experiment() const
     if (sweep.settings.spectrogram.windowSeconds == 0.0)
         sweep.settings.spectrogram.windowSeconds = m_windowSeconds > 0.0 ? m_windowSeconds : 0.5;
     sweep.parameter = field().name;
-    sweep.values = sweepValues(sweep.parameter, numberOf(*m_from, "from"), numberOf(*m_to, "to"), m_steps->value(), m_byFactors->isChecked());
+    const double from = numberOf(*m_from, "from"), to = numberOf(*m_to, "to");
+    sweep.values = sweepValues(sweep.parameter, from, to, m_steps->value(), m_byFactors->isChecked());
     sweep.recording = isInRecording() ? m_recording.toStdString() : std::string();
     // In simulated noise as many cells as a window of 400 samples has, however long it is.
     sweep.sampleRateHz = 400.0 / sweep.settings.spectrogram.windowSeconds;
@@ -250,7 +251,8 @@ QString SweepForm::name() const
 {
     const FieldInfo &info = field();
     const QString unit = info.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(info.unit);
-    return tr("%1 %2 … %3%4, %5").arg(titleOf(info), m_from->text(), m_to->text(), unit, isInRecording() ? tr("in the recording") : tr("simulated"));
+    const QString where = isInRecording() ? tr("in the recording") : tr("simulated");
+    return tr("%1 %2 … %3%4, %5").arg(titleOf(info), m_from->text(), m_to->text(), unit, where);
 }
 
 void SweepForm::showMeaning()

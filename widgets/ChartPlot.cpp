@@ -490,8 +490,8 @@ void ChartPlot::showPlace(const std::optional<Place> &place)
     const Curve &curve = m_chart.curves[place->curve];
     const Curve::Point &point = curve.points[place->point];
     m_ring->setValue(abscissa(point.x), ordinate(point.y));
-    QString text =
-        tr("%1%2 = %3  →  %4").arg(curve.name.empty() ? QString() : words(curve.name) + QStringLiteral(":  "), words(m_chart.xLabel), valueText(point.x), valueText(point.y));
+    const QString name = curve.name.empty() ? QString() : words(curve.name) + QStringLiteral(":  ");
+    QString text = tr("%1%2 = %3  →  %4").arg(name, words(m_chart.xLabel), valueText(point.x), valueText(point.y));
     if (!point.label.empty())
         text.prepend(words(point.label) + QStringLiteral(":  "));
     if (point.interval.low < point.interval.high)

@@ -61,7 +61,8 @@ namespace {
     void printEvents(const Comparison &comparison, const Grid &grid)
     {
         using In = ComparedEvent::In;
-        std::printf("in both: %td, only in A: %td, only in B: %td\n", comparison.count(In::Both), comparison.count(In::A), comparison.count(In::B));
+        std::printf("in both: %td, only in A: %td, only in B: %td\n", comparison.count(In::Both), comparison.count(In::A),
+                    comparison.count(In::B));
         for (const ComparedEvent &compared : comparison.events) {
             const Event &event = compared.event();
             std::printf("%-4s  %.6g … %.6g s, at", compared.in() == In::A ? "A" : compared.in() == In::B ? "B" : "both", event.onsetSeconds,
@@ -115,7 +116,8 @@ namespace {
 void addCompare(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<CompareOptions>();
-    CLI::App *command = app.add_subcommand("compare", "Two detectors or two settings on one recording: what both find, and what only one does");
+    CLI::App *command = app.add_subcommand(
+        "compare", "Two detectors or two settings on one recording: what both find, and what only one does");
     options->common.addTo(*command);
     command->add_option("--preset-a", options->presetA, "Named settings that A starts from, in place of --preset");
     command->add_option("--preset-b", options->presetB, "Named settings that B starts from, in place of --preset");

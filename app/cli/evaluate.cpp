@@ -95,10 +95,11 @@ void addEvaluate(CLI::App &app, Common &common)
         bool cost = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("evaluate", "Monte-Carlo detection probability of an experiment; resumes where it was interrupted");
+    CLI::App *command = app.add_subcommand(
+        "evaluate", "Monte-Carlo detection probability of an experiment; resumes where it was interrupted");
     command->add_option("EXPERIMENT", options->files,
-                        "The experiment, JSON, of kind lines, injection or sweep (the values of one setting tried on the same lines: Pd, false "
-                        "alarms, latency); or: merge SHARD…")
+                        "The experiment, JSON, of kind lines, injection or sweep (the values of one setting tried on the same lines: Pd, "
+                        "false alarms, latency); or: merge SHARD…")
         ->required();
     command->add_option("--out", options->out, "Curve to write, .csv; with --shard the shard's runs");
     command->add_option("--chart", options->chart, "Pd against SNR to draw, .svg");

@@ -41,8 +41,8 @@ namespace {
             const auto is = [&](const char *command) {
                 return std::find(provenance.arguments.begin(), provenance.arguments.end(), command) != provenance.arguments.end();
             };
-            if (provenance.outputs.empty() || is("replay") || !(is("detect") || is("simulate") || is("inject")))
-                throw Error(path, "is no provenance of something that detect, simulate or inject wrote");
+            if (provenance.outputs.empty() || is("replay") || !(is("detect") || is("compare") || is("simulate") || is("inject")))
+                throw Error(path, "is no provenance of something that detect, compare, simulate or inject wrote");
             return provenance;
         } catch (const Json::exception &) {
             throw Error(path, "is no provenance: it needs faintline, folder, arguments, inputs and outputs");
@@ -155,7 +155,7 @@ void addReplay(CLI::App &app, Common &common)
 {
     const auto result = std::make_shared<std::string>();
     CLI::App *command = app.add_subcommand("replay", "Make a result again from its own provenance, and compare");
-    command->add_option("RESULT", *result, "A file written by detect, simulate or inject, with its .provenance.json beside it")->required();
+    command->add_option("RESULT", *result, "A file written by detect, compare, simulate or inject, with its .provenance.json beside it")->required();
     command->callback([result, &common] { replay(*result, common); });
 }
 

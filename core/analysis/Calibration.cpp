@@ -1,6 +1,7 @@
 #include "analysis/Calibration.h"
 
 #include "analysis/CalibrationStore.h"
+#include "analysis/knownCalibration.h"
 #include "analysis/chain.h"
 #include "base/Error.h"
 #include "base/Random.h"
@@ -400,6 +401,12 @@ namespace {
         return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, bare.noise), bare.noise);
     }
 
+    std::string keyOf(const AnalysisSettings &bare, double cellFrames)
+    {
+        return settingsToJson(bare) + formatNumber(cellFrames);
+    }
+
+    /// Null only where `make` answers that.
     std::shared_ptr<const Calibration> kept(const std::string &key, const std::function<std::shared_ptr<const Calibration>()> &make)
     {
         static std::mutex mutex;
@@ -413,6 +420,8 @@ namespace {
         auto made = store.load(key);
         if (!made) {
             made = make();
+            if (!made)
+                return nullptr;
             store.save(key, *made);
         }
         const std::scoped_lock lock(mutex);
@@ -468,13 +477,18 @@ double Calibration::thresholdForPfa(double probability) const
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context, double cellFrames)
 {
     const AnalysisSettings bare = dimensionless(settings);
-    return kept(settingsToJson(bare) + formatNumber(cellFrames), [&] {
+    return kept(keyOf(bare, cellFrames), [&] {
         const double perSegment = static_cast<double>(segmentWindows) * bare.spectrogram.stepsPerWindow
             * static_cast<double>(Fft::fastLength(windowSamples * bare.spectrogram.binsPerCell));
         const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / perSegment)));
         const MarkovModel model = makeModel(bare.model, noiseSegment(bare, 0)->grid());
         return calibrateOn([&](int number) { return noiseSegment(bare, number); }, segments, model, bare, context);
     });
+}
+
+std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings, double cellFrames)
+{
+    return kept(keyOf(dimensionless(settings), cellFrames), [] { return nullptr; });
 }
 
 MarkovModel handyPiece(const MarkovModel &model)

@@ -3,7 +3,6 @@
 #include "analysis/chain.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace faintline {
 
@@ -12,21 +11,45 @@ namespace {
     constexpr Index settlingFrames = 128; ///< before what is shown
     constexpr Index averagedFrames = 48;  ///< of these, the last, whose ln K is taken
     constexpr double settlingGain = 0.3;
-    constexpr std::size_t mostBytes = std::size_t(64) << 20;
+    constexpr std::size_t mostKeptBytes = std::size_t(64) << 20;
+    constexpr std::size_t pictureBytes = std::size_t(100) << 20;
+    constexpr Index mostCells = 70'000'000;
     constexpr Index blockFrames = 64;
 
-    /// ln K with which half of the states go on, from the first frames kept.
-    double settledLnK(const MarkovModel &model, double lnK, const KeptFrames &kept, const RunContext &context)
+    /// Blocks of frames, from memory where they are kept.
+    class Blocks
+    {
+    public:
+        Blocks(const NormalisedFrames &source, const KeptFrames *kept) : m_source(source), m_kept(kept) {}
+
+        std::span<const float> at(Index frame, Index count)
+        {
+            const Index cells = m_source.grid().size();
+            const auto size = static_cast<std::size_t>(count * cells);
+            if (m_kept)
+                return std::span(m_kept->values).subspan(static_cast<std::size_t>((frame - m_kept->first) * cells), size);
+            m_block.resize(size);
+            m_source.read(frame, count, m_block);
+            return m_block;
+        }
+
+    private:
+        const NormalisedFrames &m_source;
+        const KeptFrames *m_kept;
+        std::vector<float> m_block;
+    };
+
+    /// ln K with which half of the states go on, from the first frames of the range.
+    double settledLnK(const MarkovModel &model, double lnK, const FrameRange &range, Blocks &blocks, const RunContext &context)
     {
         Smd smd(model, {ResetLaw::Half, lnK, 0.0, settlingGain});
         smd.useThreads(context.threads);
-        const auto cells = static_cast<std::size_t>(kept.source->grid().size());
-        std::vector<float> statistic(cells);
-        const Index frames = std::min(kept.count, settlingFrames);
+        std::vector<float> statistic(static_cast<std::size_t>(model.space.cellCount()));
+        const Index frames = std::min(range.end - range.readFirst, settlingFrames);
         double sum = 0.0;
         Index counted = 0;
         for (Index frame = 0; frame < frames; ++frame) {
-            smd.update(std::span(kept.values).subspan(static_cast<std::size_t>(frame) * cells, cells), statistic);
+            smd.update(blocks.at(range.readFirst + frame, 1), statistic);
             if (frame < frames - averagedFrames)
                 continue;
             sum += smd.regulation().lnK;
@@ -63,8 +86,9 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
     range.first = std::clamp<Index>(first, 0, count - 1);
     range.readFirst = std::max<Index>(0, range.first - settlingFrames);
     range.end = std::clamp<Index>(last, range.first, count - 1) + 1;
-    const auto bytes = static_cast<std::size_t>((range.end - range.readFirst) * frames.grid().size()) * sizeof(float);
-    return bytes <= mostBytes ? range : FrameRange{};
+    const Index cells = (range.end - range.readFirst) * frames.grid().size();
+    range.isKeepable = static_cast<std::size_t>(cells) * sizeof(float) <= mostKeptBytes;
+    return cells <= mostCells ? range : FrameRange{};
 }
 
 bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings)
@@ -74,7 +98,7 @@ bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings)
         && !(before.settings.model == settings.model && before.settings.detector == settings.detector);
 }
 
-StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const KeptFrames &kept, const FrameRange &range,
+StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range, const KeptFrames *kept,
                                   const RunContext &context)
 {
     checkSettings(settings);
@@ -83,12 +107,13 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
     trial.recording = before.recording;
     trial.frames = before.frames;
     trial.model = makeModel(settings.model, before.grid());
+    Blocks blocks(*before.frames, kept);
     auto calibration = std::make_shared<Calibration>(*before.calibration);
     if (const auto *smd = std::get_if<SmdSettings>(&settings.detector)) {
         if (smd->reset == SmdSettings::Reset::Fixed)
             calibration->lnK = smd->lnK;
         else if (smd->reset == SmdSettings::Reset::Calibrated)
-            calibration->lnK = settledLnK(trial.model, before.calibration->lnK, kept, context);
+            calibration->lnK = settledLnK(trial.model, before.calibration->lnK, range, blocks, context);
     }
     trial.calibration = calibration;
 
@@ -98,15 +123,14 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
     const Axis &time = before.time();
     const auto statistic = std::make_shared<PeakPyramid>(
         Axis{time.name, time.unit, time.value(static_cast<double>(range.first)), time.step, range.end - range.first, false}, cells,
-        ByteScale(ByteScale::Kind::ScoreNats), std::numeric_limits<std::size_t>::max());
+        ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
     std::vector<float> scores;
     for (Index frame = range.readFirst; frame < range.end;) {
         context.checkpoint(static_cast<double>(frame - range.readFirst) / static_cast<double>(range.end - range.readFirst), "previewing");
         const Index stop = frame < range.first ? range.first : range.end;
         const Index block = std::min(blockFrames, stop - frame);
         scores.resize(static_cast<std::size_t>(block * cells));
-        detector->updateBlock(
-            std::span(kept.values).subspan(static_cast<std::size_t>((frame - kept.first) * cells), scores.size()), scores, cells);
+        detector->updateBlock(blocks.at(frame, block), scores, cells);
         if (frame >= range.first)
             statistic->append(scores);
         frame += block;

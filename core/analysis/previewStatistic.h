@@ -30,24 +30,26 @@ struct StatisticPreview {
     double lnK = 0.0;                             ///< in force; of detectors without K as before
 };
 
-/// The frames that are needed to show `first … last`: these, and some before them for the detector to settle on. Empty where they would be
-/// more than 64 MiB (reading them would take as long as everything else) or lie on several axes.
+/// The frames that are needed to show `first … last`: these, and some before them for the detector to settle on. Empty where they hold more
+/// than 7·10⁷ cells, on which a preview would take as long as everything else, or lie on several axes.
 struct FrameRange {
     Index readFirst = 0;
     Index first = 0;
     Index end = 0;
+    bool isKeepable = false; ///< in 64 MiB; more than that is read as it is needed
 
     bool isEmpty() const { return first >= end; }
 };
 FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last);
 
-/// Runs the detector that the settings describe over kept frames: the same recursion, no threshold, no trackers and none of their
-/// feedback, so where something was detected D goes on growing.
+/// Runs the detector that the settings describe over a range of frames, kept ones where there are: the same recursion, but no threshold,
+/// no trackers and none of their feedback, so where something was detected D goes on growing.
 ///
 /// K, where it would be calibrated to 50 % of noise states continued, is found on these frames themselves: regulated toward that over
-/// the first frames kept (ResetLaw::Half) and held from then on. Most cells are noise, so it lies near the calibrated one; it is a preview's.
+/// the first of them (ResetLaw::Half) and held from then on. Most cells are noise, so it lies near the calibrated one; it is a preview's.
 /// Depends on nothing but the frames and settings. Cost: one pass of the recursion; no simulation. Oracle: Smd run with the same ln K.
-StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const KeptFrames &kept, const FrameRange &range,
+/// Precondition: `kept` is null or holds the range.
+StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range, const KeptFrames *kept,
                                   const RunContext &context = {});
 
 /// Whether a change of settings is worth a preview: the detector or its model, and nothing before it.

@@ -16,9 +16,9 @@ namespace faintline {
 /// What the values of one numeric setting are worth: the whole chain on known lines, value after value.
 ///
 /// A *trial* is a stretch of noise with one line in its middle, in simulated white noise or added to a recording: `marginSeconds`
-/// before it, the line, and `marginSeconds` after it. Every value is tried on the same trials, so that values differ by what they do and
-/// not by chance. A track that lies on the line, within 1.5 resolution cells, for half of its points while the line lasts has detected it; one
-/// that never touches it is a false alarm. In a recording everything that was there before counts as one, too.
+/// before it, the line, and `marginSeconds` after it. Every value is tried on the same trials, so that values differ by what they do
+/// and not by chance. A track that lies on the line, within 1.5 resolution cells, for half of its points while the line lasts has detected
+/// it; one that never touches it is a false alarm. In a recording everything that was there before counts as one, too.
 ///
 /// Runs go round the values: run = trial · values + value, so half of the runs give half of the trials of every value.
 struct SweepExperiment {
@@ -58,8 +58,8 @@ AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value
 /// Throws Error naming the key.
 void checkExperiment(const SweepExperiment &experiment);
 
-/// {"kind": "sweep", "parameter": "model.snr", "values": […] or {"from": …, "to": …, "steps": …, "scale": "linear" or "log"}, "settings": {…}, …};
-/// throws Error.
+/// {"kind": "sweep", "parameter": "model.snr", "values": […] or {"from": …, "to": …, "steps": …, "scale": "linear" or "log"},
+///  "settings": {…}, …}; throws Error.
 SweepExperiment sweepExperimentFromJson(const Json &json, const std::string &where);
 Json toJson(const SweepExperiment &experiment);
 

@@ -27,7 +27,8 @@ std::vector<ExceedancePoint> boxExceedance(const PeakPyramid &statistic, Index b
     std::array<std::int64_t, 256> counts{};
     std::int64_t total = 0;
     for (Index frame = beginFrame; frame < endFrame; frame += stride) {
-        for (const std::uint8_t byte : statistic.row(0, frame).subspan(static_cast<std::size_t>(beginCell), static_cast<std::size_t>(width)))
+        const auto row = statistic.row(0, frame);
+        for (const std::uint8_t byte : row.subspan(static_cast<std::size_t>(beginCell), static_cast<std::size_t>(width)))
             ++counts[byte];
         total += width;
     }

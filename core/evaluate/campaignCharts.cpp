@@ -138,8 +138,8 @@ namespace {
 
     Curve::Point pdPoint(const Campaign &campaign, std::size_t detector, std::size_t snr, double threshold, double x)
     {
-        const auto [above, all] =
-            countAbove(campaign, threshold, [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.signal[detector][snr]; });
+        const auto signals = [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.signal[detector][snr]; };
+        const auto [above, all] = countAbove(campaign, threshold, signals);
         return {x, static_cast<double>(above) / static_cast<double>(all), wilsonInterval(above, all)};
     }
 

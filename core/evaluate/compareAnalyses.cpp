@@ -157,8 +157,8 @@ namespace {
     {
         const auto &own = a.grid().axes;
         const auto &other = b.grid().axes;
-        const bool areAlike = own.size() == other.size()
-            && std::equal(own.begin(), own.end(), other.begin(), [](const Axis &x, const Axis &y) { return x.name == y.name && x.unit == y.unit; });
+        const auto measureTheSame = [](const Axis &x, const Axis &y) { return x.name == y.name && x.unit == y.unit; };
+        const bool areAlike = std::equal(own.begin(), own.end(), other.begin(), other.end(), measureTheSame);
         if (!areAlike)
             throw Error("compare", "the two analyses have axes of different quantities; both must be of the same recording");
     }

@@ -16,7 +16,9 @@ namespace {
             return false;
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         const double middle = values[values.size() / 2];
-        return *high / *low > 5.0 && std::abs(std::log(middle * middle / (*low * *high))) < std::abs(std::log(2.0 * middle / (*low + *high)));
+        const double fromGeometric = std::abs(std::log(middle * middle / (*low * *high)));
+        const double fromArithmetic = std::abs(std::log(2.0 * middle / (*low + *high)));
+        return *high / *low > 5.0 && fromGeometric < fromArithmetic;
     }
 
     std::string labelOf(const SweepExperiment &experiment)
@@ -65,7 +67,8 @@ std::vector<SweepPoint> sweepCurve(const Campaign &campaign)
             continue;
         const auto n = static_cast<double>(point.detections);
         point.latencySeconds = sum[i] / n;
-        const double variance = n > 1.0 ? std::max(0.0, (sumOfSquares[i] - n * point.latencySeconds * point.latencySeconds) / (n - 1.0)) : 0.0;
+        const double squares = std::max(0.0, sumOfSquares[i] - n * point.latencySeconds * point.latencySeconds);
+        const double variance = n > 1.0 ? squares / (n - 1.0) : 0.0;
         point.latencyInterval = normalInterval(point.latencySeconds, std::sqrt(variance / n));
     }
     std::erase_if(curve, [](const SweepPoint &point) { return point.trials == 0; });

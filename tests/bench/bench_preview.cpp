@@ -34,7 +34,7 @@ void previewOfKeptFrames(benchmark::State &state)
     const FrameRange range = previewRange(*before().frames, 0, 999);
     const auto kept = keepFrames(before().frames, range.readFirst, range.end - range.readFirst);
     for ([[maybe_unused]] auto turn : state)
-        benchmark::DoNotOptimize(previewStatistic(before(), changed(), *kept, range).lnK);
+        benchmark::DoNotOptimize(previewStatistic(before(), changed(), range, kept.get()).lnK);
     state.SetItemsProcessed(state.iterations() * range.end * before().grid().size());
 }
 
@@ -43,7 +43,7 @@ void previewWithFramesToRead(benchmark::State &state)
     const FrameRange range = previewRange(*before().frames, 0, 999);
     for ([[maybe_unused]] auto turn : state) {
         const auto kept = keepFrames(before().frames, range.readFirst, range.end - range.readFirst);
-        benchmark::DoNotOptimize(previewStatistic(before(), changed(), *kept, range).lnK);
+        benchmark::DoNotOptimize(previewStatistic(before(), changed(), range, kept.get()).lnK);
     }
 }
 

@@ -37,8 +37,9 @@ namespace {
         Analysis analysis;
         const auto frames = static_cast<Index>(std::lround(frameCount * 0.5 / stepSeconds));
         const auto cells = static_cast<Index>(std::lround(100.0 * 2.0 / stepHz));
-        analysis.frames = std::make_shared<FrameArray>(
-            Axis{"time", "s", 0.0, stepSeconds, frames, false}, Grid{{{"frequency", "Hz", 0.0, stepHz, cells, isCyclic}}}, std::vector<float>());
+        const Axis hertz{"frequency", "Hz", 0.0, stepHz, cells, isCyclic};
+        analysis.frames =
+            std::make_shared<FrameArray>(Axis{"time", "s", 0.0, stepSeconds, frames, false}, Grid{{hertz}}, std::vector<float>());
         analysis.tracks = std::move(tracks);
         return analysis;
     }
@@ -154,7 +155,8 @@ private slots:
         const Analysis b = holding({track(1, 40, 120, 100)}, 0.25, 1.0);
         const Comparison comparison = compareAnalyses(a, b);
         QCOMPARE(words(comparison), QStringList{"A1=B1"});
-        QVERIFY(std::abs(comparison.events[0].sharedSeconds - 22.5) < 1e-9); // 20 s and a frame of 0.5 s twice on either side, both ends counted
+        // 20 s and a frame of 0.5 s twice on either side, both ends counted.
+        QVERIFY(std::abs(comparison.events[0].sharedSeconds - 22.5) < 1e-9);
         // Four of the coarser bins are 8 Hz, eight of B's.
         QCOMPARE(words(compareAnalyses(a, holding({track(1, 40, 120, 108)}, 0.25, 1.0))), QStringList{"A1=B1"});
         QCOMPARE(words(compareAnalyses(a, holding({track(1, 40, 120, 109)}, 0.25, 1.0))), (QStringList{"A1", "B1"}));
@@ -163,7 +165,8 @@ private slots:
     void cyclicAxis()
     {
         const auto around = [](bool isCyclic) {
-            return words(compareAnalyses(holding({track(1, 10, 40, 1)}, 0.5, 2.0, isCyclic), holding({track(1, 10, 40, 98)}, 0.5, 2.0, isCyclic)));
+            const Analysis a = holding({track(1, 10, 40, 1)}, 0.5, 2.0, isCyclic), b = holding({track(1, 10, 40, 98)}, 0.5, 2.0, isCyclic);
+            return words(compareAnalyses(a, b));
         };
         QCOMPARE(around(true), QStringList{"A1=B1"});
         QCOMPARE(around(false), (QStringList{"A1", "B1"}));

@@ -1,0 +1,111 @@
+#include "app/MainWindow.h"
+#include "app/Workbench.h"
+
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+
+using namespace faintline;
+
+/// What a changed detector makes of the visible part is seen before everything else is known.
+class tst_Provisional : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+
+    QString scene()
+    {
+        QFile file(m_folder.filePath("scene.json"));
+        if (file.open(QIODevice::WriteOnly))
+            file.write(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 120, "lines": [{"snrDb": 5, "frequencyHz": 90}]})");
+        return file.fileName();
+    }
+
+private slots:
+    void seenAtOnceAndReplaced()
+    {
+        MainWindow window;
+        window.setAsking(false);
+        window.resize(1200, 800);
+        window.show();
+        QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+        window.open(scene(), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
+        QVERIFY(settled.wait(60000));
+        settled.clear();
+        const auto before = window.document().analysis();
+        window.document().viewport().zoomTo({30.0, 60.0}, {50.0, 150.0});
+
+        // In the order in which they come: the preview, with the threshold and events there were, then the analysis.
+        QStringList order;
+        std::shared_ptr<const PeakPyramid> shown;
+        QString title;
+        connect(&window.document(), &Document::provisionalChanged, this, [&] {
+            if (!window.document().provisional())
+                return;
+            order << "provisional";
+            shown = window.document().provisional();
+            title = window.workbench().output()->title().text();
+            QCOMPARE(window.workbench().output()->picture(), shown);
+            QCOMPARE(window.document().analysis(), before);
+            QCOMPARE(window.document().shownThreshold(), before->threshold);
+        });
+        connect(&window.document(), &Document::analysisChanged, this, [&] { order << "analysis"; });
+        window.controller().edit("model.snr", FieldValue(0.2718), "Change"); // never calibrated before
+        QVERIFY(settled.wait(60000));
+        QCOMPARE(order, (QStringList{"provisional", "analysis"}));
+        QVERIFY(title.contains("provisional"));
+        QVERIFY(shown->time().first >= 29.0 && shown->time().last() <= 61.0);
+        QVERIFY(!window.document().provisional());
+        QCOMPARE(window.workbench().output()->picture(), window.document().analysis()->statistic);
+        QVERIFY(!window.workbench().output()->title().text().contains("provisional"));
+        QVERIFY(window.document().isCurrent());
+    }
+
+    void lookingFartherDropsIt()
+    {
+        MainWindow window;
+        window.setAsking(false);
+        window.show();
+        QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+        window.open(scene(), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
+        QVERIFY(settled.wait(60000));
+        settled.clear();
+        window.document().viewport().zoomTo({30.0, 60.0}, {50.0, 150.0});
+        bool wasThere = false;
+        connect(&window.document(), &Document::provisionalChanged, this, [&] {
+            if (!window.document().provisional())
+                return;
+            wasThere = true;
+            window.document().viewport().showAll();
+            QVERIFY(!window.document().provisional());
+            QCOMPARE(window.workbench().output()->picture(), window.document().analysis()->statistic);
+        });
+        window.controller().edit("model.snr", FieldValue(0.2718), "Change");
+        QVERIFY(settled.wait(60000));
+        QVERIFY(wasThere);
+        QVERIFY(window.document().isCurrent());
+    }
+
+    void stoppedItGoesBack()
+    {
+        MainWindow window;
+        window.setAsking(false);
+        window.show();
+        QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+        window.open(scene(), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
+        QVERIFY(settled.wait(60000));
+        settled.clear();
+        connect(&window.document(), &Document::provisionalChanged, this, [&] {
+            if (window.document().provisional())
+                window.controller().stop();
+        });
+        window.controller().edit("model.snr", FieldValue(0.1618), "Change");
+        QVERIFY(settled.wait(60000));
+        QVERIFY(!window.document().provisional());
+        QCOMPARE(window.workbench().output()->picture(), window.document().analysis()->statistic);
+    }
+};
+
+QTEST_MAIN(tst_Provisional)
+#include "tst_Provisional.moc"
