@@ -1,6 +1,7 @@
 // Every lesson is gone through as a learner would: what a step says is checked where it says it, the task is open before the learner's
 // act, which is done by mouse and keys, and done after it.
 
+#include "app/CommandPalette.h"
 #include "app/LessonGuide.h"
 #include "app/LessonPanel.h"
 #include "app/MainWindow.h"
@@ -8,6 +9,7 @@
 #include "app/PointerFrame.h"
 #include "app/ScanTestForm.h"
 #include "app/SequentialPanel.h"
+#include "app/WelcomePage.h"
 #include "app/Workbench.h"
 #include "app/lessonMeasures.h"
 #include "widgets/PingMap.h"
@@ -17,8 +19,10 @@
 #include <QButtonGroup>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMap>
+#include <QMenuBar>
 #include <QPushButton>
 #include <QTest>
 
@@ -49,7 +53,8 @@ void clickOnBrightest(MainWindow &window)
     const Axis &hz = view.frequencyAxis();
     for (Index t = time.nearest(box.time.low) + 1; t < time.nearest(box.time.high); ++t)
         for (Index f = hz.nearest(box.frequency.low) + 1; f < hz.nearest(box.frequency.high); ++f)
-            if (const auto value = view.valueAt(time.value(static_cast<double>(t)), hz.value(static_cast<double>(f))); value && *value > level) {
+            if (const auto value = view.valueAt(time.value(static_cast<double>(t)), hz.value(static_cast<double>(f)));
+                value && *value > level) {
                 level = *value;
                 best = {time.value(static_cast<double>(t)), hz.value(static_cast<double>(f))};
             }
@@ -78,7 +83,9 @@ void enter(QWidget *editor, const QString &value)
 
 Act setting(const char *name, const char *value)
 {
-    return [=](MainWindow &window) { enter(window.findChild<SettingsForm *>()->editor(QString::fromLatin1(name)), QString::fromLatin1(value)); };
+    return [=](MainWindow &window) {
+        enter(window.findChild<SettingsForm *>()->editor(QString::fromLatin1(name)), QString::fromLatin1(value));
+    };
 }
 
 void clickOnBlueWalk(MainWindow &window)
@@ -86,7 +93,8 @@ void clickOnBlueWalk(MainWindow &window)
     const auto &walks = window.sequentialTests().walks();
     WalkPlot &plot = window.sequential().walk();
     for (int i = 0; i < static_cast<int>(walks.size()); ++i)
-        if (const auto &[run, result] = walks[static_cast<std::size_t>(i)]; !run.hasTarget && window.sequentialTests().selected() != i) {
+        if (const auto &[run, result] = walks[static_cast<std::size_t>(i)];
+            !run.hasTarget && window.sequentialTests().selected() != i) {
             QTest::mouseClick(plot.canvas(), Qt::LeftButton, {}, plot.position(i, result.stages).toPoint());
             if (walks[static_cast<std::size_t>(window.sequentialTests().selected())].first.hasTarget == false)
                 return;
@@ -152,6 +160,8 @@ private slots:
     void everyLessonIsTrueAndCanBeDone();
     void backGoesBackAndUndoUndoes();
     void openingSomethingElseLeaves();
+    void presentedItIsLargerAndStays();
+    void menuPaletteAndWelcomePageOfferThem();
 };
 
 void tst_Lessons::mistakesAreNamed_data()
@@ -159,11 +169,14 @@ void tst_Lessons::mistakesAreNamed_data()
     QTest::addColumn<QByteArray>("json");
     QTest::addColumn<QByteArray>("about");
     const auto step = [](const char *rest) {
-        return QByteArray(R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d", "open": "e.json")") + rest + "}]}";
+        return QByteArray(R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d", "open": "e.json")")
+               + rest + "}]}";
     };
     QTest::newRow("no JSON") << QByteArray("{") << QByteArray("JSON");
     QTest::newRow("no steps") << QByteArray(R"({"title": "a", "sentence": "b"})") << QByteArray("steps");
-    QTest::newRow("nothing opened") << QByteArray(R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d"}]})") << QByteArray("steps[0].open");
+    QTest::newRow("nothing opened") << QByteArray(
+        R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d"}]})")
+                                    << QByteArray("steps[0].open");
     QTest::newRow("key") << step(R"(, "moon": 1)") << QByteArray("steps[0].moon");
     QTest::newRow("setting") << step(R"(, "settings": {"smd.moon": 1})") << QByteArray("smd.moon");
     QTest::newRow("value") << step(R"(, "settings": {"model.snr": -3})") << QByteArray("model.snr");
@@ -171,7 +184,8 @@ void tst_Lessons::mistakesAreNamed_data()
     QTest::newRow("bounds") << step(R"(, "facts": {"events": [3, 1]})") << QByteArray("facts.events");
     QTest::newRow("widget") << step(R"(, "point": "moon")") << QByteArray("moon");
     QTest::newRow("task without end") << step(R"(, "do": "something")") << QByteArray("until");
-    QTest::newRow("answer") << step(R"(, "ask": {"question": "?", "choices": ["1", "2"], "answer": 2, "why": "!"})") << QByteArray("answer");
+    QTest::newRow("answer") << step(R"(, "ask": {"question": "?", "choices": ["1", "2"], "answer": 2, "why": "!"})")
+                            << QByteArray("answer");
 }
 
 void tst_Lessons::mistakesAreNamed()
@@ -210,7 +224,9 @@ void tst_Lessons::everyLessonIsTrueAndCanBeDone()
     for (int i = 0; i < static_cast<int>(lesson.steps.size()); ++i) {
         const LessonStep &step = lesson.steps[static_cast<std::size_t>(i)];
         const QByteArray where = QStringLiteral("%1, step %2: ").arg(name).arg(i + 1).toUtf8();
-        const auto fails = [&](const LessonCondition &condition) { return where.toStdString() + failure(*window, condition); };
+        const auto fails = [&](const LessonCondition &condition) {
+            return where.toStdString() + failure(*window, condition);
+        };
         QTRY_VERIFY2_WITH_TIMEOUT(guide.isReady(), where, patience);
         QCOMPARE(guide.step(), i);
         QVERIFY2(panel.isVisible() && panel.text().contains(step.text), where);
@@ -292,6 +308,63 @@ void tst_Lessons::openingSomethingElseLeaves()
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
     window->showWelcome();
     QVERIFY(!guide.isRunning() && !guide.dock()->isVisible());
+}
+
+void tst_Lessons::presentedItIsLargerAndStays()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    window->open(":/lessons/cell.json");
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    const auto size = [&] {
+        int largest = 0;
+        for (const QLabel *label : guide.panel().findChildren<QLabel *>())
+            largest = std::max(largest, label->font().pixelSize());
+        return largest;
+    };
+    const int plain = size();
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QVERIFY(!window->menuBar()->isVisible());
+    QVERIFY(guide.panel().isVisible());
+    QVERIFY(size() > plain);
+    guide.goTo(1);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QVERIFY(size() > plain);
+    guide.leave();
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QTRY_VERIFY(!guide.dock()->isVisible()); // though it was there when the presentation began
+    QVERIFY(window->menuBar()->isVisible());
+}
+
+void tst_Lessons::menuPaletteAndWelcomePageOfferThem()
+{
+    const auto window = newWindow();
+    const QString title = lessons()[1].title;
+    QAction *action = nullptr;
+    for (QAction *each : window->findChildren<QAction *>())
+        if (each->text() == title)
+            action = each;
+    QVERIFY(action);
+    action->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(window->lessonGuide().isReady(), patience);
+    QCOMPARE(window->lessonGuide().lesson().title, title);
+
+    window->showWelcome();
+    QPushButton *link = nullptr;
+    for (QPushButton *each : window->welcome().findChildren<QPushButton *>())
+        if (each->text().contains(lessons()[2].title))
+            link = each;
+    QVERIFY(link && link->isVisible());
+    QTest::mouseClick(link, Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(window->lessonGuide().isReady(), patience);
+    QCOMPARE(window->lessonGuide().lesson().title, lessons()[2].title);
+
+    auto *palette = window->findChild<CommandPalette *>();
+    QTest::keyClick(window.get(), Qt::Key_K, Qt::ControlModifier);
+    QTest::keyClicks(palette->line(), lessons()[0].title);
+    QTest::keyClick(palette->line(), Qt::Key_Return);
+    QTRY_VERIFY_WITH_TIMEOUT(window->lessonGuide().isReady(), patience);
+    QCOMPARE(window->lessonGuide().lesson().title, lessons()[0].title);
 }
 
 QTEST_MAIN(tst_Lessons)
