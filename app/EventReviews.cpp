@@ -31,7 +31,7 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
     m_addBox = add(tr("Add annotation of the &box…"), Qt::Key_B, tr("Names the measured box (M)"), &EventReviews::askForLabel);
     m_actions << nullptr;
     add(tr("&Import annotations…"), {}, tr("Raven selection tables, Audacity labels, SigMF, CSV, JSON"), &EventReviews::askForImport);
-    add(tr("E&xport events and annotations…"), QKeySequence(Qt::CTRL | Qt::Key_E), tr("CSV, JSON, Raven, Audacity, SigMF"), &EventReviews::askForExport);
+    add(tr("E&xport events and annotations…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E), tr("CSV, JSON, Raven, Audacity, SigMF"), &EventReviews::askForExport);
 
     for (QAction *action : m_eventActions)
         m_table.table()->addAction(action);

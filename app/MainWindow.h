@@ -130,6 +130,7 @@ private:
     void buildStatusBar();
     void buildMenus();
     void buildFileMenu();
+    void nameWhatHolds();
     void buildEditMenu();
     void buildViewMenu();
     void addLayerMenu(QMenu &menu);

@@ -39,11 +39,26 @@ void MainWindow::buildMenus()
     buildEvaluateMenu();
     buildReproduceMenu();
     buildHelpMenu();
+    nameWhatHolds();
     // A hidden menu's shortcuts do nothing; the window's do, and a presentation has no menu.
     for (const QAction *menu : menuBar()->actions())
         for (QAction *action : menu->menu()->actions())
             if (action != m_playAction)
                 addAction(action);
+}
+
+/// What only holds other widgets and can have the focus is called as the panel it is in.
+void MainWindow::nameWhatHolds()
+{
+    for (QWidget *widget : findChildren<QWidget *>()) {
+        const bool isHolder = widget->inherits("QScrollArea") || widget->inherits("QTabWidget");
+        if (!isHolder || !widget->accessibleName().isEmpty())
+            continue;
+        QWidget *panel = widget->parentWidget();
+        while (panel && panel->windowTitle().isEmpty() && panel != this)
+            panel = panel->parentWidget();
+        widget->setAccessibleName(panel && panel != this ? panel->windowTitle() : tr("Welcome"));
+    }
 }
 
 void MainWindow::buildFileMenu()
@@ -210,7 +225,7 @@ void MainWindow::buildReviewMenu()
 
 void MainWindow::buildEvaluateMenu()
 {
-    QMenu *menu = menuBar()->addMenu(tr("E&valuate"));
+    QMenu *menu = menuBar()->addMenu(tr("Eva&luate"));
     addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
     addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E), [this] { showSweep(); });

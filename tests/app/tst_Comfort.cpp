@@ -45,6 +45,13 @@ bool isInner(const QWidget *widget)
            || widget->inherits("QComboBoxListView") || widget->inherits("QComboBoxPrivateContainer");
 }
 
+/// A row of tabs speaks through its tabs; a hidden message has nothing to say yet, nor has a sheet whose panel shows no equation.
+bool isSilent(const QWidget *widget)
+{
+    const bool isEmptyText = widget->inherits("QLabel") || widget->inherits("QToolButton") || widget->objectName() == QLatin1String("equationSheet");
+    return widget->inherits("QTabBar") || (isEmptyText && !widget->isVisible());
+}
+
 QString describe(const QWidget *widget)
 {
     QStringList way;
@@ -58,7 +65,7 @@ QStringList nameless(QWidget &root)
 {
     QStringList result;
     for (QWidget *widget : root.findChildren<QWidget *>())
-        if (widget->focusPolicy() != Qt::NoFocus && !isInner(widget) && spokenName(widget).isEmpty())
+        if (widget->focusPolicy() != Qt::NoFocus && !isInner(widget) && !isSilent(widget) && spokenName(widget).isEmpty())
             result << describe(widget);
     result.removeDuplicates();
     return result;
