@@ -1,6 +1,8 @@
 #include "app/MainWindow.h"
 #include "app/Workbench.h"
 
+#include <qwt_text.h>
+
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTest>
