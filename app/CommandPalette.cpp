@@ -1,6 +1,7 @@
 #include "app/CommandPalette.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QEvent>
 #include <QKeyEvent>
 #include <QLineEdit>
@@ -47,6 +48,7 @@ CommandPalette::CommandPalette(QWidget *window) : QFrame(window), m_line(new QLi
 
 void CommandPalette::open(const QList<QAction *> &commands)
 {
+    m_previousFocus = QApplication::focusWidget();
     m_commands.clear();
     collect(commands, {});
     setGeometry((parentWidget()->width() - paletteWidth) / 2, parentWidget()->height() / 8, paletteWidth, paletteHeight);
@@ -113,8 +115,13 @@ void CommandPalette::carryOut()
         return;
     QAction *action = m_commands[item->data(Qt::UserRole).toLongLong()].action;
     hide();
-    parentWidget()->setFocus();
+    giveFocusBack();
     action->trigger();
+}
+
+void CommandPalette::giveFocusBack()
+{
+    (m_previousFocus ? m_previousFocus.data() : parentWidget())->setFocus();
 }
 
 bool CommandPalette::eventFilter(QObject *watched, QEvent *event)
@@ -128,7 +135,7 @@ bool CommandPalette::eventFilter(QObject *watched, QEvent *event)
     const int key = static_cast<QKeyEvent *>(event)->key();
     if (key == Qt::Key_Escape) {
         hide();
-        parentWidget()->setFocus();
+        giveFocusBack();
         return true;
     }
     if (key == Qt::Key_Down || key == Qt::Key_Up) {

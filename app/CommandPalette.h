@@ -2,6 +2,7 @@
 
 #include <QFrame>
 #include <QList>
+#include <QPointer>
 
 class QAction;
 class QLineEdit;
@@ -43,6 +44,9 @@ private:
     QLineEdit *m_line;
     QListWidget *m_list;
     QList<Command> m_commands;
+    QPointer<QWidget> m_previousFocus; ///< where a command is carried out
+
+    void giveFocusBack();
 };
 
 } // namespace faintline

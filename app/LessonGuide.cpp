@@ -37,6 +37,11 @@ LessonGuide::LessonGuide(MainWindow &window)
     m_dock->setWidget(m_panel);
     m_dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable); // one leaves a lesson by its button
     m_dock->hide();
+    // Layouts are restored from when a lesson was running.
+    connect(m_dock, &QDockWidget::visibilityChanged, this, [this](bool isVisible) {
+        if (isVisible && !isRunning())
+            QMetaObject::invokeMethod(m_dock, &QWidget::hide, Qt::QueuedConnection);
+    });
     m_watch.setInterval(watchMs);
     connect(&m_watch, &QTimer::timeout, this, &LessonGuide::check);
     connect(m_panel, &LessonPanel::backRequested, this, [this] { goTo(m_step - 1); });

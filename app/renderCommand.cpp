@@ -176,8 +176,11 @@ namespace {
     void goThroughLesson(MainWindow &window, const RenderOptions &options)
     {
         const Lesson lesson = readLesson(QString::fromStdString(options.source));
-        if (const auto count = std::ssize(lesson.steps); options.step < 1 || options.step > count)
-            throw Error("--step " + std::to_string(options.step), "must lie in 1 … " + std::to_string(count) + " of this lesson");
+        const int step = options.step.value_or(1);
+        if (!options.settings.empty() || !options.preset.empty())
+            throw Error("--set", "does not go with a lesson, which has settings of its own");
+        if (const auto count = std::ssize(lesson.steps); step < 1 || step > count)
+            throw Error("--step " + std::to_string(step), "must lie in 1 … " + std::to_string(count) + " of this lesson");
         QEventLoop loop;
         std::optional<Error> failure;
         QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) {
@@ -185,7 +188,7 @@ namespace {
             loop.quit();
         });
         QObject::connect(&window.lessonGuide(), &LessonGuide::ready, &loop, &QEventLoop::quit);
-        window.lessonGuide().start(lesson, options.step - 1);
+        window.lessonGuide().start(lesson, step - 1);
         loop.exec();
         if (failure)
             throw *failure;
@@ -384,6 +387,8 @@ void render(const RenderOptions &options)
     window.show();
     if (isLesson(QString::fromStdString(options.source))) {
         goThroughLesson(window, options);
+    } else if (options.step) {
+        throw Error("--step " + std::to_string(*options.step), "is of a lesson; " + options.source + " is none");
     } else if (isScanScenario(QString::fromStdString(options.source))) {
         checkViewsOfScans(options.views);
         testScans(window, options);

@@ -31,7 +31,7 @@ struct RenderOptions {
     std::vector<std::string> settingsA; ///< of "compare": those of A alone
     OpenOptions opening;
     std::optional<int> channel;
-    int step = 1;              ///< of a lesson
+    std::optional<int> step;   ///< of a lesson, counted from 1
 };
 
 /// Opens the source (a lesson: at a step) in a window nobody sees, waits until it has settled, and writes the pictures: the same bytes from

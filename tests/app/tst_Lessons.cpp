@@ -1,6 +1,7 @@
 // Every lesson is gone through as a learner would: what a step says is checked where it says it, the task is open before the learner's
 // act, which is done by mouse and keys, and done after it.
 
+#include "app/CommandPalette.h"
 #include "app/LessonGuide.h"
 #include "app/LessonPanel.h"
 #include "app/MainWindow.h"
@@ -8,6 +9,7 @@
 #include "app/PointerFrame.h"
 #include "app/ScanTestForm.h"
 #include "app/SequentialPanel.h"
+#include "app/WelcomePage.h"
 #include "app/Workbench.h"
 #include "app/lessonMeasures.h"
 #include "widgets/PingMap.h"
@@ -17,8 +19,10 @@
 #include <QButtonGroup>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMap>
+#include <QMenuBar>
 #include <QPushButton>
 #include <QTest>
 
@@ -152,6 +156,8 @@ private slots:
     void everyLessonIsTrueAndCanBeDone();
     void backGoesBackAndUndoUndoes();
     void openingSomethingElseLeaves();
+    void presentedItIsLargerAndStays();
+    void menuPaletteAndWelcomePageOfferThem();
 };
 
 void tst_Lessons::mistakesAreNamed_data()
@@ -292,6 +298,63 @@ void tst_Lessons::openingSomethingElseLeaves()
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
     window->showWelcome();
     QVERIFY(!guide.isRunning() && !guide.dock()->isVisible());
+}
+
+void tst_Lessons::presentedItIsLargerAndStays()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    window->open(":/lessons/cell.json");
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    const auto size = [&] {
+        int largest = 0;
+        for (const QLabel *label : guide.panel().findChildren<QLabel *>())
+            largest = std::max(largest, label->font().pixelSize());
+        return largest;
+    };
+    const int plain = size();
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QVERIFY(!window->menuBar()->isVisible());
+    QVERIFY(guide.panel().isVisible());
+    QVERIFY(size() > plain);
+    guide.goTo(1);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QVERIFY(size() > plain);
+    guide.leave();
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    QTRY_VERIFY(!guide.dock()->isVisible()); // though it was there when the presentation began
+    QVERIFY(window->menuBar()->isVisible());
+}
+
+void tst_Lessons::menuPaletteAndWelcomePageOfferThem()
+{
+    const auto window = newWindow();
+    const QString title = lessons()[1].title;
+    QAction *action = nullptr;
+    for (QAction *each : window->findChildren<QAction *>())
+        if (each->text() == title)
+            action = each;
+    QVERIFY(action);
+    action->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(window->lessonGuide().isReady(), patience);
+    QCOMPARE(window->lessonGuide().lesson().title, title);
+
+    window->showWelcome();
+    QPushButton *link = nullptr;
+    for (QPushButton *each : window->welcome().findChildren<QPushButton *>())
+        if (each->text().contains(lessons()[2].title))
+            link = each;
+    QVERIFY(link && link->isVisible());
+    QTest::mouseClick(link, Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(window->lessonGuide().isReady(), patience);
+    QCOMPARE(window->lessonGuide().lesson().title, lessons()[2].title);
+
+    auto *palette = window->findChild<CommandPalette *>();
+    QTest::keyClick(window.get(), Qt::Key_K, Qt::ControlModifier);
+    QTest::keyClicks(palette->line(), lessons()[0].title);
+    QTest::keyClick(palette->line(), Qt::Key_Return);
+    QTRY_VERIFY_WITH_TIMEOUT(window->lessonGuide().isReady(), patience);
+    QCOMPARE(window->lessonGuide().lesson().title, lessons()[0].title);
 }
 
 QTEST_MAIN(tst_Lessons)

@@ -146,6 +146,16 @@ private slots:
         QVERIFY(bytesOf(path("p-map.png")) != bytesOf(path("p-polar.png")));
     }
 
+    void aStepOfALesson()
+    {
+        const QString lesson = QStringLiteral(FAINTLINE_SOURCE_DIR "/resources/lessons/cell.json");
+        for (const QString &name : {QString("s"), QString("t")})
+            QCOMPARE(run({"render", lesson, "--step", "3", "--size", "1280x800", "--out", path(name + ".png")}).error, QByteArray());
+        QCOMPARE(run({"render", lesson, "--step", "2", "--size", "1280x800", "--out", path("u.png")}).error, QByteArray());
+        QVERIFY(bytesOf(path("s.png")) == bytesOf(path("t.png")));
+        QVERIFY(bytesOf(path("s.png")) != bytesOf(path("u.png")));
+    }
+
     void mistakesAreOneLineAndTwo_data()
     {
         QTest::addColumn<QStringList>("arguments");
@@ -169,6 +179,10 @@ private slots:
         QTest::newRow("waterfall of scans") << QStringList{"render", scans, "--out", out, "--view", "input"} << "input";
         QTest::newRow("setting of scans") << QStringList{"render", scans, "--out", out, "--set", "moon=1"} << "moon";
         QTest::newRow("range of scans") << QStringList{"render", scans, "--out", out, "--set", "sprt.miss=7"} << "sprt.miss";
+        const QString lesson = QStringLiteral(FAINTLINE_SOURCE_DIR "/resources/lessons/cell.json");
+        QTest::newRow("step") << QStringList{"render", lesson, "--out", out, "--step", "99"} << "--step";
+        QTest::newRow("step of a scene") << QStringList{"render", scene, "--out", out, "--step", "1"} << "--step";
+        QTest::newRow("setting of a lesson") << QStringList{"render", lesson, "--out", out, "--set", "model.snr=1"} << "--set";
         QTest::newRow("option") << QStringList{"render", scene, "--out", out, "--moon"} << "--moon";
         QTest::newRow("folder") << QStringList{"render", scene,     "--out", path("no/such/folder.png"),
                                                "--size", "1200x700"}
