@@ -363,6 +363,8 @@ void StripPlot::updateOrdinate(Side side)
         const double room = std::max(0.1 * span.width(), 0.05 * std::max(std::abs(span.middle()), 0.1));
         span = {span.low - room, span.high + room};
     }
+    if (side == Side::Left) // its name has room on one side of it
+        m_level->setLabelAlignment(Qt::AlignLeft | (m_levelValue > span.low + 0.7 * span.width() ? Qt::AlignBottom : Qt::AlignTop));
     setAxisScaleDiv(axisOf(side), linearScaleDiv(span, std::clamp(canvas()->contentsRect().height() / 26, 2, 8)));
 }
 
