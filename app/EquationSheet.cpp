@@ -30,8 +30,8 @@ namespace {
 } // namespace
 
 EquationSheet::EquationSheet(QWidget *window)
-    : QFrame(window), m_title(words(Theme::boldFont(14))), m_equation(words(Theme::font(16))), m_symbols(words(Theme::font())),
-      m_source(words(Theme::font(12)))
+    : QFrame(window), m_title(words(Theme::boldFont(14))), m_equation(words(Theme::font(16))),
+      m_symbols(words(Theme::font())), m_source(words(Theme::font(12)))
 {
     setObjectName(QStringLiteral("equationSheet"));
     setFrameShape(QFrame::StyledPanel);
@@ -71,7 +71,8 @@ void EquationSheet::toggle(const Equation *equation, QWidget *view)
     setAccessibleDescription(equation->equation);
     adjustSize();
     const QPoint corner = view->mapTo(parentWidget(), QPoint(margin, margin));
-    move(std::clamp(corner.x(), 0, std::max(0, parentWidget()->width() - width())), std::clamp(corner.y(), 0, std::max(0, parentWidget()->height() - height())));
+    move(std::clamp(corner.x(), 0, std::max(0, parentWidget()->width() - width())),
+         std::clamp(corner.y(), 0, std::max(0, parentWidget()->height() - height())));
     if (!isVisible())
         m_previousFocus = QApplication::focusWidget();
     show();
@@ -81,7 +82,8 @@ void EquationSheet::toggle(const Equation *equation, QWidget *view)
 
 QString EquationSheet::text() const
 {
-    return QStringList{m_title->text(), m_equation->text(), m_symbols->text(), m_source->text()}.join(QLatin1Char('\n'));
+    return QStringList{m_title->text(), m_equation->text(), m_symbols->text(), m_source->text()}.join(
+        QLatin1Char('\n'));
 }
 
 void EquationSheet::close()

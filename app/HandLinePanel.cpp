@@ -58,19 +58,21 @@ namespace {
 
     QString snrText(const PathEvidence &evidence)
     {
-        return evidence.snr() > 0.0 ? HandLinePanel::tr("%1 dB").arg(numberText(dbFromRatio(evidence.snr()), 1)) : HandLinePanel::tr("none");
+        return evidence.snr() > 0.0 ? HandLinePanel::tr("%1 dB").arg(numberText(dbFromRatio(evidence.snr()), 1))
+                                    : HandLinePanel::tr("none");
     }
 
 } // namespace
 
 HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *parent)
     : QWidget(parent), m_document(document), m_workbench(workbench), m_line(new HandLine(*workbench.input())),
-      m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))), m_add(new QPushButton(tr("Point at c&ursor"))),
-      m_remove(new QPushButton(tr("&Take one back"))), m_clear(new QPushButton(tr("&Clear"))), m_sentence(new QLabel),
-      m_table(new QTableWidget(3, 3))
+      m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))),
+      m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("&Take one back"))),
+      m_clear(new QPushButton(tr("&Clear"))), m_sentence(new QLabel), m_table(new QTableWidget(3, 3))
 {
     m_draw->setCheckable(true);
-    m_draw->setToolTip(tr("Press into the input picture to make a point, drag points, take them away with the right button"));
+    m_draw->setToolTip(
+        tr("Press into the input picture to make a point, drag points, take them away with the right button"));
     m_cover->setCheckable(true);
     m_cover->setToolTip(tr("Predict, then reveal: statistic, tracks and truth are hidden until you uncover them"));
     m_add->setToolTip(tr("The keyboard's way to draw: move the cursor with the arrows, and press this"));
@@ -78,7 +80,8 @@ HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *
     m_sentence->setTextFormat(Qt::PlainText);
     m_table->setHorizontalHeaderLabels({tr("Frames"), tr("Σ λ (nat)"), tr("SNR")});
     m_table->horizontalHeaderItem(1)->setToolTip(tr("Evidence: the sum of the log-likelihood ratios along the path"));
-    m_table->horizontalHeaderItem(2)->setToolTip(tr("In one frame: mean power along the path over the noise's, less one"));
+    m_table->horizontalHeaderItem(2)->setToolTip(
+        tr("In one frame: mean power along the path over the noise's, less one"));
     m_table->setVerticalHeaderLabels({tr("You, all of it"), tr("You, where both are"), tr("The detector there")});
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
     m_table->verticalHeader()->setDefaultSectionSize(22);
@@ -127,7 +130,8 @@ QString HandLinePanel::sentence() const
     return m_sentence->text();
 }
 
-HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const std::vector<PolylinePoint> &line, const RunContext &context)
+HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const std::vector<PolylinePoint> &line,
+                                                 const RunContext &context)
 {
     Comparison result;
     const std::vector<PathCell> own = cellsAlong(analysis, line);
@@ -153,7 +157,7 @@ HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const
         };
         // Of tracks side by side the nearer one; a long one beats a scrap.
         const bool isBetter = mine.size() > 2 * ownThere.size()
-            || (2 * mine.size() > ownThere.size() && apart(mine, theirs) < apart(ownThere, detector));
+                              || (2 * mine.size() > ownThere.size() && apart(mine, theirs) < apart(ownThere, detector));
         if (mine.empty() || !isBetter)
             continue;
         result.track = track.id;
@@ -192,7 +196,8 @@ void HandLinePanel::show(const Comparison &comparison)
     const PathEvidence *rows[] = {&comparison.own, &comparison.ownThere, &comparison.detector};
     for (int row = 0; row < 3; ++row) {
         const bool isShown = row == 0 || (comparison.track && !isCovered());
-        const QString texts[] = {QString::number(rows[row]->frames), numberText(rows[row]->logLikelihoodRatio, 1), snrText(*rows[row])};
+        const QString texts[] = {QString::number(rows[row]->frames), numberText(rows[row]->logLikelihoodRatio, 1),
+                                 snrText(*rows[row])};
         for (int column = 0; column < 3; ++column) {
             auto *item = new QTableWidgetItem(isShown ? texts[column] : QString());
             item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -205,24 +210,29 @@ void HandLinePanel::show(const Comparison &comparison)
 void HandLinePanel::showSentence()
 {
     if (!m_comparison) {
-        m_sentence->setText(m_document.hasPings() ? tr("Lines are drawn through recordings, not through pings.")
-                                                  : tr("Press Draw and drag a line through the input, where you think a signal is. Cover the statistic "
-                                                       "first, and it is a prediction."));
+        m_sentence->setText(
+            m_document.hasPings()
+                ? tr("Lines are drawn through recordings, not through pings.")
+                : tr("Press Draw and drag a line through the input, where you think a signal is. Cover the statistic "
+                     "first, and it is a prediction."));
         return;
     }
     const Comparison &both = *m_comparison;
     if (isCovered())
-        return m_sentence->setText(tr("Your line gathers %1 nat in %2 frames. Reveal shows what the detector made of it.")
-                                       .arg(numberText(both.own.logLikelihoodRatio, 1))
-                                       .arg(both.own.frames));
+        return m_sentence->setText(
+            tr("Your line gathers %1 nat in %2 frames. Reveal shows what the detector made of it.")
+                .arg(numberText(both.own.logLikelihoodRatio, 1))
+                .arg(both.own.frames));
     if (!both.track)
         return m_sentence->setText(tr("The detector has no track in these frames."));
     const double ahead = both.ownThere.logLikelihoodRatio - both.detector.logLikelihoodRatio;
-    m_sentence->setText(tr("In the %1 frames that you share with track %2 you are %3 nat %4, and %5 away from it on average. The detector's "
+    m_sentence->setText(tr("In the %1 frames that you share with track %2 you are %3 nat %4, and %5 away from it on "
+                           "average. The detector's "
                            "statistic has ln P and ln K of every step besides its Σ λ.")
                             .arg(both.frames)
                             .arg(both.track)
-                            .arg(numberText(std::abs(ahead), 1), ahead > 0.0 ? tr("ahead of it") : tr("behind it"), hertzText(both.meanHz, 0.1)));
+                            .arg(numberText(std::abs(ahead), 1), ahead > 0.0 ? tr("ahead of it") : tr("behind it"),
+                                 hertzText(both.meanHz, 0.1)));
 }
 
 void HandLinePanel::setCovered(bool isCovered)
@@ -235,7 +245,8 @@ void HandLinePanel::setCovered(bool isCovered)
     for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer})
         input.setLayer(layer, !isCovered);
     if (isCovered) {
-        m_covers[0] = new Cover(m_workbench.outputPane(), tr("Where is the line? Draw it through the input, then reveal."));
+        m_covers[0] =
+            new Cover(m_workbench.outputPane(), tr("Where is the line? Draw it through the input, then reveal."));
         m_covers[1] = new Cover(m_workbench.statisticPlot(), {});
         m_draw->setChecked(true);
     }

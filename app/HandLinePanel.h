@@ -33,7 +33,7 @@ public:
         Index frames = 0;      ///< they have in common
         PathEvidence ownThere; ///< the line in them
         PathEvidence detector;
-        double meanHz = 0.0;   ///< how far apart they are on average
+        double meanHz = 0.0; ///< how far apart they are on average
     };
 
     HandLinePanel(Document &document, Workbench &workbench, QWidget *parent = nullptr);
@@ -49,7 +49,8 @@ public:
     QString sentence() const;
 
     /// Throws Cancelled.
-    static Comparison compare(const Analysis &analysis, const std::vector<PolylinePoint> &line, const RunContext &context = {});
+    static Comparison compare(const Analysis &analysis, const std::vector<PolylinePoint> &line,
+                              const RunContext &context = {});
 
     QSize sizeHint() const override { return {320, 300}; }
 

@@ -109,8 +109,10 @@ namespace {
         if (name.isEmpty() || others.contains(name) || MainWindow::viewNames().contains(name))
             return;
         if (!name.startsWith(QLatin1String("setting ")))
-            throw Error(where + " = " + name.toStdString(), "is no view; there are " + (others + MainWindow::viewNames()).join(QStringLiteral(", ")).toStdString()
-                                                                + " and \"setting NAME\"");
+            throw Error(where + " = " + name.toStdString(),
+                        "is no view; there are "
+                            + (others + MainWindow::viewNames()).join(QStringLiteral(", ")).toStdString()
+                            + " and \"setting NAME\"");
         settingField(name.mid(8).toStdString());
     }
 
@@ -154,7 +156,8 @@ namespace {
     void readView(const Json &object, LessonStep &step, const std::string &where)
     {
         if (const Json *show = find(object, "show")) {
-            if (!show->is_array() || !std::all_of(show->begin(), show->end(), [](const Json &one) { return one.is_string(); }))
+            if (!show->is_array()
+                || !std::all_of(show->begin(), show->end(), [](const Json &one) { return one.is_string(); }))
                 throw Error(jsonName(where, "show"), "must be a list of views");
             for (const Json &view : *show) {
                 step.show << QString::fromStdString(view.get<std::string>());
@@ -183,7 +186,8 @@ namespace {
     LessonStep stepOf(const Json &object, const std::string &where, const QDir &folder)
     {
         checkKeys(object, where,
-                  {"title", "text", "open", "preset", "settings", "show", "zoom", "cursor", "point", "facts", "ask", "do", "until", "then", "thenFacts"});
+                  {"title", "text", "open", "preset", "settings", "show", "zoom", "cursor", "point", "facts", "ask",
+                   "do", "until", "then", "thenFacts"});
         LessonStep step;
         step.title = sentenceAt(object, "title", where, true);
         step.text = sentenceAt(object, "text", where, true);

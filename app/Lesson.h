@@ -40,20 +40,21 @@ struct LessonStep {
     QString title;
     QString text;
 
-    QString open;   ///< scenario or recording; empty: what the step before had
+    QString open; ///< scenario or recording; empty: what the step before had
     std::string preset;
-    std::vector<std::pair<std::string, FieldValue>> settings; ///< on top of those of the steps since something was opened
-    QStringList show;         ///< views brought to the front
+    std::vector<std::pair<std::string, FieldValue>>
+        settings;     ///< on top of those of the steps since something was opened
+    QStringList show; ///< views brought to the front
     std::optional<Span> zoomSeconds, zoomHz;
     bool showsAll = false;
     std::optional<double> cursorSeconds, cursorHz, cursorRange, cursorBearing;
-    QString point;            ///< what is framed: a view, or "setting NAME"
-    LessonCondition facts;    ///< hold once the window has settled
+    QString point;         ///< what is framed: a view, or "setting NAME"
+    LessonCondition facts; ///< hold once the window has settled
 
     std::optional<LessonQuestion> question;
-    QString task;             ///< what the learner is asked to do
-    LessonCondition until;    ///< when that is done
-    QString then;             ///< said about what is to be seen then
+    QString task;          ///< what the learner is asked to do
+    LessonCondition until; ///< when that is done
+    QString then;          ///< said about what is to be seen then
     LessonCondition thenFacts;
 };
 

@@ -27,6 +27,17 @@ namespace {
     /// Words a shown lesson's panel has room for, as a share of the window.
     constexpr int panelPercent = 22;
 
+    AnalysisSettings settingsAfter(const std::vector<LessonStep> &steps, AnalysisSettings settings)
+    {
+        for (const LessonStep &step : steps) {
+            if (!step.preset.empty())
+                settings = preset(step.preset).settings;
+            for (const auto &[name, value] : step.settings)
+                settingField(name).set(settings, value);
+        }
+        return settings;
+    }
+
 } // namespace
 
 LessonGuide::LessonGuide(MainWindow &window)
@@ -35,7 +46,8 @@ LessonGuide::LessonGuide(MainWindow &window)
 {
     m_dock->setObjectName(QStringLiteral("lessonDock"));
     m_dock->setWidget(m_panel);
-    m_dock->setFeatures(QDockWidget::DockWidgetMovable | QDockWidget::DockWidgetFloatable); // one leaves a lesson by its button
+    m_dock->setFeatures(QDockWidget::DockWidgetMovable
+                        | QDockWidget::DockWidgetFloatable); // one leaves a lesson by its button
     m_dock->hide();
     // Layouts are restored from when a lesson was running.
     connect(m_dock, &QDockWidget::visibilityChanged, this, [this](bool isVisible) {
@@ -82,17 +94,10 @@ int LessonGuide::openingStep() const
     return opening;
 }
 
-AnalysisSettings LessonGuide::settingsNow(const AnalysisSettings &first) const
+/// Those since something was opened, up to the present one.
+std::vector<LessonStep> LessonGuide::stepsNow() const
 {
-    AnalysisSettings settings = first;
-    for (int i = openingStep(); i <= m_step; ++i) {
-        const LessonStep &step = m_lesson.steps[static_cast<std::size_t>(i)];
-        if (!step.preset.empty())
-            settings = preset(step.preset).settings;
-        for (const auto &[name, value] : step.settings)
-            settingField(name).set(settings, value);
-    }
-    return settings;
+    return {m_lesson.steps.begin() + openingStep(), m_lesson.steps.begin() + m_step + 1};
 }
 
 /// Opens and sets what the step needs; `check` notices when the window has settled.
@@ -106,12 +111,12 @@ void LessonGuide::set()
     } else if (m_opened != path || document.source().path != path) {
         if (!m_opened.isEmpty())
             document.undoStack().setClean(); // what a lesson changed is nothing to save
-        m_window.open(path, {}, [this](AnalysisSettings &settings) { settings = settingsNow(settings); });
+        m_window.open(path, {}, [steps = stepsNow()](AnalysisSettings &settings) { settings = settingsAfter(steps, settings); });
         m_opened = path;
         if (!m_window.controller().isBusy()) // the user would rather keep what is open, or it cannot be opened
             leave();
     } else {
-        document.edit(settingsNow(firstSettings(document.openedSource())), tr("Lesson: %1").arg(now().title));
+        document.edit(settingsAfter(stepsNow(), firstSettings(document.openedSource())), tr("Lesson: %1").arg(now().title));
     }
 }
 
@@ -123,7 +128,8 @@ void LessonGuide::setScans(const QString &path)
         if (m_window.sequentialTests().isEmpty() || m_window.sequentialTests().test() != test)
             m_window.openScans(test);
     } catch (const Error &error) {
-        m_window.messages().showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()), QString::fromStdString(error.why()));
+        m_window.messages().showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()),
+                                        QString::fromStdString(error.why()));
         leave();
     }
 }
@@ -164,7 +170,8 @@ void LessonGuide::arrange()
     if (step.showsAll)
         viewport.showAll();
     else if (step.zoomSeconds || step.zoomHz)
-        viewport.zoomTo(step.zoomSeconds.value_or(viewport.full().time), step.zoomHz.value_or(viewport.full().frequency));
+        viewport.zoomTo(step.zoomSeconds.value_or(viewport.full().time),
+                        step.zoomHz.value_or(viewport.full().frequency));
     if (m_window.document().hasPings()) {
         PingViewports::Place place = m_window.pingBench().viewports().place();
         place.seconds = step.cursorSeconds.value_or(place.seconds);

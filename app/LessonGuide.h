@@ -50,7 +50,7 @@ signals:
 private:
     const LessonStep &now() const { return m_lesson.steps[static_cast<std::size_t>(m_step)]; }
     int openingStep() const; ///< the one whose recording is looked at
-    AnalysisSettings settingsNow(const AnalysisSettings &first) const;
+    std::vector<LessonStep> stepsNow() const;
     void set();
     void setScans(const QString &path);
     void arrange();

@@ -174,7 +174,9 @@ int LessonPanel::choice() const
 void LessonPanel::showAnswer(int chosen)
 {
     const LessonQuestion &question = *m_lesson.steps[static_cast<std::size_t>(m_step)].question;
-    m_why->setText((chosen == question.answer ? tr("Right. ") : tr("It is “%1”. ").arg(question.choices[question.answer])) + question.why);
+    m_why->setText(
+        (chosen == question.answer ? tr("Right. ") : tr("It is “%1”. ").arg(question.choices[question.answer]))
+        + question.why);
     m_why->show();
     QTimer::singleShot(0, m_why, [this] { m_area->ensureWidgetVisible(m_why); });
 }
@@ -203,7 +205,8 @@ void LessonPanel::showState()
         for (QAbstractButton *button : m_choices->buttons()) {
             QPalette palette = this->palette();
             if (palette.color(QPalette::Window).lightness() < 128)
-                palette.setColor(QPalette::Base, colours.frame.lighter(170)); // dark on dark, nobody would see where to click
+                palette.setColor(QPalette::Base,
+                                 colours.frame.lighter(170)); // dark on dark, nobody would see where to click
             button->setPalette(palette);
         }
     if (m_task) {

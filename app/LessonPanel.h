@@ -24,7 +24,7 @@ public:
     explicit LessonPanel(QWidget *parent = nullptr);
 
     void setStep(const Lesson &lesson, int step);
-    void setDone(bool isDone); ///< the task
+    void setDone(bool isDone);       ///< the task
     void setWaiting(bool isWaiting); ///< the window is not there yet
     /// For those who sit farther away.
     void setLarge(bool isLarge);

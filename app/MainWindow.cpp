@@ -315,7 +315,8 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
     connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
-    connect(m_welcome->lessonList(), &LessonList::chosen, this, [this](int lesson) { m_lessons->start(lessons()[static_cast<std::size_t>(lesson)]); });
+    connect(m_welcome->lessonList(), &LessonList::chosen, this,
+            [this](int lesson) { m_lessons->start(lessons()[static_cast<std::size_t>(lesson)]); });
     connect(m_presentAction, &QAction::toggled, &m_lessons->panel(), &LessonPanel::setLarge);
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
 

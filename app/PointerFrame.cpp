@@ -34,7 +34,8 @@ void PointerFrame::pointAt(QWidget *target)
 
 void PointerFrame::follow()
 {
-    const bool isThere = m_target && m_target->window() == window() && m_target->isVisible() && !m_target->visibleRegion().isEmpty();
+    const bool isThere =
+        m_target && m_target->window() == window() && m_target->isVisible() && !m_target->visibleRegion().isEmpty();
     setVisible(isThere);
     if (!isThere)
         return;

@@ -32,7 +32,8 @@ QString currentView(MainWindow &window)
 {
     if (const QString focused = nameOf(window, window.focusWidget()); !focused.isEmpty())
         return focused;
-    if (const QString pointed = nameOf(window, window.childAt(window.mapFromGlobal(QCursor::pos()))); !pointed.isEmpty())
+    if (const QString pointed = nameOf(window, window.childAt(window.mapFromGlobal(QCursor::pos())));
+        !pointed.isEmpty())
         return pointed;
     if (window.welcome().isVisible())
         return {};

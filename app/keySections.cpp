@@ -16,7 +16,10 @@ namespace {
         std::vector<Entry> entries;
     };
 
-    QString tr(const char *text) { return QApplication::translate("keySections", text); }
+    QString tr(const char *text)
+    {
+        return QApplication::translate("keySections", text);
+    }
 
     KeySection spoken(const Section &section)
     {
@@ -124,7 +127,9 @@ namespace {
                {"S", "state space under the cursor, and its law"}}}},
             {{"threshold"},
              {"Here: the threshold curve",
-              {{"Drag anywhere", "move the threshold"}, {",  .", "threshold down, up by a quarter nat"}, {"Right button", "nats, Pfa per cell, false alarms/h"}}}},
+              {{"Drag anywhere", "move the threshold"},
+               {",  .", "threshold down, up by a quarter nat"},
+               {"Right button", "nats, Pfa per cell, false alarms/h"}}}},
             {{"events"},
              {"Here: the table of events",
               {{"N   Shift + N", "next, previous event"},
@@ -141,16 +146,33 @@ namespace {
                {"Boxes of the key", "show and hide curves"}}}},
             {{"slice"}, waterfall("Here: a slice through the states")},
             {{"sweep"},
-             {"Here: a sweep", {{"Left  Right", "from value to value"}, {"Up  Down", "from curve to curve"}, {"Click, Enter", "on a value: take it over"}}}},
-            {{"compare"}, {"Here: A against B", {{"Ctrl + B", "keep as A"}, {"Ctrl + Shift + B", "swap A and B"}, {"Click on an event", "go there"}}}},
+             {"Here: a sweep",
+              {{"Left  Right", "from value to value"},
+               {"Up  Down", "from curve to curve"},
+               {"Click, Enter", "on a value: take it over"}}}},
+            {{"compare"},
+             {"Here: A against B",
+              {{"Ctrl + B", "keep as A"}, {"Ctrl + Shift + B", "swap A and B"}, {"Click on an event", "go there"}}}},
             {{"walk", "sequential"},
              {"Here: the sequential test",
-              {{"Click on a walk", "follow this test"}, {"Up  Down", "the test before, after it"}, {"J  L", "one stage back, forward"}, {"Ctrl + T", "this panel"}}}},
-            {{"stopping"}, {"Here: when tests stop", {{"Click on a bar", "a test that stopped at this stage"}, {"J  L", "one stage back, forward"}}}},
-            {{"posterior", "scan"}, {"Here: one test's stage", {{"J  L", "one stage back, forward"}, {"The slider", "any stage"}}}},
+              {{"Click on a walk", "follow this test"},
+               {"Up  Down", "the test before, after it"},
+               {"J  L", "one stage back, forward"},
+               {"Ctrl + T", "this panel"}}}},
+            {{"stopping"},
+             {"Here: when tests stop",
+              {{"Click on a bar", "a test that stopped at this stage"}, {"J  L", "one stage back, forward"}}}},
+            {{"posterior", "scan"},
+             {"Here: one test's stage", {{"J  L", "one stage back, forward"}, {"The slider", "any stage"}}}},
             {{"profile", "regulation"},
-             {"Here: a chart along time", {{"Wheel", "scroll time"}, {"Ctrl + wheel", "zoom in time"}, {"Drag", "pan"}, {"Click", "place the cursor"}}}},
-            {{"why"}, {"Here: the ladder", {{"Click in a picture", "explain the cell there"}, {"Arrows in a picture", "and of its neighbours"}}}},
+             {"Here: a chart along time",
+              {{"Wheel", "scroll time"},
+               {"Ctrl + wheel", "zoom in time"},
+               {"Drag", "pan"},
+               {"Click", "place the cursor"}}}},
+            {{"why"},
+             {"Here: the ladder",
+              {{"Click in a picture", "explain the cell there"}, {"Arrows in a picture", "and of its neighbours"}}}},
             {{"hand"},
              {"Here: drawing by hand",
               {{"Press in the input", "a new point"},
@@ -163,7 +185,8 @@ namespace {
 
     bool saysAllOfAWaterfall(const QString &view)
     {
-        return view == QLatin1String("input") || view == QLatin1String("output") || view == QLatin1String("histories") || view == QLatin1String("slice");
+        return view == QLatin1String("input") || view == QLatin1String("output") || view == QLatin1String("histories")
+               || view == QLatin1String("slice");
     }
 
 } // namespace

@@ -36,7 +36,8 @@ namespace {
     {
         return [f](MainWindow &window) -> Value {
             const auto &cursor = window.document().viewport().cursor();
-            return cursor && window.document().analysis() && !window.document().hasPings() ? Value(f(window, *cursor)) : std::nullopt;
+            return cursor && window.document().analysis() && !window.document().hasPings() ? Value(f(window, *cursor))
+                                                                                           : std::nullopt;
         };
     }
 
@@ -50,13 +51,15 @@ namespace {
 
     double mean(const std::vector<float> &values)
     {
-        return values.empty() ? 0.0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+        return values.empty() ? 0.0
+                              : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     }
 
     double windowSeconds(const Analysis &analysis)
     {
         const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get());
-        return frames ? frames->spectrogram().windowSamples() / analysis.recording->info().sampleRateHz : analysis.time().step;
+        return frames ? frames->spectrogram().windowSamples() / analysis.recording->info().sampleRateHz
+                      : analysis.time().step;
     }
 
     double shareAboveTwice(const Analysis &analysis)
@@ -68,7 +71,8 @@ namespace {
         std::size_t above = 0;
         for (Index i = 0; i < count; ++i) {
             analysis.frames->read(i * analysis.time().count / count, 1, y);
-            above += static_cast<std::size_t>(std::count_if(y.begin(), y.end(), [](float value) { return value > 2.0f; }));
+            above +=
+                static_cast<std::size_t>(std::count_if(y.begin(), y.end(), [](float value) { return value > 2.0f; }));
         }
         return static_cast<double>(above) / static_cast<double>(cells * static_cast<std::size_t>(count));
     }
@@ -132,7 +136,8 @@ namespace {
         for (const Track &track : document.shownTracks()) {
             int together = 0;
             for (const TrackPoint &point : track.points)
-                if (const auto cell = truthCell(document, line, point.frame); cell && isNear(analysis.grid(), *cell, point.cell)) {
+                if (const auto cell = truthCell(document, line, point.frame);
+                    cell && isNear(analysis.grid(), *cell, point.cell)) {
                     isFollowed[static_cast<std::size_t>(point.frame)] = true;
                     ++together;
                 }
@@ -144,7 +149,9 @@ namespace {
             result.seconds = std::min(seconds, result.seconds.value_or(seconds));
         }
         const auto there = std::count(isThere.begin(), isThere.end(), true);
-        result.share = there ? static_cast<double>(std::count(isFollowed.begin(), isFollowed.end(), true)) / static_cast<double>(there) : 0.0;
+        result.share = there ? static_cast<double>(std::count(isFollowed.begin(), isFollowed.end(), true))
+                                   / static_cast<double>(there)
+                             : 0.0;
         return result;
     }
 
@@ -216,7 +223,8 @@ namespace {
     const std::map<std::string, Measure> &measures()
     {
         static const std::map<std::string, Measure> table{
-            {"cursor.seconds", [](MainWindow &window) -> Value {
+            {"cursor.seconds",
+             [](MainWindow &window) -> Value {
                  if (window.document().hasPings())
                      return window.pingBench().viewports().place().seconds;
                  const auto &cursor = window.document().viewport().cursor();
@@ -231,38 +239,49 @@ namespace {
             {"statistic", ofCursor([](MainWindow &window, const Viewport::Point &at) {
                  return window.workbench().output()->valueAt(at.seconds, at.hz).value_or(-1e9);
              })},
-            {"visible.seconds", [](MainWindow &window) -> Value { return window.document().viewport().time().width(); }},
-            {"visible.hz", [](MainWindow &window) -> Value { return window.document().viewport().frequency().width(); }},
+            {"visible.seconds",
+             [](MainWindow &window) -> Value { return window.document().viewport().time().width(); }},
+            {"visible.hz",
+             [](MainWindow &window) -> Value { return window.document().viewport().frequency().width(); }},
             {"frameSeconds", ofAnalysis([](const Analysis &analysis) { return analysis.time().step; })},
             {"binHz", ofAnalysis([](const Analysis &analysis) { return analysis.grid().axes.front().step; })},
             {"windowSeconds", ofAnalysis(windowSeconds)},
             {"aboveTwice", ofAnalysis(shareAboveTwice)},
             {"threshold", [](MainWindow &window) -> Value { return window.document().shownThreshold(); }},
-            {"events", [](MainWindow &window) -> Value { return static_cast<double>(window.document().shownEvents().size()); }},
+            {"events",
+             [](MainWindow &window) -> Value { return static_cast<double>(window.document().shownEvents().size()); }},
             {"peak", [](MainWindow &window) -> Value { return peak(window, window.document()); }},
-            {"resetFraction", ofAnalysis([](const Analysis &analysis) { return 1.0 - mean(analysis.continuedFraction); })},
+            {"resetFraction",
+             ofAnalysis([](const Analysis &analysis) { return 1.0 - mean(analysis.continuedFraction); })},
             {"lnK", ofAnalysis([](const Analysis &analysis) { return mean(analysis.lnK); })},
             {"walks.noise", meanStages(false)},
             {"walks.target", meanStages(true)},
             {"walks.wrong", wrongWalks},
-            {"walks.fixed", [](MainWindow &window) -> Value {
+            {"walks.fixed",
+             [](MainWindow &window) -> Value {
                  const auto size = window.sequentialTests().fixedSize();
                  return size ? Value(static_cast<double>(*size)) : std::nullopt;
              }},
-            {"survey.saved", [](MainWindow &window) -> Value {
+            {"survey.saved",
+             [](MainWindow &window) -> Value {
                  const auto &survey = window.sequentialTests().survey();
                  return survey ? Value(survey->saving()) : std::nullopt;
              }},
             {"why.lnP", lnTransitionOfPath},
             {"falseAlarmsPerHour", ofAnalysis([](const Analysis &analysis) {
-                 return analysis.calibration ? analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour : 0.0;
+                 return analysis.calibration
+                            ? analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour
+                            : 0.0;
              })},
-            {"walks.selected", [](MainWindow &window) -> Value {
+            {"walks.selected",
+             [](MainWindow &window) -> Value {
                  const auto *walk = selectedWalk(window);
                  return walk ? Value(std::string(walk->first.hasTarget ? "target" : "noise")) : std::nullopt;
              }},
-            {"walks.stage", [](MainWindow &window) -> Value { return static_cast<double>(window.sequentialTests().stage()); }},
-            {"walks.stages", [](MainWindow &window) -> Value {
+            {"walks.stage",
+             [](MainWindow &window) -> Value { return static_cast<double>(window.sequentialTests().stage()); }},
+            {"walks.stages",
+             [](MainWindow &window) -> Value {
                  const auto *walk = selectedWalk(window);
                  return walk ? Value(static_cast<double>(walk->second.stages)) : std::nullopt;
              }},
@@ -270,12 +289,16 @@ namespace {
         return table;
     }
 
-    bool begins(const std::string &name, const char *prefix) { return name.rfind(prefix, 0) == 0; }
+    bool begins(const std::string &name, const char *prefix)
+    {
+        return name.rfind(prefix, 0) == 0;
+    }
 
     const Field<ScanTest> *testField(const std::string &name)
     {
         const auto &fields = ScanTest::fields();
-        const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto &field) { return "test." + field.name == name; });
+        const auto found =
+            std::find_if(fields.begin(), fields.end(), [&](const auto &field) { return "test." + field.name == name; });
         return found == fields.end() ? nullptr : &*found;
     }
 
@@ -322,7 +345,8 @@ Value lessonMeasure(MainWindow &window, const std::string &name)
 
 void checkMeasure(const std::string &name, const std::string &where)
 {
-    const bool isView = begins(name, "view.") && MainWindow::viewNames().contains(QString::fromStdString(name.substr(5)));
+    const bool isView =
+        begins(name, "view.") && MainWindow::viewNames().contains(QString::fromStdString(name.substr(5)));
     if (isView || measures().contains(name) || isLineMeasure(name) || testField(name))
         return;
     try {
@@ -334,7 +358,8 @@ void checkMeasure(const std::string &name, const std::string &where)
 
 bool holds(MainWindow &window, const LessonCondition &condition)
 {
-    return std::all_of(condition.parts.begin(), condition.parts.end(), [&](const auto &part) { return holds(window, part); });
+    return std::all_of(condition.parts.begin(), condition.parts.end(),
+                       [&](const auto &part) { return holds(window, part); });
 }
 
 std::string failure(MainWindow &window, const LessonCondition &condition)

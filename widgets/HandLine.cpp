@@ -88,7 +88,8 @@ void HandLine::removeLast()
 /// A vertex at a time there is one of already takes its place.
 int HandLine::insert(const Viewport::Point &point)
 {
-    const auto at = std::lower_bound(m_points.begin(), m_points.end(), point, [](const auto &a, const auto &b) { return a.seconds < b.seconds; });
+    const auto at = std::lower_bound(m_points.begin(), m_points.end(), point,
+                                     [](const auto &a, const auto &b) { return a.seconds < b.seconds; });
     const auto place = at - m_points.begin();
     if (at != m_points.end() && at->seconds == point.seconds)
         *at = point;

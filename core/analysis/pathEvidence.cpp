@@ -15,9 +15,11 @@ PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> p
     double power = 0.0;
     for (const PathCell &at : path) {
         if (at.frame < 0 || at.frame >= analysis.time().count || at.cell < 0 || at.cell >= cells)
-            throw Error("path at frame " + std::to_string(at.frame) + ", cell " + std::to_string(at.cell), "lies outside of the picture");
+            throw Error("path at frame " + std::to_string(at.frame) + ", cell " + std::to_string(at.cell),
+                        "lies outside of the picture");
         if (evidence.frames % 64 == 0)
-            context.checkpoint(static_cast<double>(evidence.frames) / static_cast<double>(path.size()), "going along a path");
+            context.checkpoint(static_cast<double>(evidence.frames) / static_cast<double>(path.size()),
+                               "going along a path");
         analysis.frames->read(at.frame, 1, y);
         const auto value = static_cast<double>(y[static_cast<std::size_t>(at.cell)]);
         evidence.logLikelihoodRatio += analysis.model.likelihood.at(value);
@@ -40,7 +42,8 @@ std::vector<PathCell> cellsAlong(const Analysis &analysis, std::span<const Polyl
     auto next = line.begin();
     for (Index frame = std::max<Index>(0, static_cast<Index>(std::ceil(time.position(line.front().seconds) - 0.5)));
          frame <= std::min(last, time.count - 1); ++frame) {
-        const double seconds = std::clamp(time.value(static_cast<double>(frame)), line.front().seconds, line.back().seconds);
+        const double seconds =
+            std::clamp(time.value(static_cast<double>(frame)), line.front().seconds, line.back().seconds);
         while (next != line.end() && next->seconds < seconds)
             ++next;
         double hz = next->hz;
@@ -48,7 +51,8 @@ std::vector<PathCell> cellsAlong(const Analysis &analysis, std::span<const Polyl
             const PolylinePoint &before = *(next - 1);
             hz = before.hz + (next->hz - before.hz) * (seconds - before.seconds) / (next->seconds - before.seconds);
         }
-        if (const auto cell = static_cast<Index>(std::lround(frequency.position(hz))); cell >= 0 && cell < frequency.count)
+        if (const auto cell = static_cast<Index>(std::lround(frequency.position(hz)));
+            cell >= 0 && cell < frequency.count)
             path.push_back({frame, cell});
     }
     return path;

@@ -17,7 +17,8 @@ class tst_pathEvidence : public QObject
     static Analysis small()
     {
         Analysis analysis;
-        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 3}, Grid{{Axis{"frequency", "Hz", 100.0, 10.0, 4}}},
+        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 3},
+                                                       Grid{{Axis{"frequency", "Hz", 100.0, 10.0, 4}}},
                                                        std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
         return analysis;
     }
@@ -48,7 +49,8 @@ private slots:
         using Line = std::vector<PolylinePoint>;
         QCOMPARE(cellsAlong(analysis, Line{}), Path{});
         QCOMPARE(cellsAlong(analysis, (Line{{0.0, 100.0}, {2.0, 120.0}})), (Path{{0, 0}, {1, 1}, {2, 2}}));
-        QCOMPARE(cellsAlong(analysis, (Line{{0.0, 100.0}, {1.0, 130.0}, {2.0, 100.0}})), (Path{{0, 0}, {1, 3}, {2, 0}}));
+        QCOMPARE(cellsAlong(analysis, (Line{{0.0, 100.0}, {1.0, 130.0}, {2.0, 100.0}})),
+                 (Path{{0, 0}, {1, 3}, {2, 0}}));
         QCOMPARE(cellsAlong(analysis, (Line{{0.8, 110.0}})), (Path{{1, 1}}));
         QCOMPARE(cellsAlong(analysis, (Line{{-5.0, 110.0}, {9.0, 110.0}})), (Path{{0, 1}, {1, 1}, {2, 1}}));
         QCOMPARE(cellsAlong(analysis, (Line{{0.0, 100.0}, {2.0, 200.0}})), (Path{{0, 0}})); // the rest is off the axis
@@ -80,7 +82,8 @@ private slots:
         const PathEvidence evidence = evidenceAlong(*analysis, path);
         QCOMPARE(evidence.frames, Index(std::ssize(path)));
         // The steps' λ are in single precision.
-        QVERIFY(std::abs(evidence.logLikelihoodRatio - sum) < 1e-6 * static_cast<double>(path.size()) * std::max(1.0, std::abs(sum)));
+        QVERIFY(std::abs(evidence.logLikelihoodRatio - sum)
+                < 1e-6 * static_cast<double>(path.size()) * std::max(1.0, std::abs(sum)));
     }
 };
 

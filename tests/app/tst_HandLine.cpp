@@ -119,7 +119,8 @@ void tst_HandLine::theDetectorsPathDrawnByHandHasItsEvidence()
     const Track &track = analysis.tracks.front();
     std::vector<Viewport::Point> points;
     for (const TrackPoint &point : track.points)
-        points.push_back({analysis.time().value(static_cast<double>(point.frame)), analysis.grid().axes.back().value(static_cast<double>(point.cell))});
+        points.push_back({analysis.time().value(static_cast<double>(point.frame)),
+                          analysis.grid().axes.back().value(static_cast<double>(point.cell))});
     panel().line().setPoints(points);
     QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
     const auto &comparison = *panel().comparison();

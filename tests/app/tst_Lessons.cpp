@@ -53,7 +53,8 @@ void clickOnBrightest(MainWindow &window)
     const Axis &hz = view.frequencyAxis();
     for (Index t = time.nearest(box.time.low) + 1; t < time.nearest(box.time.high); ++t)
         for (Index f = hz.nearest(box.frequency.low) + 1; f < hz.nearest(box.frequency.high); ++f)
-            if (const auto value = view.valueAt(time.value(static_cast<double>(t)), hz.value(static_cast<double>(f))); value && *value > level) {
+            if (const auto value = view.valueAt(time.value(static_cast<double>(t)), hz.value(static_cast<double>(f)));
+                value && *value > level) {
                 level = *value;
                 best = {time.value(static_cast<double>(t)), hz.value(static_cast<double>(f))};
             }
@@ -82,7 +83,9 @@ void enter(QWidget *editor, const QString &value)
 
 Act setting(const char *name, const char *value)
 {
-    return [=](MainWindow &window) { enter(window.findChild<SettingsForm *>()->editor(QString::fromLatin1(name)), QString::fromLatin1(value)); };
+    return [=](MainWindow &window) {
+        enter(window.findChild<SettingsForm *>()->editor(QString::fromLatin1(name)), QString::fromLatin1(value));
+    };
 }
 
 void clickOnBlueWalk(MainWindow &window)
@@ -90,7 +93,8 @@ void clickOnBlueWalk(MainWindow &window)
     const auto &walks = window.sequentialTests().walks();
     WalkPlot &plot = window.sequential().walk();
     for (int i = 0; i < static_cast<int>(walks.size()); ++i)
-        if (const auto &[run, result] = walks[static_cast<std::size_t>(i)]; !run.hasTarget && window.sequentialTests().selected() != i) {
+        if (const auto &[run, result] = walks[static_cast<std::size_t>(i)];
+            !run.hasTarget && window.sequentialTests().selected() != i) {
             QTest::mouseClick(plot.canvas(), Qt::LeftButton, {}, plot.position(i, result.stages).toPoint());
             if (walks[static_cast<std::size_t>(window.sequentialTests().selected())].first.hasTarget == false)
                 return;
@@ -165,11 +169,14 @@ void tst_Lessons::mistakesAreNamed_data()
     QTest::addColumn<QByteArray>("json");
     QTest::addColumn<QByteArray>("about");
     const auto step = [](const char *rest) {
-        return QByteArray(R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d", "open": "e.json")") + rest + "}]}";
+        return QByteArray(R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d", "open": "e.json")")
+               + rest + "}]}";
     };
     QTest::newRow("no JSON") << QByteArray("{") << QByteArray("JSON");
     QTest::newRow("no steps") << QByteArray(R"({"title": "a", "sentence": "b"})") << QByteArray("steps");
-    QTest::newRow("nothing opened") << QByteArray(R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d"}]})") << QByteArray("steps[0].open");
+    QTest::newRow("nothing opened") << QByteArray(
+        R"({"title": "a", "sentence": "b", "steps": [{"title": "c", "text": "d"}]})")
+                                    << QByteArray("steps[0].open");
     QTest::newRow("key") << step(R"(, "moon": 1)") << QByteArray("steps[0].moon");
     QTest::newRow("setting") << step(R"(, "settings": {"smd.moon": 1})") << QByteArray("smd.moon");
     QTest::newRow("value") << step(R"(, "settings": {"model.snr": -3})") << QByteArray("model.snr");
@@ -177,7 +184,8 @@ void tst_Lessons::mistakesAreNamed_data()
     QTest::newRow("bounds") << step(R"(, "facts": {"events": [3, 1]})") << QByteArray("facts.events");
     QTest::newRow("widget") << step(R"(, "point": "moon")") << QByteArray("moon");
     QTest::newRow("task without end") << step(R"(, "do": "something")") << QByteArray("until");
-    QTest::newRow("answer") << step(R"(, "ask": {"question": "?", "choices": ["1", "2"], "answer": 2, "why": "!"})") << QByteArray("answer");
+    QTest::newRow("answer") << step(R"(, "ask": {"question": "?", "choices": ["1", "2"], "answer": 2, "why": "!"})")
+                            << QByteArray("answer");
 }
 
 void tst_Lessons::mistakesAreNamed()
@@ -216,7 +224,9 @@ void tst_Lessons::everyLessonIsTrueAndCanBeDone()
     for (int i = 0; i < static_cast<int>(lesson.steps.size()); ++i) {
         const LessonStep &step = lesson.steps[static_cast<std::size_t>(i)];
         const QByteArray where = QStringLiteral("%1, step %2: ").arg(name).arg(i + 1).toUtf8();
-        const auto fails = [&](const LessonCondition &condition) { return where.toStdString() + failure(*window, condition); };
+        const auto fails = [&](const LessonCondition &condition) {
+            return where.toStdString() + failure(*window, condition);
+        };
         QTRY_VERIFY2_WITH_TIMEOUT(guide.isReady(), where, patience);
         QCOMPARE(guide.step(), i);
         QVERIFY2(panel.isVisible() && panel.text().contains(step.text), where);

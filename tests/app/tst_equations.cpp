@@ -41,7 +41,8 @@ void tst_equations::everyViewHasOne()
             continue;
         const Equation *equation = equationOf(view);
         QVERIFY2(equation, qPrintable(view));
-        QVERIFY(!equation->title.isEmpty() && !equation->equation.isEmpty() && !equation->symbols.isEmpty() && !equation->source.isEmpty());
+        QVERIFY(!equation->title.isEmpty() && !equation->equation.isEmpty() && !equation->symbols.isEmpty()
+                && !equation->source.isEmpty());
     }
     for (const std::string_view detector : detectorNames)
         QVERIFY2(equationOf("output", QString::fromLatin1(detector.data())), detector.data());
@@ -51,7 +52,8 @@ void tst_equations::everyViewHasOne()
 
 void tst_equations::everyViewHasItsKeys()
 {
-    for (const char *view : {"input", "output", "map", "threshold", "events", "pd", "slice", "walk", "histories", "hand"}) {
+    for (const char *view :
+         {"input", "output", "map", "threshold", "events", "pd", "slice", "walk", "histories", "hand"}) {
         const KeySection section = keysOfView(view);
         QVERIFY2(section.entries.size() >= 3, view);
         QVERIFY(section.title.startsWith("Here"));
