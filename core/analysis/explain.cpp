@@ -189,8 +189,13 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     explanation.model = path.model;
     explanation.offset = offsetOf(detailed, *chain, path.model);
     findOther(explanation, detailed, *chain, frame, cell);
+    // The box of a track that starts in this frame keeps data from the detector from the next one on.
+    const auto isNew = [&](int track) {
+        return std::any_of(chain->trackers().begin(), chain->trackers().end(),
+                           [track](const HmmTracker &tracker) { return tracker.track().id == track && tracker.age() == 1; });
+    };
     for (const DetectionChain::Inhibition &inhibition : chain->inhibitions())
-        if (inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))
+        if (!isNew(inhibition.track) && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))
             explanation.inhibitedFor = inhibition.track;
     if (path.isTracked) {
         // Before its tracker was seeded, the path is the detector's own.
