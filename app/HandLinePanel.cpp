@@ -94,9 +94,9 @@ HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *
     auto *buttons = new QGridLayout;
     buttons->addWidget(m_draw, 0, 0);
     buttons->addWidget(m_cover, 0, 1);
-    buttons->addWidget(m_clear, 0, 2);
-    buttons->addWidget(m_add, 1, 0, 1, 2);
-    buttons->addWidget(m_remove, 1, 2);
+    buttons->addWidget(m_add, 1, 0);
+    buttons->addWidget(m_remove, 1, 1);
+    buttons->addWidget(m_clear, 2, 0);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(8, 6, 8, 6);
     layout->addLayout(buttons);

@@ -228,7 +228,7 @@ void MainWindow::buildEvaluateMenu()
     QMenu *menu = menuBar()->addMenu(tr("Eva&luate"));
     addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
-    addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E), [this] { showSweep(); });
+    addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P), [this] { showSweep(); });
     addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
     addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showLatency(); });
     menu->addSeparator();

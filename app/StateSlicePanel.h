@@ -45,6 +45,8 @@ public:
     bool isMaximised() const;
 
     QSize sizeHint() const override { return {420, 420}; }
+    /// Of picture or law, one behind the other: what stands beside what follows from the room, and must not keep it.
+    QSize minimumSizeHint() const override { return {220, 200}; }
 
 signals:
     /// The law of a rate's change was dragged to another shape.

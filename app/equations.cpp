@@ -82,7 +82,7 @@ const std::vector<Equation> &equations()
              "the share is over all states that are not kept from the detector",
              "Billon 2005, section 3; Parsons 2008, eq. 8 and 10"),
         make("threshold", "False alarms against the threshold",
-             "P(D > T) of a cell of noise, simulated;  far out  ∝ e^(−θT)\n"
+             "P(D > T) of a cell of noise, simulated;  far out  ~ e^(−θT)\n"
              "false alarms an hour = rate(T) · cells · frames an hour\n"
              "ln rate(T) = ln rate(u) − θ·(T − u)",
              "rate  events a cell and frame from the whole chain on simulated noise\n"

@@ -21,7 +21,7 @@ public:
         std::optional<double> levelDb; ///< over the noise's mean
         std::optional<double> statisticNats;
         std::optional<double> slopeHzPerSecond; ///< of the best path ending here
-        std::optional<double> ageSeconds;       ///< of that path, since its last reset
+        std::optional<double> ageSeconds{};     ///< of that path, since its last reset
     };
 
     explicit ReadOut(QWidget *parent = nullptr);

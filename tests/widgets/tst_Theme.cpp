@@ -172,7 +172,7 @@ public:
     {
         const auto picture = test::countingPicture(4, 30);
         const Axis hz = test::hzAxis(30);
-        const Viewport::Box box = WaterfallView::extents(*picture, hz);
+        const Viewport::Box box = WaterfallView::extents(picture->time(), hz);
         m_viewport.setExtents(box.time, box.frequency);
         m_viewport.setCursor({1.5, 120.0});
         auto *view = new WaterfallView("Statistic");
