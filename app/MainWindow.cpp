@@ -200,11 +200,11 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
     // The threshold above the events it decides about: one sees both while dragging.
     m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"), m_threshold, Place::RightTop);
-    m_panels->add(QStringLiteral("eventsDock"), tr("Events · tracks"), m_events, Place::RightBottom);
+    m_panels->add(QStringLiteral("eventsDock"), tr("Events"), m_events, Place::RightBottom);
     m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
-    m_panels->add(QStringLiteral("noiseDock"), tr("Noise · calibration"), m_info, Place::RightBottom);
+    m_panels->add(QStringLiteral("noiseDock"), tr("Noise"), m_info, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseFitDock"), tr("Noise fit"), m_noiseFit, Place::RightBottom);
-    m_panels->add(QStringLiteral("statesDock"), tr("State space"), m_states, Place::RightBottom);
+    m_panels->add(QStringLiteral("statesDock"), tr("States"), m_states, Place::RightBottom);
     m_panels->add(QStringLiteral("handDock"), tr("By hand"), m_handLine, Place::RightBottom);
     m_handLine->parentWidget()->hide(); // until it is asked for
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);

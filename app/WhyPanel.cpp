@@ -202,8 +202,10 @@ void WhyPanel::resizeEvent(QResizeEvent *event)
 
 void WhyPanel::follow()
 {
-    if (isVisible())
-        m_pause->start();
+    if (!isVisible())
+        return;
+    m_runner.cancel(); // of the cell before: it would be taken for this one's
+    m_pause->start();
 }
 
 /// Why there is no ladder.

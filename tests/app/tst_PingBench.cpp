@@ -267,7 +267,7 @@ private slots:
         QTest::mouseRelease(plot.canvas(), Qt::LeftButton, {}, to);
         const double pixel = std::abs(plot.invTransform(QwtAxis::YLeft, 1.0) - plot.invTransform(QwtAxis::YLeft, 0.0));
         const std::vector<double> after = w->document().settings().model.slopeChange;
-        QVERIFY2(after.size() == 2 && std::abs(after[1] - (before[1] - 0.15)) < 1.5 * pixel, 
+        QVERIFY2(after.size() == 2 && std::abs(after[1] - (before[1] - 0.15)) < 1.5 * pixel,
                  qPrintable(QString("%1 of %2, a pixel %3").arg(after.back()).arg(after.size()).arg(pixel)));
         QTest::keyClick(w.get(), Qt::Key_Z, Qt::ControlModifier);
         QCOMPARE(w->document().settings().model.slopeChange, before);
