@@ -215,10 +215,10 @@ namespace {
                 for (Index plane = 1; plane < corridor.space.planeCount(); ++plane)
                     std::copy_n(scores.begin(), cells, scores.begin() + plane * cells);
             } else {
-                Continued continued;
                 FrameJoin join;
+                join.counting = Counting::Nothing;
                 join.lnK = static_cast<float>(record.lnK(frame));
-                recursion.advance(history.at(frame - 1), scores, {y, statistic, {&continued, 1}}, model.likelihood, join);
+                recursion.advance(history.at(frame - 1), scores, {y, statistic}, model.likelihood, join);
             }
             if (frame < last)
                 for (const CellBox &box : record.forgotten(frame))

@@ -21,14 +21,15 @@ namespace {
             to[i] = from[i] > to[i] ? from[i] : to[i];
     }
 
-    constexpr Index laneCount = 16;
-    using Lanes [[gnu::vector_size(laneCount * sizeof(float))]] = float;
+    constexpr Index mostLanes = 16;
 
     /// The mean and the smallest of each cell's P largest, from the window's rows, oldest first; `n` a multiple of the lanes. Only the
     /// shorter end of the order is sorted out: the P largest, or the N-P+1 smallest, whose last one is the P-th largest too.
-    FAINTLINE_MULTIVERSION
-    void largest(std::span<const float *const> rows, int p, Index n, float *means, float *smallest)
+    template <int bytes>
+    [[gnu::always_inline]] inline void largestBy(std::span<const float *const> rows, int p, Index n, float *means, float *smallest)
     {
+        using Lanes = typename Vector<float, bytes>::Type;
+        constexpr Index laneCount = Vector<float, bytes>::lanes;
         const int others = static_cast<int>(rows.size()) - p;
         const bool keepsLargest = p <= others + 1;
         const int ranks = keepsLargest ? p : others + 1;
@@ -58,6 +59,11 @@ namespace {
             std::memcpy(means + i, &mean, sizeof mean);
             std::memcpy(smallest + i, &rank[ranks - 1], sizeof mean);
         }
+    }
+
+    void largest(std::span<const float *const> rows, int p, Index n, float *means, float *smallest)
+    {
+        withVectors([&](auto bytes) __attribute__((always_inline)) { largestBy<bytes>(rows, p, n, means, smallest); });
     }
 
     FAINTLINE_MULTIVERSION
@@ -90,7 +96,7 @@ PofN::PofN(const Grid &grid, const PofNSettings &settings, double binsPerCell)
 {
     if (settings.p > settings.n)
         throw Error("pOfN.p = " + std::to_string(settings.p), "must not exceed pOfN.n = " + std::to_string(settings.n));
-    m_means.resize(static_cast<std::size_t>((grid.size() + laneCount - 1) / laneCount * laneCount));
+    m_means.resize(static_cast<std::size_t>((grid.size() + mostLanes - 1) / mostLanes * mostLanes));
     m_smallest.resize(m_means.size());
     m_maxima.assign(static_cast<std::size_t>(settings.n), std::vector<float>(m_means.size(), 0.0f));
 }

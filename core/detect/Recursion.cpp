@@ -17,9 +17,10 @@ namespace {
 
     constexpr Index tileCells = 1024;     ///< of each plane of a tile
     constexpr Index longTileCells = 2048; ///< the same where a single axis needs no second step
-    constexpr Index slantCells = 1024;
+    constexpr Index longestSlant = 4096;  ///< the same of a slanting tile: its halo should be small beside it …
+    constexpr Index shortestSlant = 512;
+    constexpr Index slantBytes = 7 << 16; ///< … and its two windows lie in the second-level cache
     constexpr Index vectorCells = 32;
-    constexpr Index largestWindow = 1 << 19; ///< bytes of the second-level cache
     constexpr Index manyFrames = 16;      ///< gone through at a time: then the memory has become as good as free
     constexpr std::size_t fewest = 4;     ///< rates whose maximum is worth sharing
     constexpr Index worthAThread = 1 << 19; ///< states × frames
@@ -148,9 +149,10 @@ Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
         prepareSlides();
     prepareTiles();
     preparePlaces(space, transitionScale);
-    const Index windowBytes = 2 * m_groups * (slantCells + 2 * m_reach) * static_cast<Index>(sizeof(Real));
+    const Index cellsOfWindow = slantBytes / (2 * m_groups * static_cast<Index>(sizeof(Real))) - 2 * m_reach;
+    m_slantCells = std::min(longestSlant, cellsOfWindow / vectorCells * vectorCells);
     m_isSlantable = space.axes().size() == 1 && !m_first.cyclic && m_slideRing == 0 && m_departures.empty() && m_matrices.empty()
-                    && windowBytes <= largestWindow;
+                    && m_slantCells >= shortestSlant;
 }
 
 template <class Semiring>
@@ -605,24 +607,23 @@ Index Recursion<Semiring>::framesAtOnce() const
 }
 
 template <class Semiring>
-void Recursion<Semiring>::advance(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
-                                  const FrameJoin &join)
+Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<float> next, const Frames &frames,
+                                       const Likelihood &likelihood, const FrameJoin &join)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
     scores = prepare(scores);
     fillMargins(scores);
     RunContext context;
-    const Index work = m_planeSize * m_planeCount * std::ssize(frames.continued);
+    const Index work = std::ssize(frames.y) * m_planeCount;
     context.threads = static_cast<int>(std::clamp<Index>(work / worthAThread, 1, m_threads));
-    if (std::ssize(frames.continued) == 1)
-        advanceOne(scores, next, frames, likelihood, join, context);
-    else
-        advanceMany(scores, next, frames, likelihood, join, context);
+    if (std::ssize(frames.y) == m_planeSize)
+        return advanceOne(scores, next, frames, likelihood, join, context);
+    return advanceMany(scores, next, frames, likelihood, join, context);
 }
 
 template <class Semiring>
-void Recursion<Semiring>::advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames,
-                                     const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
+Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames,
+                                          const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
     m_tileContinued.assign(m_tiles.size(), {});
@@ -659,10 +660,12 @@ void Recursion<Semiring>::advanceOne(std::span<const float> scores, std::span<fl
             return [&, own = m_scratch[taken++].get()](Index number) { doTile(number, *own); };
         });
     }
+    Continued all;
     for (const Continued &part : m_tileContinued) { // in this order: a sum in floating point
-        frames.continued.front().count += part.count;
-        frames.continued.front().sum += part.sum;
+        all.count += part.count;
+        all.sum += part.sum;
     }
+    return all;
 }
 
 /// A stretch of cells, from … end-1, that one thread takes through several frames; what goes in begins at low and ends at high.
@@ -677,30 +680,33 @@ struct Recursion<Semiring>::Stretch {
     Index end;
     Index low;
     Index high;
-    std::vector<Continued> continued{};
+    Index frameCount;
+    Continued continued{};
 };
 
 template <class Semiring>
-void Recursion<Semiring>::advanceMany(std::span<const float> scores, std::span<float> next, const Frames &frames,
-                                      const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
+Continued Recursion<Semiring>::advanceMany(std::span<const float> scores, std::span<float> next, const Frames &frames,
+                                           const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
     const Index cells = m_first.cells;
-    const Index overlap = (std::ssize(frames.continued) - 1) * m_reach;
+    const Index frameCount = std::ssize(frames.y) / cells;
+    const Index overlap = (frameCount - 1) * m_reach;
     std::vector<Stretch> stretches;
     for (Index i = 0; i < context.threads; ++i) {
         const Index from = i * cells / context.threads;
         const Index end = (i + 1) * cells / context.threads;
         stretches.push_back({scores, next, frames, likelihood, join, from, end, std::max<Index>(0, from - overlap),
-                             std::min(cells, end + overlap), std::vector<Continued>(frames.continued.size())});
+                             std::min(cells, end + overlap), frameCount});
     }
     scratch(stretches.size() - 1);
     parallelFor(std::ssize(stretches), context, "recursion", [&] {
         return [&](Index i) { slant(stretches[static_cast<std::size_t>(i)], *m_scratch[static_cast<std::size_t>(i)]); };
     });
+    Continued all;
     for (const Stretch &stretch : stretches)
-        for (std::size_t frame = 0; frame < stretch.continued.size(); ++frame)
-            frames.continued[frame].count += stretch.continued[frame].count;
+        all.count += stretch.continued.count;
+    return all;
 }
 
 /// The targets of the only axis, with sources `reach` cells on from where the planes start.
@@ -733,15 +739,16 @@ void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
 {
     constexpr float minus = -std::numeric_limits<float>::infinity();
     const Index cells = m_first.cells;
-    const Index frameCount = std::ssize(s.continued);
+    const Index frameCount = s.frameCount;
     const Index reach = m_reach;
-    const Index margin = (2 * reach + 15) / 16 * 16; // the targets lie on whole cache lines
-    const Index stride = margin + slantCells;
+    // Targets lie on whole cache lines, and planes not a power of two apart.
+    const Index margin = (2 * reach + vectorCells) / vectorCells * vectorCells;
+    const Index stride = margin + m_slantCells;
     const Index haloSize = m_groups * 2 * reach;
     own.windows.resize(static_cast<std::size_t>(2 * m_groups * stride + 16));
     own.halo.assign(static_cast<std::size_t>(frameCount * haloSize), minus);
-    own.lambda.resize(static_cast<std::size_t>(std::max(slantCells, std::ssize(own.lambda))));
-    own.unused.resize(static_cast<std::size_t>(slantCells));
+    own.lambda.resize(static_cast<std::size_t>(std::max(m_slantCells, std::ssize(own.lambda))));
+    own.unused.resize(static_cast<std::size_t>(m_slantCells));
     float *const windows = own.windows.data() + (16 - reinterpret_cast<std::uintptr_t>(own.windows.data()) / 4 % 16) % 16;
     FrameJoin join = s.join;
     join.isFresh = true;
@@ -767,37 +774,21 @@ void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
     PlaneList last;
     listPlanes({window(frameCount) + margin - 2 * reach, stride}, s.next.data(), m_planeSize, last);
 
-    // What the next tile will touch, a share of it at each time.
-    const auto fetchAhead = [&](Index tile, Index begin, Index time) {
-        constexpr Index bytes = slantCells * static_cast<Index>(sizeof(float));
-        if (begin >= 0 && begin + slantCells <= cells) {
-            fetch<false>(s.frames.y.data() + time * cells + begin, bytes);
-            fetch<true>(s.frames.statistic.data() + time * cells + begin, bytes);
-        }
-        const Index end = tile - (frameCount - 1) * reach;
-        for (Index plane = time; plane < m_groups; plane += frameCount) {
-            if (tile + slantCells <= cells)
-                fetch<false>(s.scores.data() + plane * m_planeSize + tile, bytes);
-            if (end >= 0 && end + slantCells <= cells)
-                fetch<true>(s.next.data() + plane * m_planeSize + end, bytes);
-        }
-    };
-
-    for (Index tile = s.low; tile - (frameCount - 1) * reach < s.high; tile += slantCells)
+    for (Index tile = s.low; tile - (frameCount - 1) * reach < s.high; tile += m_slantCells)
         for (Index time = 0; time < frameCount; ++time) {
             const Index begin = tile - time * reach; // of the tile at this time
             const Index from = std::max(begin, s.low);
-            const Index end = std::min(begin + slantCells, s.high);
+            const Index end = std::min(begin + m_slantCells, s.high);
             const bool isLast = time + 1 == frameCount;
-            fetchAhead(tile + slantCells, begin + slantCells, time);
+            join.counting = isLast ? s.join.counting : Counting::Nothing;
             float *const to = window(time) + margin;
             float *const halo = own.halo.data() + time * haloSize;
             if (!isLast)
                 for (Index plane = 0; plane < m_groups; ++plane) {
                     float *const own0 = to + plane * stride;
                     std::copy_n(halo + plane * 2 * reach, 2 * reach, own0 - 2 * reach);
-                    std::fill(own0, own0 + std::clamp<Index>(s.low - begin, 0, slantCells), minus);
-                    std::fill(own0 + std::clamp<Index>(end - begin, 0, slantCells), own0 + slantCells, minus);
+                    std::fill(own0, own0 + std::clamp<Index>(s.low - begin, 0, m_slantCells), minus);
+                    std::fill(own0 + std::clamp<Index>(end - begin, 0, m_slantCells), own0 + m_slantCells, minus);
                 }
             if (from < end)
                 s.likelihood.apply(s.frames.y.subspan(static_cast<std::size_t>(time * cells + from), static_cast<std::size_t>(end - from)),
@@ -814,8 +805,7 @@ void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
                     float *const statistic = isOwn ? s.frames.statistic.data() + time * cells + first : own.unused.data();
                     const Continued more = finishMax(list.targets, n, first - sourceBegin, isLast ? first : first - begin,
                                                      own.lambda.data() + (first - from), join, statistic);
-                    if (isOwn)
-                        s.continued[static_cast<std::size_t>(time)].count += more.count;
+                    s.continued.count += more.count;
                 }
             };
             if (time > 0) {
@@ -831,7 +821,7 @@ void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
             }
             if (!isLast)
                 for (Index plane = 0; plane < m_groups; ++plane)
-                    std::copy_n(to + plane * stride + slantCells - 2 * reach, 2 * reach, halo + plane * 2 * reach);
+                    std::copy_n(to + plane * stride + m_slantCells - 2 * reach, 2 * reach, halo + plane * 2 * reach);
         }
 }
 

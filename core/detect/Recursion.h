@@ -67,17 +67,17 @@ public:
     /// The same, handed over tile by tile: each state once, tiles ascending. `scores` must stay as they are until the end.
     void predict(std::span<const Real> scores, const Tile &take);
 
-    /// Frames to go through: as many as `continued` holds.
+    /// Frames to go through: as many as y holds.
     struct Frames {
         std::span<const float> y;
-        std::span<float> statistic;     ///< D of every frame and cell
-        std::span<Continued> continued; ///< of every frame
+        std::span<float> statistic; ///< D of every frame and cell
     };
 
     /// M joined with frames at once: u = λ + max(M + ln K, floor), D = max over rates. `scores` → `next`, which are not the same memory.
-    /// Up to `framesAtOnce()`; any number of frames, cut in any way, on any number of threads gives the same bytes.
-    void advance(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
-                 const FrameJoin &join)
+    /// Up to `framesAtOnce()`; any number of frames, cut in any way, on any number of threads gives the same bytes. Answers what went on
+    /// in the last frame.
+    Continued advance(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
+                      const FrameJoin &join)
         requires std::same_as<Semiring, MaxPlus<float>>;
     Index framesAtOnce() const;
 
@@ -148,10 +148,10 @@ private:
     void goThroughTile(std::span<const Real> scores, TileRows rows, Scratch &scratch, Finish finish) const;
     Scratch &scratch(std::size_t number);
 
-    void advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
+    Continued advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
                     const FrameJoin &join, const RunContext &context)
         requires std::same_as<Semiring, MaxPlus<float>>;
-    void advanceMany(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
+    Continued advanceMany(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
                      const FrameJoin &join, const RunContext &context)
         requires std::same_as<Semiring, MaxPlus<float>>;
     void joinListed(Index size, Scratch &scratch) const;
@@ -171,6 +171,7 @@ private:
     Index m_slideRing = 0; ///< rates whose maxima are kept at a time; 0: there are none
     Index m_slotSize = 0;
     std::vector<Index> m_largest; ///< shift that each maximum is wanted at
+    Index m_slantCells = 0;
     bool m_isSlantable = false;
     std::vector<Continued> m_tileContinued;
     std::vector<TileRows> m_tiles;

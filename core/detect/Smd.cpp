@@ -24,8 +24,7 @@ void Smd::update(std::span<const float> y, std::span<float> statistic)
         start(y, statistic);
         return;
     }
-    Continued all;
-    advance(y, statistic, {&all, 1});
+    const Continued all = advance(y, statistic);
     const Index cells = m_space.cellCount();
     const Continued apart = inhibitedPart(y);
     const Index counted = m_rule.law == ResetLaw::None ? cells : cells - std::ssize(m_inhibited);
@@ -60,7 +59,6 @@ void Smd::updateBlock(std::span<const float> y, std::span<float> statistic, Inde
 {
     const auto size = static_cast<std::size_t>(cells);
     const bool isRegulated = m_rule.law == ResetLaw::Mean || m_rule.law == ResetLaw::Half;
-    std::vector<Continued> continued;
     for (std::size_t done = 0; done < y.size();) {
         const auto frames = static_cast<std::size_t>(std::min<Index>(m_recursion.framesAtOnce(), std::ssize(y) / cells));
         const std::size_t count = std::min(frames, (y.size() - done) / size);
@@ -69,24 +67,23 @@ void Smd::updateBlock(std::span<const float> y, std::span<float> statistic, Inde
             done += size;
             continue;
         }
-        continued.assign(count, {});
-        advance(y.subspan(done, count * size), statistic.subspan(done, count * size), continued);
-        m_regulation = {m_lnK, static_cast<double>(continued.back().count) / static_cast<double>(m_space.stateCount()), m_lnK};
+        const Continued last = advance(y.subspan(done, count * size), statistic.subspan(done, count * size));
+        m_regulation = {m_lnK, static_cast<double>(last.count) / static_cast<double>(m_space.stateCount()), m_lnK};
         done += count * size;
     }
 }
 
-void Smd::advance(std::span<const float> y, std::span<float> statistic, std::span<Continued> continued)
+Continued Smd::advance(std::span<const float> y, std::span<float> statistic)
 {
     FrameJoin join;
     join.lnK = static_cast<float>(m_lnK);
     join.floor = m_rule.law == ResetLaw::None ? unreached : 0.0f;
-    join.wantsSum = m_rule.law == ResetLaw::Mean;
-    m_recursion.advance(m_scores, m_next, {y, statistic, continued}, m_likelihood, join);
+    join.counting = m_rule.law == ResetLaw::Mean ? Counting::StatesAndSum : Counting::States;
+    Continued continued = m_recursion.advance(m_scores, m_next, {y, statistic}, m_likelihood, join);
     std::swap(m_scores, m_next);
     if (m_rule.law == ResetLaw::None)
-        for (Continued &part : continued)
-            part.count = m_space.stateCount();
+        continued.count = m_space.stateCount();
+    return continued;
 }
 
 /// Of the inhibited cells: what their scores have beyond the frame's own evidence.

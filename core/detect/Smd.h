@@ -76,7 +76,7 @@ private:
     struct Remembered;
 
     void start(std::span<const float> y, std::span<float> statistic);
-    void advance(std::span<const float> y, std::span<float> statistic, std::span<Continued> continued);
+    Continued advance(std::span<const float> y, std::span<float> statistic);
     Continued inhibitedPart(std::span<const float> y) const;
     void regulate(double continuedFraction, double meanContinued);
 

@@ -94,24 +94,25 @@ namespace {
         return true;
     }
 
-    // Sixteen floats, in as many registers as the instruction set needs for them: arrays of a plain loop would not stay in registers
-    // while the targets go by.
-    using Floats = float __attribute__((vector_size(64)));
-    using Integers = int __attribute__((vector_size(64)));
-    using UnalignedFloats = float __attribute__((vector_size(64), aligned(4)));
-    constexpr Index width = 16;
+    template <int bytes>
+    using Floats = typename Vector<float, bytes>::Type;
+    template <int bytes>
+    using Integers = typename Vector<int, bytes>::Type;
 
-    [[gnu::always_inline]] inline Floats load(const float *from)
+    template <int bytes>
+    [[gnu::always_inline]] inline Floats<bytes> load(const float *from)
     {
-        return *reinterpret_cast<const UnalignedFloats *>(from);
+        return *reinterpret_cast<const typename Vector<float, bytes>::Unaligned *>(from);
     }
 
-    [[gnu::always_inline]] inline void store(float *to, const Floats &values)
+    template <class Values>
+    [[gnu::always_inline]] inline void store(float *to, const Values &values)
     {
-        *reinterpret_cast<UnalignedFloats *>(to) = values;
+        *reinterpret_cast<typename Vector<float, sizeof(Values)>::Unaligned *>(to) = values;
     }
 
-    [[gnu::always_inline]] inline Floats larger(const Floats &a, const Floats &b)
+    template <class Values>
+    [[gnu::always_inline]] inline Values larger(const Values &a, const Values &b)
     {
         return a > b ? a : b;
     }
@@ -127,22 +128,23 @@ namespace {
             joinAll(to, n, sources.data(), sources.size(), MaxJoin());
     }
 
-    /// `joinMaxima` for floats: two vectors at a time stay in registers while the sources go by.
-    template <bool equal>
+    /// `joinMaxima` for floats: some cells stay in registers while the sources go by.
+    template <int bytes, bool equal>
     [[gnu::always_inline]] inline Index joinVectors(float *to, Index n, std::span<const ShiftedPlane<float>> sources)
     {
-        const Floats common = Floats{} + sources.front().weight;
+        constexpr Index width = Vector<float, bytes>::lanes;
+        const float common = sources.front().weight;
         Index i = 0;
         for (; i + 2 * width <= n; i += 2 * width) {
             const float *first = sources.front().from + i;
-            Floats a = equal ? load(first) : load(first) + common;
-            Floats b = equal ? load(first + width) : load(first + width) + common;
+            Floats<bytes> a = equal ? load<bytes>(first) : load<bytes>(first) + common;
+            Floats<bytes> b = equal ? load<bytes>(first + width) : load<bytes>(first + width) + common;
             for (const ShiftedPlane<float> &source : sources.subspan(1)) {
-                const float weight = equal ? 0.0f : source.weight;
-                const Floats nextA = equal ? load(source.from + i) : load(source.from + i) + weight;
-                const Floats nextB = equal ? load(source.from + i + width) : load(source.from + i + width) + weight;
-                a = larger(nextA, a);
-                b = larger(nextB, b);
+                const float weight = source.weight;
+                const Floats<bytes> nextA = load<bytes>(source.from + i);
+                const Floats<bytes> nextB = load<bytes>(source.from + i + width);
+                a = larger(equal ? nextA : nextA + weight, a);
+                b = larger(equal ? nextB : nextB + weight, b);
             }
             store(to + i, equal ? a + common : a);
             store(to + i + width, equal ? b + common : b);
@@ -176,68 +178,91 @@ namespace {
         return result;
     }
 
-    /// The maximum over any sources, their weights included.
-    [[gnu::always_inline]] inline Floats bestOf(const TargetPlane &target, Index i)
+    /// Each target's second source is the next one's first, if that can be had: then it is loaded once for both.
+    bool chain(std::span<Joined> targets)
     {
-        Floats best = Floats{} - std::numeric_limits<float>::infinity();
+        for (std::size_t k = 0; k < targets.size(); ++k) {
+            Joined &t = targets[k];
+            if (t.general)
+                return false;
+            if (k + 1 < targets.size() && t.second == t.third && targets[k + 1].first == t.first)
+                t.second = t.first;
+            if (k > 0 && t.first != targets[k - 1].second)
+                return false;
+        }
+        return true;
+    }
+
+    /// The maximum over any sources, their weights included.
+    template <int bytes>
+    [[gnu::always_inline]] inline Floats<bytes> bestOf(const TargetPlane &target, Index i)
+    {
+        Floats<bytes> best = Floats<bytes>{} - std::numeric_limits<float>::infinity();
         for (const ShiftedPlane<float> &source : target.sources)
-            best = larger(load(source.from + i) + source.weight, best);
+            best = larger(load<bytes>(source.from + i) + source.weight, best);
         return best;
     }
 
-    /// One or two vectors of cells at a time through all targets: what belongs to the cells stays in registers.
-    template <bool pairs, bool wantsSum>
-    [[gnu::always_inline]] inline Index finishVectors(std::span<const Joined> targets, Index i, Index n, Index sourceOffset,
-                                                      const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
-                                                      Continued &continued)
+    /// So many cells at a time through all targets: what belongs to the cells stays in registers, as arrays of a plain loop would not.
+    template <int bytes, Index cells, Counting counting, bool chained>
+    [[gnu::always_inline]] inline Index finishCells(std::span<const Joined> targets, Index i, Index n, Index sourceOffset,
+                                                    const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
+                                                    Continued &continued)
     {
-        constexpr Index step = pairs ? 2 * width : width;
-        constexpr Index second = pairs ? width : 0;
-        Integers countA{};
-        Integers countB{};
-        Floats sumA{};
-        Floats sumB{};
-        const Floats minus = Floats{} - std::numeric_limits<float>::infinity();
-        const Floats floor = Floats{} + join.floor;
-        const Floats lnK = Floats{} + join.lnK;
-        for (; i + step <= n; i += step) {
-            const Floats lambdaA = load(lambda + i);
-            const Floats lambdaB = load(lambda + i + second);
-            Floats statisticA = isFresh ? minus : load(statistic + i);
-            Floats statisticB = isFresh ? minus : load(statistic + i + second);
-            for (const Joined &t : targets) {
-                Floats a;
-                Floats b;
-                if (t.general) {
-                    a = bestOf(*t.general, i + sourceOffset);
-                    b = pairs ? bestOf(*t.general, i + sourceOffset + second) : a;
-                } else {
-                    a = larger(larger(load(t.second + i), load(t.first + i)), load(t.third + i));
-                    b = larger(larger(load(t.second + i + second), load(t.first + i + second)), load(t.third + i + second));
-                }
-                a = larger((a + t.weight) + lnK, floor);
-                b = larger((b + t.weight) + lnK, floor);
-                if constexpr (wantsSum) {
-                    sumA += a;
-                    sumB += b;
-                }
-                a += lambdaA;
-                b += lambdaB;
-                store(t.to + i, a);
-                if constexpr (pairs)
-                    store(t.to + i + second, b);
-                countA -= a > lambdaA;
-                countB -= b > lambdaB;
-                statisticA = larger(a, statisticA);
-                statisticB = larger(b, statisticB);
+        constexpr Index width = Vector<float, bytes>::lanes;
+        constexpr Index parts = cells / width;
+        Integers<bytes> count[parts]{};
+        Floats<bytes> sum[parts]{};
+        const Floats<bytes> minus = Floats<bytes>{} - std::numeric_limits<float>::infinity();
+        const Floats<bytes> floor = Floats<bytes>{} + join.floor;
+        const Floats<bytes> lnK = Floats<bytes>{} + join.lnK;
+        for (; i + cells <= n; i += cells) {
+            Floats<bytes> evidence[parts];
+            Floats<bytes> best[parts];
+            Floats<bytes> shared[parts];
+#pragma GCC unroll 8
+            for (Index part = 0; part < parts; ++part) {
+                evidence[part] = load<bytes>(lambda + i + part * width);
+                best[part] = isFresh ? minus : load<bytes>(statistic + i + part * width);
+                if constexpr (chained)
+                    shared[part] = load<bytes>(targets.front().first + i + part * width);
             }
-            store(statistic + i, statisticA);
-            if constexpr (pairs)
-                store(statistic + i + second, statisticB);
+            for (const Joined &t : targets)
+#pragma GCC unroll 8
+                for (Index part = 0; part < parts; ++part) {
+                    const Index at = i + part * width;
+                    Floats<bytes> score;
+                    if constexpr (chained) {
+                        const Floats<bytes> second = load<bytes>(t.second + at);
+                        score = larger(larger(second, shared[part]), load<bytes>(t.third + at));
+                        shared[part] = second;
+                    } else if (t.general) {
+                        score = bestOf<bytes>(*t.general, at + sourceOffset);
+                    } else {
+                        score = larger(larger(load<bytes>(t.second + at), load<bytes>(t.first + at)), load<bytes>(t.third + at));
+                    }
+                    score = larger((score + t.weight) + lnK, floor);
+                    if constexpr (counting == Counting::StatesAndSum)
+                        sum[part] += score;
+                    score += evidence[part];
+                    store(t.to + at, score);
+                    if constexpr (counting != Counting::Nothing)
+                        count[part] -= score > evidence[part];
+                    best[part] = larger(score, best[part]);
+                }
+#pragma GCC unroll 8
+            for (Index part = 0; part < parts; ++part)
+                store(statistic + i + part * width, best[part]);
         }
-        for (Index lane = 0; lane < width; ++lane) {
-            continued.count += countA[lane] + (pairs ? countB[lane] : 0);
-            continued.sum += static_cast<double>(sumA[lane]) + (pairs ? static_cast<double>(sumB[lane]) : 0.0);
+        // The sum is rounded in the same order whatever the vectors' width: cells that are sixteen apart first.
+        constexpr Index half = std::min<Index>(cells, 16);
+        for (Index lane = 0; counting != Counting::Nothing && lane < half; ++lane) {
+            double together = 0.0;
+            for (Index cell = lane; cell < cells; cell += half) {
+                continued.count += count[cell / width][cell % width];
+                together += static_cast<double>(sum[cell / width][cell % width]);
+            }
+            continued.sum += together;
         }
         return i;
     }
@@ -258,12 +283,12 @@ namespace {
             const float score = lambda[i] + kept;
             target.to[targetOffset + i] = score;
             continued.count += score > lambda[i] ? 1 : 0;
-            continued.sum += join.wantsSum ? static_cast<double>(kept) : 0.0;
+            continued.sum += join.counting == Counting::StatesAndSum ? static_cast<double>(kept) : 0.0;
             statistic[i] = score > statistic[i] ? score : statistic[i];
         }
     }
 
-    template <bool wantsSum>
+    template <int bytes, Counting counting>
     [[gnu::always_inline]] inline void finishAll(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset,
                                                  const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
                                                  Continued &continued)
@@ -271,30 +296,38 @@ namespace {
         Joined list[mostAtOnce];
         for (std::size_t k = 0; k < targets.size(); ++k)
             list[k] = joined(targets[k], sourceOffset, targetOffset);
-        const std::span<const Joined> all(list, targets.size());
-        Index i = finishVectors<true, wantsSum>(all, 0, n, sourceOffset, lambda, join, isFresh, statistic, continued);
-        if (i + width <= n)
-            i = finishVectors<false, wantsSum>(all, i, n, sourceOffset, lambda, join, isFresh, statistic, continued);
+        const std::span<Joined> all(list, targets.size());
+        Index i = 0;
+        if (chain(all)) {
+            i = finishCells<bytes, 32, counting, true>(all, i, n, sourceOffset, lambda, join, isFresh, statistic, continued);
+            if (i + 16 <= n)
+                i = finishCells<bytes, 16, counting, true>(all, i, n, sourceOffset, lambda, join, isFresh, statistic, continued);
+        } else {
+            i = finishCells<bytes, 32, counting, false>(all, i, n, sourceOffset, lambda, join, isFresh, statistic, continued);
+            if (i + 16 <= n)
+                i = finishCells<bytes, 16, counting, false>(all, i, n, sourceOffset, lambda, join, isFresh, statistic, continued);
+        }
         for (; i < n; ++i)
             finishOne(targets, i, sourceOffset, targetOffset, lambda, join, isFresh, statistic, continued);
     }
 
 } // namespace
 
-FAINTLINE_MULTIVERSION
 void joinMax(float *to, Index n, std::span<const ShiftedPlane<float>> sources)
 {
-    Index i = 0;
-    if (!sources.empty())
-        i = haveEqualWeights(sources) ? joinVectors<true>(to, n, sources) : joinVectors<false>(to, n, sources);
-    for (; i < n; ++i) {
-        float best = -std::numeric_limits<float>::infinity();
-        for (const ShiftedPlane<float> &source : sources) {
-            const float candidate = source.from[i] + source.weight;
-            best = candidate > best ? candidate : best;
+    withVectors([&](auto bytes) __attribute__((always_inline)) {
+        Index i = 0;
+        if (!sources.empty())
+            i = haveEqualWeights(sources) ? joinVectors<bytes, true>(to, n, sources) : joinVectors<bytes, false>(to, n, sources);
+        for (; i < n; ++i) {
+            float best = -std::numeric_limits<float>::infinity();
+            for (const ShiftedPlane<float> &source : sources) {
+                const float candidate = source.from[i] + source.weight;
+                best = candidate > best ? candidate : best;
+            }
+            to[i] = best;
         }
-        to[i] = best;
-    }
+    });
 }
 
 FAINTLINE_MULTIVERSION
@@ -315,10 +348,7 @@ void joinSum(double *to, Index n, std::span<const ShiftedPlane<double>> sources)
 FAINTLINE_MULTIVERSION
 void maxOfTwo(float *to, const float *a, const float *b, Index n)
 {
-    Index i = 0;
-    for (; i + width <= n; i += width)
-        store(to + i, larger(load(b + i), load(a + i)));
-    for (; i < n; ++i)
+    for (Index i = 0; i < n; ++i)
         to[i] = b[i] > a[i] ? b[i] : a[i];
 }
 
@@ -350,7 +380,6 @@ void multiplyEach(double *to, const double *factors, Index n)
         to[i] *= factors[i];
 }
 
-FAINTLINE_MULTIVERSION
 Continued finishMax(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset, const float *lambda,
                     const FrameJoin &join, float *statistic)
 {
@@ -358,10 +387,19 @@ Continued finishMax(std::span<const TargetPlane> targets, Index n, Index sourceO
     for (std::size_t first = 0; first < targets.size(); first += mostAtOnce) {
         const std::span<const TargetPlane> some = targets.subspan(first, std::min(mostAtOnce, targets.size() - first));
         const bool isFresh = join.isFresh && first == 0;
-        if (join.wantsSum)
-            finishAll<true>(some, n, sourceOffset, targetOffset, lambda, join, isFresh, statistic, continued);
-        else
-            finishAll<false>(some, n, sourceOffset, targetOffset, lambda, join, isFresh, statistic, continued);
+        withVectors([&](auto bytes) __attribute__((always_inline)) {
+            const auto finish = [&](auto counting) __attribute__((always_inline)) {
+                finishAll<bytes, counting>(some, n, sourceOffset, targetOffset, lambda, join, isFresh, statistic, continued);
+            };
+            switch (join.counting) {
+            case Counting::Nothing:
+                return finish(std::integral_constant<Counting, Counting::Nothing>());
+            case Counting::States:
+                return finish(std::integral_constant<Counting, Counting::States>());
+            case Counting::StatesAndSum:
+                return finish(std::integral_constant<Counting, Counting::StatesAndSum>());
+            }
+        });
     }
     return continued;
 }

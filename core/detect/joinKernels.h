@@ -42,11 +42,14 @@ struct TargetPlane {
     float *to;
 };
 
+/// How much of `Continued` is wanted.
+enum class Counting { Nothing, States, StatesAndSum };
+
 /// What follows M in one frame: u = λ + max(M + ln K, floor).
 struct FrameJoin {
     float lnK = 0.0f;
     float floor = 0.0f;       ///< 0, or -∞ for no reset
-    bool wantsSum = false;
+    Counting counting = Counting::States;
     bool isFresh = false;     ///< D begins at -∞; else at what it holds
 };
 
@@ -55,7 +58,7 @@ struct FrameJoin {
 ///
 ///   u_k[i] = λ[i] + max(M_k[i] + ln K, floor),   D[i] = max(D[i], max_k u_k[i])
 ///
-/// Sources are read from `sourceOffset` + i, scores written to `targetOffset` + i, i = 0 … n-1. Counts those with u > λ. Bits do not
+/// Sources are read from `sourceOffset` + i, scores written to `targetOffset` + i, i = 0 … n-1. Counts those with u > λ if asked to. Bits do not
 /// depend on the instruction set; those of the sum depend on where a row is cut into calls. A target without sources has M = -∞.
 Continued finishMax(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset, const float *lambda,
                     const FrameJoin &join, float *statistic);

@@ -1,5 +1,6 @@
 #include "evaluate/measureSpeed.h"
 
+#include "base/multiversion.h"
 #include "base/json.h"
 
 #include <algorithm>
@@ -108,13 +109,8 @@ SpeedResult measureSpeed(const SpeedKernel &kernel, const SpeedOptions &options,
 
 std::string instructionSet()
 {
-#if defined(__x86_64__) && defined(__GNUC__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq")
-        && __builtin_cpu_supports("avx512vl"))
-        return "AVX-512";
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return "AVX2";
-    return "SSE2";
+#ifdef FAINTLINE_HAS_VERSIONS
+    return vectorBytes() == 64 ? "AVX-512" : vectorBytes() == 32 ? "AVX2" : "SSE2";
 #else
     return "the compiler's default";
 #endif

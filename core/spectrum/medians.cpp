@@ -12,31 +12,35 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t lanes = 32; ///< columns at a time, in a few registers
-    using Bits = std::int32_t __attribute__((vector_size(64)));
-    using UnalignedBits = std::int32_t __attribute__((vector_size(64), aligned(4), may_alias));
 
     /// The value of a rank in every one of `lanes` columns, found bit by bit: floats that are not negative are ordered as their bits are.
-    FAINTLINE_MULTIVERSION
-    void ranked(const float *columns, std::size_t rows, std::int32_t rank, float *out)
+    template <int bytes>
+    [[gnu::always_inline]] inline void rankedBy(const float *columns, std::size_t rows, std::int32_t rank, float *out)
     {
-        Bits foundA{};
-        Bits foundB{};
+        using Bits = typename Vector<std::int32_t, bytes>::Type;
+        using UnalignedBits = typename Vector<std::int32_t, bytes>::Unaligned;
+        constexpr std::size_t parts = lanes / Vector<std::int32_t, bytes>::lanes;
+        Bits found[parts]{};
         for (std::int32_t bit = 1 << 30; bit > 0; bit >>= 1) {
-            const Bits candidateA = foundA | bit;
-            const Bits candidateB = foundB | bit;
-            Bits smallerA{};
-            Bits smallerB{};
+            Bits smaller[parts]{};
             for (std::size_t row = 0; row < rows; ++row) {
                 const auto *values = reinterpret_cast<const UnalignedBits *>(columns + row * lanes);
-                smallerA -= values[0] < candidateA;
-                smallerB -= values[1] < candidateB;
+#pragma GCC unroll 8
+                for (std::size_t part = 0; part < parts; ++part)
+                    smaller[part] -= values[part] < (found[part] | bit);
             }
-            foundA = smallerA <= rank ? candidateA : foundA;
-            foundB = smallerB <= rank ? candidateB : foundB;
+#pragma GCC unroll 8
+            for (std::size_t part = 0; part < parts; ++part)
+                found[part] = smaller[part] <= rank ? found[part] | bit : found[part];
         }
-        auto *to = reinterpret_cast<UnalignedBits *>(out);
-        to[0] = foundA;
-        to[1] = foundB;
+#pragma GCC unroll 8
+        for (std::size_t part = 0; part < parts; ++part)
+            reinterpret_cast<UnalignedBits *>(out)[part] = found[part];
+    }
+
+    void ranked(const float *columns, std::size_t rows, std::int32_t rank, float *out)
+    {
+        withVectors([&](auto bytes) __attribute__((always_inline)) { rankedBy<bytes>(columns, rows, rank, out); });
     }
 
 } // namespace

@@ -1,11 +1,13 @@
 #!/bin/sh
-# same.sh A B: both programs print the same.
+# same.sh A B: both programs print the same, A with every width of vectors that this processor has.
 set -eu
 
-a=$("$1")
-b=$("$2")
-[ "$a" = "$b" ] && exit 0
-echo "$a"
-echo "differs from"
-echo "$b"
-exit 1
+expected=$("$2")
+for bytes in 16 32 64; do
+    found=$(FAINTLINE_VECTOR_BYTES=$bytes "$1")
+    [ "$found" = "$expected" ] && continue
+    echo "$found"
+    echo "with vectors of $bytes bytes differs from"
+    echo "$expected"
+    exit 1
+done
