@@ -2,12 +2,96 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <exception>
+#include <list>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 namespace faintline {
+
+namespace {
+
+    /// Looks for `isSo` for as long as waking a thread takes, before its caller goes to sleep.
+    template <class Condition>
+    void lookFor(Condition isSo)
+    {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(50);
+        while (!isSo() && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+    }
+
+    /// Threads that wait for work from one loop to the next: a loop of a millisecond is shorter than a thread's making.
+    class Helpers
+    {
+    public:
+        /// Work that up to `wanted` helpers may join as long as its loop lasts.
+        struct Job {
+            std::function<void()> work;
+            Index wanted;
+            std::atomic<Index> working = 0;
+        };
+
+        static Helpers &all()
+        {
+            static Helpers helpers;
+            return helpers;
+        }
+
+        void offer(Job &job)
+        {
+            const std::lock_guard lock(m_guard);
+            m_jobs.push_back(&job);
+            m_wanted += job.wanted;
+            while (std::ssize(m_threads) < job.wanted)
+                m_threads.emplace_back([this](const std::stop_token &stop) { help(stop); });
+            m_offered.notify_all();
+        }
+
+        /// Nobody joins any more; returns when those who did are through.
+        void end(Job &job)
+        {
+            {
+                const std::lock_guard lock(m_guard);
+                m_jobs.remove(&job);
+                m_wanted -= job.wanted;
+            }
+            lookFor([&] { return job.working == 0; });
+            std::unique_lock lock(m_guard);
+            m_left.wait(lock, [&] { return job.working == 0; });
+        }
+
+    private:
+        void help(const std::stop_token &stop)
+        {
+            std::unique_lock lock(m_guard);
+            while (m_offered.wait(lock, stop, [this] { return m_wanted > 0; })) {
+                Job &job = **std::find_if(m_jobs.begin(), m_jobs.end(), [](const Job *j) { return j->wanted > 0; });
+                --job.wanted;
+                --m_wanted;
+                ++job.working;
+                lock.unlock();
+                job.work();
+                lock.lock();
+                --job.working;
+                m_left.notify_all();
+                lock.unlock();
+                lookFor([this] { return m_wanted > 0; });
+                lock.lock();
+            }
+        }
+
+        std::mutex m_guard;
+        std::condition_variable_any m_offered;
+        std::condition_variable m_left;
+        std::list<Job *> m_jobs;
+        std::atomic<Index> m_wanted = 0; ///< by all jobs
+        std::vector<std::jthread> m_threads; // last: they stop before the rest goes
+    };
+
+} // namespace
 
 void parallelFor(Index count, const RunContext &context, std::string_view what,
                  const std::function<std::function<void(Index)>()> &makeWorker)
@@ -34,12 +118,13 @@ void parallelFor(Index count, const RunContext &context, std::string_view what,
                 failure = std::current_exception();
         }
     };
-    {
-        std::vector<std::jthread> others;
-        for (Index i = 1; i < std::min<Index>(context.threads, count); ++i)
-            others.emplace_back(work, false);
-        work(true);
-    }
+    Helpers::Job shared{[&] { work(false); }, std::min<Index>(context.threads, count) - 1};
+    const bool isShared = shared.wanted > 0;
+    if (isShared)
+        Helpers::all().offer(shared);
+    work(true);
+    if (isShared)
+        Helpers::all().end(shared);
     if (failure)
         std::rethrow_exception(failure);
 }

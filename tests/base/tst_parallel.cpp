@@ -2,8 +2,10 @@
 
 #include <QtTest>
 
+#include <array>
 #include <atomic>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 using namespace faintline;
@@ -17,6 +19,8 @@ private slots:
     void oneWorkerAThread();
     void firstFailureIsThrown();
     void stops();
+    void withinAnother();
+    void fromSeveralThreads();
 };
 
 void tst_parallel::everyItemOnce()
@@ -73,6 +77,36 @@ void tst_parallel::stops()
             source.request_stop();
     };
     QVERIFY_EXCEPTION_THROWN(parallelFor(100, context, "", [] { return [](Index) {}; }), Cancelled);
+}
+
+void tst_parallel::withinAnother()
+{
+    RunContext context;
+    context.threads = 4;
+    std::vector<int> done(64 * 64, 0);
+    parallelFor(64, context, "", [&] {
+        return [&](Index outer) {
+            parallelFor(64, context, "", [&] { return [&](Index inner) { ++done[static_cast<std::size_t>(outer * 64 + inner)]; }; });
+        };
+    });
+    QCOMPARE(done, std::vector<int>(64 * 64, 1));
+}
+
+void tst_parallel::fromSeveralThreads()
+{
+    RunContext context;
+    context.threads = 3;
+    std::array<std::atomic<int>, 4> done{};
+    {
+        std::vector<std::jthread> callers;
+        for (std::atomic<int> &count : done)
+            callers.emplace_back([&] {
+                for (int loop = 0; loop < 200; ++loop)
+                    parallelFor(20, context, "", [&] { return [&](Index) { ++count; }; });
+            });
+    }
+    for (const std::atomic<int> &count : done)
+        QCOMPARE(count.load(), 200 * 20);
 }
 
 QTEST_APPLESS_MAIN(tst_parallel)
