@@ -3,10 +3,8 @@
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <utility>
@@ -17,9 +15,6 @@ namespace {
 
     constexpr Index tileCells = 1024;     ///< of each plane of a tile
     constexpr Index longTileCells = 2048; ///< the same where a single axis needs no second step
-    constexpr Index longestSlant = 4096;  ///< the same of a slanting tile: its halo should be small beside it …
-    constexpr Index shortestSlant = 512;
-    constexpr Index slantBytes = 7 << 16; ///< … and its two windows lie in the second-level cache
     constexpr Index vectorCells = 32;
     constexpr Index manyFrames = 16;      ///< gone through at a time: then the memory has become as good as free
     constexpr std::size_t fewest = 4;     ///< rates whose maximum is worth sharing
@@ -88,9 +83,6 @@ struct Recursion<Semiring>::Scratch {
     std::vector<std::size_t> firstSource;      ///< of each target, and one beyond the last
     std::vector<TargetPlane> targets;
     std::vector<float> lambda;
-    std::vector<float> windows;                ///< of a slanting tile: two times of it in turns
-    std::vector<float> halo;                   ///< of every time: the last columns of the tile before
-    std::vector<float> unused;                 ///< a statistic nobody looks at
 
     void clearSources()
     {
@@ -102,19 +94,6 @@ struct Recursion<Semiring>::Scratch {
     {
         return std::span(sources).subspan(firstSource[target], firstSource[target + 1] - firstSource[target]);
     }
-};
-
-/// Planes of cells, equally far apart, and the targets of the only axis that take from them.
-template <class Semiring>
-struct Recursion<Semiring>::Planes {
-    const float *start;
-    Index stride;
-};
-
-template <class Semiring>
-struct Recursion<Semiring>::PlaneList {
-    std::vector<ShiftedPlane<float>> sources;
-    std::vector<TargetPlane> targets;
 };
 
 template <class Semiring>
@@ -149,10 +128,9 @@ Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
         prepareSlides();
     prepareTiles();
     preparePlaces(space, transitionScale);
-    const Index cellsOfWindow = slantBytes / (2 * m_groups * static_cast<Index>(sizeof(Real))) - 2 * m_reach;
-    m_slantCells = std::min(longestSlant, cellsOfWindow / vectorCells * vectorCells);
-    m_isSlantable = space.axes().size() == 1 && !m_first.cyclic && m_slideRing == 0 && m_departures.empty() && m_matrices.empty()
-                    && m_slantCells >= shortestSlant;
+    if constexpr (std::same_as<Semiring, MaxPlus<float>>)
+        if (space.axes().size() == 1)
+            prepareSlantedTiles();
 }
 
 template <class Semiring>
@@ -306,6 +284,25 @@ void Recursion<Semiring>::prepareTiles()
         const Index rows = m_edgeRows == m_first.cells ? m_first.cells + 2 * m_reach : 2 * (m_edgeRows + 2 * m_reach);
         m_margins.resize(static_cast<std::size_t>(m_planeCount * rows * m_first.inner));
     }
+}
+
+template <class Semiring>
+void Recursion<Semiring>::prepareSlantedTiles()
+    requires std::same_as<Semiring, MaxPlus<float>>
+{
+    if (m_first.cyclic || m_slideRing > 0 || !m_departures.empty() || !m_matrices.empty())
+        return;
+    std::vector<std::vector<SlantedTiles::Source>> sources(static_cast<std::size_t>(m_groups));
+    for (Index rate = 0; rate < m_groups; ++rate) {
+        std::vector<SlantedTiles::Source> &ofTarget = sources[static_cast<std::size_t>(rate)];
+        if (m_first.shifts.empty())
+            ofTarget.push_back({rate, 0, 0.0f});
+        else
+            for (const Shift &shift : m_first.shifts[static_cast<std::size_t>(rate)])
+                ofTarget.push_back({shift.from, shift.cells, shift.weight});
+    }
+    if (SlantedTiles tiles(m_first.cells, std::move(sources)); tiles.areWorthwhile())
+        m_slanted = std::move(tiles);
 }
 
 template <class Semiring>
@@ -603,7 +600,7 @@ void Recursion<Semiring>::joinListed(Index size, Scratch &own) const
 template <class Semiring>
 Index Recursion<Semiring>::framesAtOnce() const
 {
-    return m_isSlantable ? manyFrames : 1;
+    return m_slanted ? manyFrames : 1;
 }
 
 template <class Semiring>
@@ -611,14 +608,12 @@ Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<
                                        const Likelihood &likelihood, const FrameJoin &join)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
-    scores = prepare(scores);
-    fillMargins(scores);
     RunContext context;
     const Index work = std::ssize(frames.y) * m_planeCount;
     context.threads = static_cast<int>(std::clamp<Index>(work / worthAThread, 1, m_threads));
-    if (std::ssize(frames.y) == m_planeSize)
-        return advanceOne(scores, next, frames, likelihood, join, context);
-    return advanceMany(scores, next, frames, likelihood, join, context);
+    if (std::ssize(frames.y) > m_planeSize)
+        return m_slanted->advance(scores, next, frames.y, frames.statistic, likelihood, join, context);
+    return advanceOne(scores, next, frames, likelihood, join, context);
 }
 
 template <class Semiring>
@@ -626,6 +621,8 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
                                           const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
+    scores = prepare(scores);
+    fillMargins(scores);
     m_tileContinued.assign(m_tiles.size(), {});
     const auto doTile = [&](Index number, Scratch &own) {
         const TileRows rows = m_tiles[static_cast<std::size_t>(number)];
@@ -666,163 +663,6 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
         all.sum += part.sum;
     }
     return all;
-}
-
-/// A stretch of cells, from … end-1, that one thread takes through several frames; what goes in begins at low and ends at high.
-template <class Semiring>
-struct Recursion<Semiring>::Stretch {
-    std::span<const float> scores;
-    std::span<float> next;
-    const Frames &frames;
-    const Likelihood &likelihood;
-    const FrameJoin &join;
-    Index from;
-    Index end;
-    Index low;
-    Index high;
-    Index frameCount;
-    Continued continued{};
-};
-
-template <class Semiring>
-Continued Recursion<Semiring>::advanceMany(std::span<const float> scores, std::span<float> next, const Frames &frames,
-                                           const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
-    requires std::same_as<Semiring, MaxPlus<float>>
-{
-    const Index cells = m_first.cells;
-    const Index frameCount = std::ssize(frames.y) / cells;
-    const Index overlap = (frameCount - 1) * m_reach;
-    std::vector<Stretch> stretches;
-    for (Index i = 0; i < context.threads; ++i) {
-        const Index from = i * cells / context.threads;
-        const Index end = (i + 1) * cells / context.threads;
-        stretches.push_back({scores, next, frames, likelihood, join, from, end, std::max<Index>(0, from - overlap),
-                             std::min(cells, end + overlap), frameCount});
-    }
-    scratch(stretches.size() - 1);
-    parallelFor(std::ssize(stretches), context, "recursion", [&] {
-        return [&](Index i) { slant(stretches[static_cast<std::size_t>(i)], *m_scratch[static_cast<std::size_t>(i)]); };
-    });
-    Continued all;
-    for (const Stretch &stretch : stretches)
-        all.count += stretch.continued.count;
-    return all;
-}
-
-/// The targets of the only axis, with sources `reach` cells on from where the planes start.
-template <class Semiring>
-void Recursion<Semiring>::listPlanes(Planes from, float *to, Index toStride, PlaneList &list) const
-    requires std::same_as<Semiring, MaxPlus<float>>
-{
-    list.sources.clear();
-    list.targets.clear();
-    std::vector<std::size_t> ends;
-    for (Index rate = 0; rate < m_groups; ++rate) {
-        if (m_first.shifts.empty())
-            list.sources.push_back({from.start + rate * from.stride, 0.0f});
-        else
-            for (const Shift &shift : m_first.shifts[static_cast<std::size_t>(rate)])
-                list.sources.push_back({from.start + shift.from * from.stride + m_reach - shift.cells, shift.weight});
-        ends.push_back(list.sources.size());
-    }
-    std::size_t begin = 0;
-    for (Index rate = 0; rate < m_groups; ++rate) {
-        const std::size_t end = ends[static_cast<std::size_t>(rate)];
-        list.targets.push_back({std::span<const Source>(list.sources).subspan(begin, end - begin), to + rate * toStride});
-        begin = end;
-    }
-}
-
-template <class Semiring>
-void Recursion<Semiring>::slant(Stretch &s, Scratch &own) const
-    requires std::same_as<Semiring, MaxPlus<float>>
-{
-    constexpr float minus = -std::numeric_limits<float>::infinity();
-    const Index cells = m_first.cells;
-    const Index frameCount = s.frameCount;
-    const Index reach = m_reach;
-    // Targets lie on whole cache lines, and planes not a power of two apart.
-    const Index margin = (2 * reach + vectorCells) / vectorCells * vectorCells;
-    const Index stride = margin + m_slantCells;
-    const Index haloSize = m_groups * 2 * reach;
-    own.windows.resize(static_cast<std::size_t>(2 * m_groups * stride + 16));
-    own.halo.assign(static_cast<std::size_t>(frameCount * haloSize), minus);
-    own.lambda.resize(static_cast<std::size_t>(std::max(m_slantCells, std::ssize(own.lambda))));
-    own.unused.resize(static_cast<std::size_t>(m_slantCells));
-    float *const windows = own.windows.data() + (16 - reinterpret_cast<std::uintptr_t>(own.windows.data()) / 4 % 16) % 16;
-    FrameJoin join = s.join;
-    join.isFresh = true;
-    const auto window = [&](Index time) { return windows + time % 2 * m_groups * stride; };
-
-    // From the scores, which begin, as all planes do here, `reach` cells before the first cell that is asked of them …
-    const Index edge = m_edgeRows;
-    const bool isWhole = edge == cells;
-    const Index marginRows = edge + 2 * reach;
-    const Index marginStride = isWhole ? marginRows : 2 * marginRows;
-    PlaneList fromLow;
-    PlaneList fromMiddle;
-    PlaneList fromHigh;
-    const float *const beyond = reach > 0 ? m_margins.data() : s.scores.data();
-    listPlanes({beyond, reach > 0 ? marginStride : m_planeSize}, window(0) + margin, stride, fromLow);
-    listPlanes({s.scores.data(), m_planeSize}, window(0) + margin, stride, fromMiddle);
-    listPlanes({beyond + (isWhole || reach == 0 ? 0 : marginRows), reach > 0 ? marginStride : m_planeSize}, window(0) + margin, stride,
-               fromHigh);
-    // … from one time's window to the next, and to the scores.
-    std::array<PlaneList, 2> between;
-    for (Index time = 0; time < 2; ++time)
-        listPlanes({window(time + 1) + margin - 2 * reach, stride}, window(time) + margin, stride, between[static_cast<std::size_t>(time)]);
-    PlaneList last;
-    listPlanes({window(frameCount) + margin - 2 * reach, stride}, s.next.data(), m_planeSize, last);
-
-    for (Index tile = s.low; tile - (frameCount - 1) * reach < s.high; tile += m_slantCells)
-        for (Index time = 0; time < frameCount; ++time) {
-            const Index begin = tile - time * reach; // of the tile at this time
-            const Index from = std::max(begin, s.low);
-            const Index end = std::min(begin + m_slantCells, s.high);
-            const bool isLast = time + 1 == frameCount;
-            join.counting = isLast ? s.join.counting : Counting::Nothing;
-            float *const to = window(time) + margin;
-            float *const halo = own.halo.data() + time * haloSize;
-            if (!isLast)
-                for (Index plane = 0; plane < m_groups; ++plane) {
-                    float *const own0 = to + plane * stride;
-                    std::copy_n(halo + plane * 2 * reach, 2 * reach, own0 - 2 * reach);
-                    std::fill(own0, own0 + std::clamp<Index>(s.low - begin, 0, m_slantCells), minus);
-                    std::fill(own0 + std::clamp<Index>(end - begin, 0, m_slantCells), own0 + m_slantCells, minus);
-                }
-            if (from < end)
-                s.likelihood.apply(s.frames.y.subspan(static_cast<std::size_t>(time * cells + from), static_cast<std::size_t>(end - from)),
-                                   own.lambda);
-            const auto go = [&](Index x, Index xEnd, const PlaneList &list, Index sourceBegin) {
-                // What lies outside of the stretch is the neighbour's to count and to show.
-                const std::array<Index, 4> cuts{x, std::clamp(s.from, x, xEnd), std::clamp(s.end, x, xEnd), xEnd};
-                for (std::size_t part = 0; part < 3; ++part) {
-                    const Index first = cuts[part];
-                    const Index n = cuts[part + 1] - first;
-                    const bool isOwn = part == 1;
-                    if (n <= 0 || (isLast && !isOwn))
-                        continue;
-                    float *const statistic = isOwn ? s.frames.statistic.data() + time * cells + first : own.unused.data();
-                    const Continued more = finishMax(list.targets, n, first - sourceBegin, isLast ? first : first - begin,
-                                                     own.lambda.data() + (first - from), join, statistic);
-                    s.continued.count += more.count;
-                }
-            };
-            if (time > 0) {
-                go(from, std::max(from, end), isLast ? last : between[static_cast<std::size_t>(time % 2)], begin);
-            } else if (reach == 0) {
-                go(from, std::max(from, end), fromMiddle, 0);
-            } else {
-                const Index lowEnd = std::clamp(edge, from, std::max(from, end));
-                const Index highBegin = isWhole ? std::max(from, end) : std::clamp(cells - edge, lowEnd, std::max(from, end));
-                go(from, lowEnd, fromLow, 0);
-                go(lowEnd, highBegin, fromMiddle, reach);
-                go(highBegin, std::max(from, end), fromHigh, cells - edge);
-            }
-            if (!isLast)
-                for (Index plane = 0; plane < m_groups; ++plane)
-                    std::copy_n(to + plane * stride + m_slantCells - 2 * reach, 2 * reach, halo + plane * 2 * reach);
-        }
 }
 
 template class Recursion<MaxPlus<float>>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/RunContext.h"
+#include "detect/SlantedTiles.h"
 #include "detect/joinKernels.h"
 #include "model/Likelihood.h"
 #include "model/StateSpace.h"
@@ -8,6 +9,7 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,9 +40,7 @@ struct SumProduct {
 /// inner loop knows an edge. Of equal weights, the maximum over four rates and more is taken from maxima over two and four planes that
 /// neighbouring targets share: with r' - r = δ, planes r and r + 2 reach a target a cell apart.
 ///
-/// Several frames at once, along one axis that is bounded: tiles slant by the largest displacement R a frame, so that what they need of
-/// the frame before lies in the tile itself and in the last 2R cells of the tile before, and T frames cost one reading and one writing of
-/// all scores. Threads take tiles, or stretches that overlap by (T-1)·R cells.
+/// Along one bounded axis, several frames can be gone through at once (`SlantedTiles`).
 ///
 /// What differs from cell to cell (a renormalised walk's departures, a full matrix) is ⊗-joined to the scores beforehand: P of an
 /// axis is (departure of the source) ⊗ (law of the displacement), and the departures of one axis do not mind the moves of another.
@@ -126,14 +126,13 @@ private:
     };
 
     struct Scratch;
-    struct Stretch;
-    struct Planes;
-    struct PlaneList;
 
     void addFirstAxis(const KinematicAxis &axis, Index inner, double transitionScale);
     void addLaterAxis(const KinematicAxis &axis, Index inner, Index before, Index after, double transitionScale);
     void prepareSlides();
     void prepareTiles();
+    void prepareSlantedTiles()
+        requires std::same_as<Semiring, MaxPlus<float>>;
     void preparePlaces(const StateSpace &space, double transitionScale);
     std::span<const Real> prepare(std::span<const Real> scores);
     void apply(const MatrixStep &step, std::span<const Real> from, std::span<Real> to) const;
@@ -149,16 +148,9 @@ private:
     Scratch &scratch(std::size_t number);
 
     Continued advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
-                    const FrameJoin &join, const RunContext &context)
-        requires std::same_as<Semiring, MaxPlus<float>>;
-    Continued advanceMany(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
-                     const FrameJoin &join, const RunContext &context)
+                         const FrameJoin &join, const RunContext &context)
         requires std::same_as<Semiring, MaxPlus<float>>;
     void joinListed(Index size, Scratch &scratch) const;
-    void listPlanes(Planes from, float *to, Index toStride, PlaneList &list) const
-        requires std::same_as<Semiring, MaxPlus<float>>;
-    void slant(Stretch &stretch, Scratch &scratch) const
-        requires std::same_as<Semiring, MaxPlus<float>>;
 
     Index m_planeSize;
     Index m_planeCount;
@@ -171,8 +163,7 @@ private:
     Index m_slideRing = 0; ///< rates whose maxima are kept at a time; 0: there are none
     Index m_slotSize = 0;
     std::vector<Index> m_largest; ///< shift that each maximum is wanted at
-    Index m_slantCells = 0;
-    bool m_isSlantable = false;
+    std::optional<SlantedTiles> m_slanted;
     std::vector<Continued> m_tileContinued;
     std::vector<TileRows> m_tiles;
     Index m_tileRows = 1; ///< of the largest tile

@@ -1,0 +1,180 @@
+#include "detect/SlantedTiles.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index longest = 4096; ///< cells: what is copied from tile to tile should be small beside it …
+    constexpr Index shortest = 512;
+    constexpr Index cacheBytes = 7 << 16; ///< … and both windows lie in the second-level cache
+    constexpr Index lineFloats = 16;
+    constexpr Index vectorCells = 32;
+    constexpr float unreached = -std::numeric_limits<float>::infinity();
+
+} // namespace
+
+/// What all threads are given.
+struct SlantedTiles::Work {
+    std::span<const float> scores;
+    std::span<float> next;
+    std::span<const float> y;
+    std::span<float> statistic;
+    const Likelihood &likelihood;
+    const FrameJoin &join;
+    Index frames;
+};
+
+/// Cells from … end-1 that one thread answers for; what goes in begins at low and ends at high.
+struct SlantedTiles::Stretch {
+    Index from;
+    Index end;
+    Index low;
+    Index high;
+    Continued continued{};
+};
+
+struct SlantedTiles::TargetList {
+    std::vector<ShiftedPlane<float>> sources;
+    std::vector<TargetPlane> targets;
+};
+
+SlantedTiles::SlantedTiles(Index cells, std::vector<std::vector<Source>> sources)
+    : m_cells(cells), m_sources(std::move(sources)), m_rates(std::ssize(m_sources))
+{
+    for (const std::vector<Source> &ofTarget : m_sources)
+        for (const Source &source : ofTarget)
+            m_reach = std::max(m_reach, std::abs(source.displacement));
+    const Index fitting = cacheBytes / (2 * m_rates * static_cast<Index>(sizeof(float))) - 2 * m_reach;
+    m_tileCells = std::min(longest, fitting / vectorCells * vectorCells);
+    // Targets lie on whole cache lines, and rates not a power of two apart.
+    m_margin = (2 * m_reach + vectorCells) / vectorCells * vectorCells;
+    m_stride = m_margin + m_tileCells;
+}
+
+bool SlantedTiles::areWorthwhile() const
+{
+    return m_tileCells >= shortest;
+}
+
+Continued SlantedTiles::advance(std::span<const float> scores, std::span<float> next, std::span<const float> y,
+                                std::span<float> statistic, const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
+{
+    const Work work{scores, next, y, statistic, likelihood, join, std::ssize(y) / m_cells};
+    const Index overlap = (work.frames - 1) * m_reach;
+    std::vector<Stretch> stretches;
+    for (Index i = 0; i < context.threads; ++i) {
+        const Index from = i * m_cells / context.threads;
+        const Index end = (i + 1) * m_cells / context.threads;
+        stretches.push_back({from, end, std::max<Index>(0, from - overlap), std::min(m_cells, end + overlap)});
+    }
+    m_scratch.resize(std::max(m_scratch.size(), stretches.size()));
+    parallelFor(std::ssize(stretches), context, "recursion", [&] {
+        return [&](Index i) { goThrough(work, stretches[static_cast<std::size_t>(i)], m_scratch[static_cast<std::size_t>(i)]); };
+    });
+    Continued all;
+    for (const Stretch &stretch : stretches)
+        all.count += stretch.continued.count;
+    return all;
+}
+
+/// Sources 2R cells before the targets' first, which is that of their own frame's tile, R cells on.
+SlantedTiles::TargetList SlantedTiles::listTargets(const float *from, float *to, Index toStride) const
+{
+    TargetList list;
+    for (const std::vector<Source> &ofTarget : m_sources)
+        for (const Source &source : ofTarget)
+            list.sources.push_back({from + source.rate * m_stride - m_reach - source.displacement, source.weight});
+    std::size_t begin = 0;
+    for (Index rate = 0; rate < m_rates; ++rate) {
+        const std::size_t count = m_sources[static_cast<std::size_t>(rate)].size();
+        list.targets.push_back({std::span<const ShiftedPlane<float>>(list.sources).subspan(begin, count), to + rate * toStride});
+        begin += count;
+    }
+    return list;
+}
+
+/// The scores, as if a frame's tile began at `begin`.
+void SlantedTiles::readScores(const Work &work, Index begin, float *window) const
+{
+    const Index first = begin - 2 * m_reach;
+    const Index count = m_tileCells + 2 * m_reach;
+    const Index from = std::clamp<Index>(-first, 0, count);
+    const Index end = std::clamp<Index>(m_cells - first, from, count);
+    for (Index rate = 0; rate < m_rates; ++rate) {
+        float *const to = window + rate * m_stride - 2 * m_reach;
+        std::fill(to, to + from, unreached);
+        std::copy_n(work.scores.data() + rate * m_cells + first + from, end - from, to + from);
+        std::fill(to + end, to + count, unreached);
+    }
+}
+
+void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
+{
+    const Index haloSize = m_rates * 2 * m_reach;
+    own.windows.resize(static_cast<std::size_t>(2 * m_rates * m_stride + lineFloats));
+    own.halo.assign(static_cast<std::size_t>(work.frames * haloSize), unreached);
+    own.lambda.resize(static_cast<std::size_t>(m_tileCells));
+    own.unused.resize(static_cast<std::size_t>(m_tileCells));
+    const auto address = static_cast<Index>(reinterpret_cast<std::uintptr_t>(own.windows.data()) / sizeof(float));
+    float *const windows = own.windows.data() + (lineFloats - address % lineFloats) % lineFloats + m_margin;
+    const auto windowOf = [&](Index frame) { return windows + (frame + 1) % 2 * m_rates * m_stride; }; // the scores are of frame -1
+
+    std::array<TargetList, 2> between;
+    for (Index frame = 0; frame < 2; ++frame)
+        between[static_cast<std::size_t>(frame)] = listTargets(windowOf(frame - 1), windowOf(frame), m_stride);
+    const TargetList last = listTargets(windowOf(work.frames - 2), work.next.data(), m_cells);
+
+    const auto goThroughFrame = [&](Index frame, Index begin, Index from, Index end) {
+        const bool isLast = frame + 1 == work.frames;
+        const TargetList &list = isLast ? last : between[static_cast<std::size_t>(frame % 2)];
+        FrameJoin join = work.join;
+        join.isFresh = true;
+        join.counting = isLast ? join.counting : Counting::Nothing;
+        work.likelihood.apply(work.y.subspan(static_cast<std::size_t>(frame * m_cells + from), static_cast<std::size_t>(end - from)),
+                              own.lambda);
+        // What lies outside of the stretch is the neighbour's to count and to show.
+        const std::array<Index, 4> cuts{from, std::clamp(s.from, from, end), std::clamp(s.end, from, end), end};
+        for (std::size_t part = 0; part < 3; ++part) {
+            const Index first = cuts[part];
+            const Index n = cuts[part + 1] - first;
+            const bool isOwn = part == 1;
+            if (n <= 0 || (isLast && !isOwn))
+                continue;
+            float *const statistic = isOwn ? work.statistic.data() + frame * m_cells + first : own.unused.data();
+            s.continued.count += finishMax(list.targets, n, first - begin, isLast ? first : first - begin,
+                                           own.lambda.data() + (first - from), join, statistic)
+                                     .count;
+        }
+    };
+
+    for (Index tile = s.low; tile - (work.frames - 1) * m_reach < s.high; tile += m_tileCells) {
+        readScores(work, tile + m_reach, windowOf(-1));
+        for (Index frame = 0; frame < work.frames; ++frame) {
+            const Index begin = tile - frame * m_reach;
+            const Index from = std::clamp(s.low, begin, begin + m_tileCells);
+            const Index end = std::clamp(s.high, from, begin + m_tileCells);
+            float *const window = windowOf(frame);
+            float *const halo = own.halo.data() + frame * haloSize;
+            for (Index rate = 0; frame + 1 < work.frames && rate < m_rates; ++rate) {
+                float *const to = window + rate * m_stride;
+                std::copy_n(halo + rate * 2 * m_reach, 2 * m_reach, to - 2 * m_reach);
+                std::fill(to, to + from - begin, unreached);
+                std::fill(to + end - begin, to + m_tileCells, unreached);
+            }
+            if (from < end)
+                goThroughFrame(frame, begin, from, end);
+            for (Index rate = 0; frame + 1 < work.frames && rate < m_rates; ++rate)
+                std::copy_n(window + rate * m_stride + m_tileCells - 2 * m_reach, 2 * m_reach, halo + rate * 2 * m_reach);
+        }
+    }
+}
+
+} // namespace faintline
