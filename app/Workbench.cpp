@@ -109,7 +109,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     m_rows->addWidget(m_statistic);
     m_rows->addWidget(m_regulation);
     m_rows->setStretchFactor(0, 1);
-    m_rows->setSizes({590, 125, 125});
+    m_rows->setSizes({640, 106, 106});
     for (QSplitter *splitter : {m_pictures, m_rows})
         splitter->setChildrenCollapsible(false);
     for (QwtPlot *plot : std::initializer_list<QwtPlot *>{m_input, m_output, m_statistic, m_regulation})

@@ -23,6 +23,7 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QScopedValueRollback>
 #include <QScrollArea>
 
 #include <algorithm>
@@ -431,6 +432,7 @@ void ChartPlot::resizeEvent(QResizeEvent *event)
 
 void ChartPlot::layAxes()
 {
+    const QScopedValueRollback laying(m_isLaying, true);
     std::vector<double> xs;
     std::vector<double> ys;
     bool areShares = true; // probabilities get all of 0 … 1
@@ -547,7 +549,7 @@ bool ChartPlot::eventFilter(QObject *watched, QEvent *event)
 {
     if (watched != m_plot->canvas())
         return QWidget::eventFilter(watched, event);
-    if (event->type() == QEvent::Resize)
+    if (event->type() == QEvent::Resize && !m_isLaying) // labels of other ticks may change the canvas, which must not change the ticks again
         layAxes();
     if (event->type() == QEvent::MouseMove) {
         const auto place = nearest(static_cast<QMouseEvent *>(event)->position());

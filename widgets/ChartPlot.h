@@ -110,6 +110,7 @@ private:
     std::vector<std::vector<QwtPlotItem *>> m_details; ///< intervals and labels of each curve
     std::vector<QwtPlotMarker *> m_labels;             ///< of all points that have one
     std::vector<QCheckBox *> m_boxes;
+    bool m_isLaying = false;
 };
 
 } // namespace faintline

@@ -9,8 +9,7 @@
 #include <QApplication>
 #include <QFontDatabase>
 #include <QLocale>
-#include <QStyle>
-#include <QStyleFactory>
+#include <QProxyStyle>
 #include <QToolTip>
 
 namespace faintline {
@@ -71,6 +70,20 @@ namespace {
         Q_UNUSED(isLoaded);
     }
 
+    /// Fusion, with tabs that leave their names the room of a narrow column.
+    class Style : public QProxyStyle
+    {
+    public:
+        Style() : QProxyStyle(QStringLiteral("Fusion")) { setObjectName(styleName()); }
+        static QString styleName() { return QStringLiteral("faintline"); }
+
+        int pixelMetric(PixelMetric metric, const QStyleOption *option, const QWidget *widget) const override
+        {
+            constexpr int tabRoom = 13;
+            return metric == PM_TabBarTabHSpace ? tabRoom : QProxyStyle::pixelMetric(metric, option, widget);
+        }
+    };
+
     void styleAxis(QwtPlot &plot, QwtAxisId axis, const Theme::Colours &colours)
     {
         QwtScaleWidget &widget = *plot.axisWidget(axis);
@@ -108,8 +121,8 @@ void Theme::apply(Kind kind)
 {
     loadFonts();
     QLocale::setDefault(QLocale::c());
-    if (!qApp->style() || qApp->style()->name() != QLatin1String("fusion"))
-        QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    if (!qApp->style() || qApp->style()->objectName() != Style::styleName())
+        QApplication::setStyle(new Style);
     const QPalette colours = palette(kind);
     QApplication::setPalette(colours);
     QToolTip::setPalette(colours);
