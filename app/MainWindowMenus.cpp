@@ -122,6 +122,13 @@ void MainWindow::buildViewMenu()
     harmonics->setCheckable(true);
     connect(harmonics, &QAction::toggled, input, &WaterfallView::setHarmonics);
     connect(harmonics, &QAction::toggled, output, &WaterfallView::setHarmonics);
+    connect(output, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    connect(input, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    QAction *sidebands = addViewAction(*menu, tr("S&idebands"), Qt::Key_I, {});
+    sidebands->setCheckable(true);
+    connect(sidebands, &QAction::toggled, output, &WaterfallView::setSidebands);
+    connect(output, &WaterfallView::sidebandsChanged, sidebands, [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
+    addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K, [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
     menu->addSeparator();
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {
