@@ -4,6 +4,7 @@
 #include "app/OpenOptionsDialog.h"
 #include "app/InjectDialog.h"
 #include "app/Panels.h"
+#include "app/ToolBar.h"
 #include "app/Workbench.h"
 #include "widgets/WaterfallView.h"
 
@@ -22,6 +23,7 @@
 #include <QTabBar>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QToolButton>
 
 #include <set>
 
@@ -199,6 +201,50 @@ private slots:
         QCOMPARE(m_window->size(), size); // nothing forces it wider
         for (const WaterfallView *view : {m_window->workbench().input(), m_window->workbench().output()})
             QVERIFY2(view->canvas()->width() >= canvas, qPrintable(QString::number(view->canvas()->width())));
+    }
+
+    void toolsSayWhatTheyAre()
+    {
+        const auto *bar = m_window->findChild<ToolBar *>();
+        const auto buttons = [&] {
+            QList<QToolButton *> result;
+            for (QToolButton *button : bar->findChildren<QToolButton *>())
+                if (button->isVisible() && !button->text().isEmpty())
+                    result << button;
+            return result;
+        };
+        for (const int width : {1280, 1600}) {
+            m_window->resize(width, 800);
+            QCoreApplication::processEvents();
+            QCOMPARE(buttons().size(), 11); // none has gone where there is no room
+            for (const QToolButton *button : buttons()) {
+                QVERIFY2(!button->icon().isNull(), qPrintable(button->text()));
+                QVERIFY2(!button->toolTip().isEmpty(), qPrintable(button->text()));
+                QVERIFY2(button->width() >= button->sizeHint().width(), qPrintable(button->text()));
+                if (width == 1600)
+                    QCOMPARE(button->toolButtonStyle(), Qt::ToolButtonTextBesideIcon);
+            }
+        }
+    }
+
+    void iconsTakeTheThemesColour()
+    {
+        const auto darkest = [](const QIcon &icon) {
+            const QImage image = icon.pixmap(24).toImage();
+            int lightness = 255;
+            for (int y = 0; y < image.height(); ++y)
+                for (int x = 0; x < image.width(); ++x)
+                    if (qAlpha(image.pixel(x, y)) > 200)
+                        lightness = std::min(lightness, image.pixelColor(x, y).lightness());
+            return lightness;
+        };
+        const QIcon icon = m_window->findChild<ToolBar *>()->findChildren<QToolButton *>().last()->icon();
+        QVERIFY(darkest(icon) < 100);
+        for (const Theme::Kind kind : {Theme::Kind::Dark, Theme::Kind::HighContrast}) {
+            Theme::apply(kind);
+            QVERIFY(darkest(icon) > 180);
+        }
+        Theme::apply(Theme::Kind::Light);
     }
 
     void nothingInTheFormsIsCut()
