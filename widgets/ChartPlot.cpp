@@ -432,7 +432,6 @@ void ChartPlot::resizeEvent(QResizeEvent *event)
 
 void ChartPlot::layAxes()
 {
-    const QScopedValueRollback laying(m_isLaying, true);
     std::vector<double> xs;
     std::vector<double> ys;
     bool areShares = true; // probabilities get all of 0 … 1
@@ -549,8 +548,12 @@ bool ChartPlot::eventFilter(QObject *watched, QEvent *event)
 {
     if (watched != m_plot->canvas())
         return QWidget::eventFilter(watched, event);
-    if (event->type() == QEvent::Resize && !m_isLaying) // labels of other ticks may change the canvas, which must not change the ticks again
+    // Labels take room by the ticks there are, and there are ticks for the room: where the two never agree, the third try stands.
+    constexpr int mostTries = 3;
+    if (event->type() == QEvent::Resize && m_resizing < mostTries) {
+        const QScopedValueRollback nested(m_resizing, m_resizing + 1);
         layAxes();
+    }
     if (event->type() == QEvent::MouseMove) {
         const auto place = nearest(static_cast<QMouseEvent *>(event)->position());
         if (place != m_place)

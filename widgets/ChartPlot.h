@@ -95,6 +95,7 @@ private:
     Chart m_chart;
     QSet<QString> m_hidden; ///< by name
     std::optional<Place> m_place;
+    int m_resizing = 0; ///< how deep in resizing of the canvas by what resizing it changed
     QString m_invitation;
 
     QwtPlot *m_plot;
@@ -110,7 +111,6 @@ private:
     std::vector<std::vector<QwtPlotItem *>> m_details; ///< intervals and labels of each curve
     std::vector<QwtPlotMarker *> m_labels;             ///< of all points that have one
     std::vector<QCheckBox *> m_boxes;
-    bool m_isLaying = false;
 };
 
 } // namespace faintline

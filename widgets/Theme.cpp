@@ -1,5 +1,7 @@
 #include "widgets/Theme.h"
 
+#include "widgets/icon.h"
+
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_layout.h>
@@ -70,7 +72,7 @@ namespace {
         Q_UNUSED(isLoaded);
     }
 
-    /// Fusion, with tabs that leave their names the room of a narrow column.
+    /// Fusion, with tabs that leave their names the room of a narrow column, and our icons.
     class Style : public QProxyStyle
     {
     public:
@@ -81,6 +83,16 @@ namespace {
         {
             constexpr int tabRoom = 13;
             return metric == PM_TabBarTabHSpace ? tabRoom : QProxyStyle::pixelMetric(metric, option, widget);
+        }
+
+        /// Fusion's own buttons of a dock have few pixels, and light ones in every theme.
+        QIcon standardIcon(StandardPixmap kind, const QStyleOption *option, const QWidget *widget) const override
+        {
+            if (kind == SP_TitleBarCloseButton)
+                return icon(QStringLiteral("close"));
+            if (kind == SP_TitleBarNormalButton)
+                return icon(QStringLiteral("detach"));
+            return QProxyStyle::standardIcon(kind, option, widget);
         }
     };
 
