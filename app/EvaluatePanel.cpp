@@ -2,6 +2,7 @@
 
 #include "app/Document.h"
 #include "app/ExperimentForm.h"
+#include "app/StartColumn.h"
 #include "evaluate/campaignCharts.h"
 #include "spectrum/Spectrogram.h"
 #include "widgets/ChartPlot.h"
@@ -10,9 +11,6 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QProgressBar>
-#include <QPushButton>
-#include <QScrollArea>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
@@ -38,44 +36,9 @@ namespace {
 
 EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments, QWidget *parent)
     : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new ExperimentForm),
-      m_start(new QPushButton(tr("Start"))), m_cancel(new QPushButton(tr("Cancel"))), m_progress(new QProgressBar),
-      m_state(new QLabel), m_tabs(new QTabWidget), m_pd(new ChartPlot), m_roc(new ChartPlot), m_snr(new QComboBox)
+      m_column(new StartColumn(m_form, tr("Progress of the experiment"), tr("Run this experiment; the window stays free meanwhile"))),
+      m_tabs(new QTabWidget), m_pd(new ChartPlot), m_roc(new ChartPlot), m_snr(new QComboBox)
 {
-    auto *area = new QScrollArea;
-    area->setWidget(m_form);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    m_progress->setRange(0, 1000);
-    m_progress->setTextVisible(false);
-    m_progress->setFixedHeight(8);
-    m_progress->setAccessibleName(tr("Progress of the experiment"));
-    m_state->setTextFormat(Qt::PlainText);
-    m_state->setWordWrap(true);
-    m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_cancel->setEnabled(false);
-    m_start->setToolTip(tr("Run this experiment; the window stays free meanwhile"));
-
-    auto *buttons = new QHBoxLayout;
-    buttons->setContentsMargins(8, 2, 8, 0);
-    buttons->setSpacing(6);
-    buttons->addWidget(m_start, 1);
-    buttons->addWidget(m_cancel, 1);
-    auto *status = new QVBoxLayout;
-    status->setContentsMargins(8, 2, 8, 4);
-    status->setSpacing(2);
-    status->addWidget(m_progress);
-    status->addWidget(m_state);
-    auto *left = new QVBoxLayout;
-    left->setSpacing(0);
-    left->addWidget(area, 1);
-    left->addLayout(buttons);
-    left->addLayout(status);
-    auto *leftBox = new QWidget;
-    left->setContentsMargins(0, 0, 0, 0);
-    leftBox->setLayout(left);
-    leftBox->setFixedWidth(330);
-
     auto *rocPage = new QWidget;
     auto *rocTop = new QHBoxLayout;
     rocTop->setContentsMargins(8, 4, 8, 0);
@@ -98,11 +61,11 @@ EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments,
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(leftBox);
+    layout->addWidget(m_column);
     layout->addWidget(m_tabs, 1);
 
-    connect(m_start, &QPushButton::clicked, this, &EvaluatePanel::start);
-    connect(m_cancel, &QPushButton::clicked, this, &EvaluatePanel::cancel);
+    connect(m_column, &StartColumn::startRequested, this, &EvaluatePanel::start);
+    connect(m_column, &StartColumn::cancelRequested, this, &EvaluatePanel::cancel);
     connect(m_form, &ExperimentForm::changed, this, &EvaluatePanel::followForm);
     connect(m_snr, &QComboBox::activated, this, [this] {
         if (const Experiments::Entry *entry = m_experiments.entry(m_shown))
@@ -143,7 +106,7 @@ void EvaluatePanel::followDocument()
 
 void EvaluatePanel::followForm()
 {
-    m_start->setEnabled(m_form->obstacle().isEmpty());
+    m_column->setStartable(m_form->obstacle().isEmpty());
 }
 
 void EvaluatePanel::start()
@@ -173,9 +136,7 @@ void EvaluatePanel::show(int id)
     }
     m_pd->setChart({});
     m_roc->setChart({});
-    m_progress->setValue(0);
-    m_state->clear();
-    m_cancel->setEnabled(false);
+    m_column->clearState();
 }
 
 void EvaluatePanel::follow(int id)
@@ -183,7 +144,7 @@ void EvaluatePanel::follow(int id)
     const Experiments::Entry *entry = m_experiments.entry(id);
     if (id != m_shown || !entry)
         return;
-    showState(*entry);
+    m_column->showState(*entry);
     showPd(*entry);
     showRoc(*entry);
 }
@@ -235,27 +196,6 @@ void EvaluatePanel::showRoc(const Experiments::Entry &entry)
     m_rocChart = entry.campaign && m_snr->currentIndex() >= 0 ? rocChart(*entry.campaign, shownSnr()) : Chart();
     m_roc->setChart(m_rocChart);
     showOperatingPoint(entry);
-}
-
-void EvaluatePanel::showState(const Experiments::Entry &entry)
-{
-    m_cancel->setEnabled(entry.isOpen());
-    m_progress->setValue(static_cast<int>(1000.0 * entry.progress));
-    const int runs = entry.campaign ? runCount(entry.campaign->experiment) : 0;
-    const QString done = tr("%1 of %2 runs").arg(entry.runsDone()).arg(runs);
-    switch (entry.state) {
-    case Experiments::State::Waiting:
-        return m_state->setText(tr("waiting for the one before"));
-    case Experiments::State::Running:
-        return m_state->setText(entry.doing.isEmpty() ? done : done + QStringLiteral(" · ") + entry.doing);
-    case Experiments::State::Done:
-        return m_state->setText(entry.imported ? tr("imported: no trials behind its points")
-                                               : tr("done, %1").arg(done));
-    case Experiments::State::Cancelled:
-        return m_state->setText(tr("cancelled after %1").arg(done));
-    case Experiments::State::Failed:
-        return m_state->setText(tr("failed: %1").arg(entry.failure));
-    }
 }
 
 } // namespace faintline

@@ -7,9 +7,6 @@
 #include <QWidget>
 
 class QComboBox;
-class QLabel;
-class QProgressBar;
-class QPushButton;
 class QTabWidget;
 
 namespace faintline {
@@ -17,6 +14,7 @@ namespace faintline {
 class ChartPlot;
 class Document;
 class ExperimentForm;
+class StartColumn;
 
 /// Pd and ROC: an experiment is set up on the left and its curves grow on the right while it runs.
 class EvaluatePanel : public QWidget
@@ -52,16 +50,12 @@ private:
     void showRoc(const Experiments::Entry &entry);
     void showOperatingPoint(const Experiments::Entry &entry);
     std::size_t shownSnr() const;
-    void showState(const Experiments::Entry &entry);
     void fillSnrs(const Experiments::Entry &entry);
 
     const Document &m_document;
     Experiments &m_experiments;
     ExperimentForm *m_form;
-    QPushButton *m_start;
-    QPushButton *m_cancel;
-    QProgressBar *m_progress;
-    QLabel *m_state;
+    StartColumn *m_column;
     QTabWidget *m_tabs;
     ChartPlot *m_pd;
     ChartPlot *m_roc;

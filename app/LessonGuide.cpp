@@ -230,7 +230,8 @@ void LessonGuide::showPanel()
     if (!m_dock->isHidden())
         return;
     m_window.addDockWidget(Qt::LeftDockWidgetArea, m_dock, Qt::Vertical);
-    if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"))) {
+    auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
+    if (below && m_window.dockWidgetArea(below) == Qt::LeftDockWidgetArea) {
         m_window.splitDockWidget(m_dock, below, Qt::Vertical);
         m_dock->show();
         if (!below->isHidden())

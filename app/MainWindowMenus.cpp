@@ -16,15 +16,16 @@
 #include "app/scenarios.h"
 #include "app/SequentialPanel.h"
 #include "app/SessionSaver.h"
+#include "app/ToolBar.h"
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
 #include "app/scanScenario.h"
 #include "widgets/EventTable.h"
+#include "widgets/icon.h"
 
 #include <QActionGroup>
 #include <QMenu>
 #include <QMenuBar>
-#include <QToolBar>
 #include <QToolButton>
 
 namespace faintline {
@@ -122,6 +123,13 @@ void MainWindow::buildViewMenu()
     harmonics->setCheckable(true);
     connect(harmonics, &QAction::toggled, input, &WaterfallView::setHarmonics);
     connect(harmonics, &QAction::toggled, output, &WaterfallView::setHarmonics);
+    connect(output, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    connect(input, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    QAction *sidebands = addViewAction(*menu, tr("S&idebands"), Qt::Key_I, {});
+    sidebands->setCheckable(true);
+    connect(sidebands, &QAction::toggled, output, &WaterfallView::setSidebands);
+    connect(output, &WaterfallView::sidebandsChanged, sidebands, [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
+    addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K, [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
     menu->addSeparator();
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {
@@ -282,12 +290,20 @@ QAction *MainWindow::addViewAction(QMenu &menu, const QString &text, const QKeyS
 
 void MainWindow::buildToolBar()
 {
-    QToolBar *bar = addToolBar(tr("Tools"));
+    auto *bar = new ToolBar(tr("Tools"));
+    addToolBar(bar);
     bar->setObjectName(QStringLiteral("toolBar"));
-    bar->setMovable(false);
-    bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    bar->addAction(tr("Open…"), this, &MainWindow::chooseFile)
-        ->setToolTip(tr("Open a recording, a scenario or a session (Ctrl+O)"));
+    const auto add = [this, bar](const QString &text, const char *icon, const QString &toolTip, bool keepsText, auto action) {
+        auto *result = new QAction(text, bar);
+        connect(result, &QAction::triggered, this, action);
+        result->setToolTip(toolTip);
+        bar->addAction(result, QString::fromLatin1(icon), keepsText);
+        return result;
+    };
+    const auto addOfView = [&](const QString &text, const char *icon, const QString &toolTip, bool keepsText, auto action) {
+        m_viewActions.push_back(add(text, icon, toolTip, keepsText, action));
+    };
+    add(tr("Open…"), "open", tr("Open a recording, a scenario or a session (Ctrl+O)"), true, &MainWindow::chooseFile);
 
     auto *scenarioMenu = new QMenu(this);
     for (const Scenario &scenario : scenarios())
@@ -298,26 +314,23 @@ void MainWindow::buildToolBar()
     scenarioButton->setToolTip(tr("Open a simulated recording"));
     scenarioButton->setMenu(scenarioMenu);
     scenarioButton->setPopupMode(QToolButton::InstantPopup);
-    bar->addWidget(scenarioButton);
+    bar->addButton(scenarioButton, QStringLiteral("scenario"), true);
     bar->addSeparator();
 
-    const auto add = [this, bar](const QString &text, const QString &toolTip, auto action) {
-        QAction *result = bar->addAction(text, this, action);
-        result->setToolTip(toolTip);
-        m_viewActions.push_back(result);
-    };
-    add(tr("Run"), tr("Run the chain again (Ctrl+R)"), [this] { m_controller.run(); });
-    bar->addAction(m_stopAction);
+    addOfView(tr("Run"), "run", tr("Run the chain again (Ctrl+R)"), true, [this] { m_controller.run(); });
+    bar->addAction(m_stopAction, QStringLiteral("stop"), true);
     bar->addSeparator();
-    add(tr("Orientation"), tr("Newest on top, oldest on top, left to right (O)"),
-        [this] { bench().cycleOrientation(); });
-    add(tr("Colours"), tr("Next colour map (C)"), [this] { bench().cycleColourMap(); });
-    add(tr("Show all"), tr("The whole recording (0)"), [this] { m_document.viewport().showAll(); });
+    addOfView(tr("Orientation"), "orientation", tr("Newest on top, oldest on top, left to right (O)"), false, [this] { bench().cycleOrientation(); });
+    addOfView(tr("Colours"), "colours", tr("Next colour map (C)"), false, [this] { bench().cycleColourMap(); });
+    addOfView(tr("Show all"), "show-all", tr("The whole recording (0)"), false, [this] { m_document.viewport().showAll(); });
     bar->addSeparator();
-    add(tr("Frame back"), tr("One frame back (J)"), [this] { bench().stepFrames(-1); });
-    bar->addAction(m_playAction);
-    add(tr("Frame forward"), tr("One frame forward (L)"), [this] { bench().stepFrames(1); });
-    add(tr("Next event"), tr("Go to the next event (N)"), [this] { m_events->selectNext(); });
+    addOfView(tr("Frame back"), "step-back", tr("One frame back (J)"), false, [this] { bench().stepFrames(-1); });
+    bar->addAction(m_playAction, QStringLiteral("play"), false);
+    connect(m_playAction, &QAction::toggled, this,
+            [this](bool isPlaying) { m_playAction->setIcon(icon(isPlaying ? QStringLiteral("pause") : QStringLiteral("play"))); });
+    addOfView(tr("Frame forward"), "step-forward", tr("One frame forward (L)"), false, [this] { bench().stepFrames(1); });
+    bar->addSeparator();
+    addOfView(tr("Next event"), "next-event", tr("Go to the next event (N)"), false, [this] { m_events->selectNext(); });
 }
 
 } // namespace faintline

@@ -2,6 +2,7 @@
 
 #include "analysis/Calibration.h"
 #include "app/Document.h"
+#include "app/readingTable.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/quantities.h"
 
@@ -22,20 +23,24 @@ namespace {
     constexpr double rarest = 1e-4; ///< beyond it a ratio would rest on a handful of cells
     constexpr double fewest = 10.0; ///< values beyond a quantile that is drawn
 
-    QString bandText(const FittedBand &band)
+    QString bandText(const FittedBand &band, const Axis &axis)
     {
+        if (axis.unit != "Hz") {
+            const int decimals = decimalsFor((band.high - band.low) / 10.0);
+            return QObject::tr("%1 … %2 %3").arg(numberText(band.low, decimals), numberText(band.high, decimals), QString::fromStdString(axis.unit));
+        }
         const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
         const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
         return QObject::tr("%1 … %2 %3")
             .arg(numberText(band.low / unit.hz, decimals), numberText(band.high / unit.hz, decimals), unit.name);
     }
 
-    Chart chartOf(const std::vector<FittedBand> &bands)
+    Chart chartOf(const std::vector<FittedBand> &bands, const Axis &axis)
     {
         Chart chart{"Normalised noise against its law", "quantile of the law e^(-y)", "measured y", false, false, {}};
         double longest = 1.0;
         for (const FittedBand &band : bands) {
-            Curve curve{bandText(band).toStdString(), Curve::Kind::Measured, {}};
+            Curve curve{bandText(band, axis).toStdString(), Curve::Kind::Measured, {}};
             for (double x = 0.5; static_cast<double>(band.law.count()) * std::exp(-x) >= fewest; x += 0.5) {
                 curve.points.push_back({x, band.law.quantile(std::exp(-x)), {}});
                 longest = std::max(longest, x);
@@ -63,15 +68,9 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
         tr("How much likelier this band's noise exceeds a threshold in a cell than noise of the law itself: at the "
            "threshold's own false-alarm "
            "probability, or at 10⁻⁴ where that is smaller than can be vouched for"));
-    m_table->verticalHeader()->hide();
-    m_table->verticalHeader()->setDefaultSectionSize(22);
-    m_table->horizontalHeader()->setHighlightSections(false);
+    makeReadingTable(*m_table, 22);
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     m_table->horizontalHeader()->setStretchLastSection(true);
-    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
-    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    m_table->setShowGrid(false);
-    m_table->setFrameShape(QFrame::NoFrame);
     m_table->setAccessibleName(tr("Fit of the noise, band by band"));
     auto *splitter = new QSplitter(Qt::Vertical);
     splitter->addWidget(m_plot);
@@ -126,21 +125,18 @@ void NoiseFitPanel::measure()
 
 void NoiseFitPanel::show(const Fit &fit)
 {
-    m_plot->setChart(chartOf(fit.bands));
+    const Axis &axis = fit.analysis->grid().axes.back();
+    m_plot->setChart(chartOf(fit.bands, axis));
     m_table->setRowCount(static_cast<int>(fit.bands.size()));
     for (int row = 0; row < m_table->rowCount(); ++row) {
         const FittedBand &band = fit.bands[static_cast<std::size_t>(row)];
-        const QString texts[] = {bandText(band), numberText(band.law.mean(), 3),
+        const QStringList texts{bandText(band, axis), numberText(band.law.mean(), 3),
                                  tr("%1 %2 %3")
                                      .arg(numberText(band.law.distance(), 4),
                                           band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
                                           numberText(NoiseLaw::distanceLimit(band.independent), 4)),
                                  QStringLiteral("× ") + powerText(fit.pfa[static_cast<std::size_t>(row)].ratio(), 3)};
-        for (int column = 0; column < 4; ++column) {
-            auto *item = new QTableWidgetItem(texts[column]);
-            item->setTextAlignment((column == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
-            m_table->setItem(row, column, item);
-        }
+        fillRow(*m_table, row, texts, 1);
     }
     say(fit);
 }
@@ -151,7 +147,7 @@ void NoiseFitPanel::say(const Fit &fit)
         std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
                                         [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
-    const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())]);
+    const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());
     const QString ratio = powerText(worst->ratio(), 3);
     const QString nominal = powerText(worst->nominal);
     m_sentence->setText(misfits == 0 ? tr("All bands follow the law. Where it gives a Pfa of %3 per cell, these give "

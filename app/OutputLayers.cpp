@@ -131,7 +131,7 @@ LayerWindow OutputLayers::window() const
     const Viewport::Box &visible = m_document.viewport().visible();
     const Axis &time = analysis.time();
     const Axis &frequency = analysis.grid().axes.front();
-    const QSize size = m_output.canvas()->contentsRect().size();
+    const QSize size = (QSizeF(m_output.canvas()->contentsRect().size()) * m_output.devicePixelRatioF()).toSize();
     const bool isTimeVertical = m_output.orientation() != WaterfallView::Orientation::LeftToRight;
     return {time.nearest(visible.time.low),
             time.nearest(visible.time.high) + 1,

@@ -8,9 +8,14 @@
 #include <QStatusBar>
 #include <QToolBar>
 
+#include <algorithm>
+
 namespace faintline {
 
 namespace {
+
+    constexpr int twoColumnsFrom = 1500; ///< pixels; in a narrower window all panels share a column, so that the pictures have the room
+    constexpr int narrowestColumn = 280;
 
     Qt::DockWidgetArea areaOf(Panels::Place place)
     {
@@ -76,10 +81,21 @@ void Panels::rememberDefault()
 
 void Panels::takeDefault()
 {
+    std::vector<QToolBar *> hidden; // what is open decides about them, not the layout
+    for (QToolBar *bar : m_window.findChildren<QToolBar *>())
+        if (bar->isHidden())
+            hidden.push_back(bar);
     m_window.restoreState(m_default);
+    for (QToolBar *bar : hidden)
+        bar->hide();
     const int width = m_window.width();
-    m_window.resizeDocks({first(Place::Left), first(Place::RightTop)}, {width * 17 / 100, width * 22 / 100}, Qt::Horizontal);
-    m_window.resizeDocks({first(Place::RightTop), first(Place::RightBottom)}, {1, 1}, Qt::Vertical);
+    QDockWidget *left = first(Place::Left), *right = first(Place::RightTop);
+    if (width < twoColumnsFrom) {
+        m_window.tabifyDockWidget(right, left);
+        right->raise();
+    }
+    m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)}, Qt::Horizontal);
+    m_window.resizeDocks({right, first(Place::RightBottom)}, {4, 5}, Qt::Vertical);
 }
 
 void Panels::show(QWidget *panel)

@@ -89,6 +89,7 @@ PingBench::PingBench(Document &document, QWidget *parent)
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
+    setMinimumHeight(220); // of the maps, as in the Workbench
 
     m_dragged->setWordWrap(true);
     m_dragged->setTextFormat(Qt::PlainText);
@@ -115,6 +116,15 @@ PingBench::PingBench(Document &document, QWidget *parent)
     auto *backward = new QShortcut(QKeySequence(Qt::SHIFT | Qt::Key_Space), this);
     backward->setContext(Qt::WidgetWithChildrenShortcut);
     connect(backward, &QShortcut::activated, this, [this] { setPlayingBackward(!m_player.isActive()); });
+}
+
+void PingBench::resizeEvent(QResizeEvent *event)
+{
+    constexpr int enoughForHistories = 460;
+    constexpr int enoughForAll = 580;
+    m_histories->setVisible(height() >= enoughForHistories);
+    m_regulation->parentWidget()->setVisible(height() >= enoughForAll);
+    Bench::resizeEvent(event);
 }
 
 QWidget *PingBench::histories() const

@@ -54,6 +54,10 @@ public slots:
     void setPolar(bool isPolar);
     void showPing(faintline::Index ping);
 
+protected:
+    /// Gives up what would leave the maps no room.
+    void resizeEvent(QResizeEvent *event) override;
+
 private:
     QWidget *buildBar();
     void linkViews();

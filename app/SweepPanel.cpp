@@ -1,34 +1,30 @@
 #include "app/SweepPanel.h"
 
 #include "app/Document.h"
+#include "app/StartColumn.h"
 #include "app/SweepForm.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/ChartPlot.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
-#include <QProgressBar>
-#include <QPushButton>
-#include <QScrollArea>
 #include <QTabWidget>
-#include <QVBoxLayout>
 
 namespace faintline {
 
 SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidget *parent)
-    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm), m_start(new QPushButton(tr("Start"))),
-      m_cancel(new QPushButton(tr("Cancel"))), m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget),
+    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm),
+      m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values; the window stays free meanwhile"))), m_tabs(new QTabWidget),
       m_tradeOff(new ChartPlot), m_pd(new ChartPlot), m_falseAlarms(new ChartPlot), m_latency(new ChartPlot), m_cost(new ChartPlot)
 {
     buildCharts();
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(buildLeft());
+    layout->addWidget(m_column);
     layout->addWidget(m_tabs, 1);
 
-    connect(m_start, &QPushButton::clicked, this, &SweepPanel::start);
-    connect(m_cancel, &QPushButton::clicked, this, &SweepPanel::cancel);
+    connect(m_column, &StartColumn::startRequested, this, &SweepPanel::start);
+    connect(m_column, &StartColumn::cancelRequested, this, &SweepPanel::cancel);
     connect(&experiments, &Experiments::changed, this, &SweepPanel::follow);
     connect(&experiments, &Experiments::removed, this, [this](int id) {
         if (id == m_shown)
@@ -38,43 +34,6 @@ SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidg
     connect(&document, &Document::opened, this, &SweepPanel::followDocument);
     connect(&document, &Document::settingsChanged, this, &SweepPanel::followDocument);
     followDocument();
-}
-
-QWidget *SweepPanel::buildLeft()
-{
-    auto *area = new QScrollArea;
-    area->setWidget(m_form);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    m_progress->setRange(0, 1000);
-    m_progress->setTextVisible(false);
-    m_progress->setFixedHeight(8);
-    m_progress->setAccessibleName(tr("Progress of the sweep"));
-    m_state->setTextFormat(Qt::PlainText);
-    m_state->setWordWrap(true);
-    m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_cancel->setEnabled(false);
-    m_start->setToolTip(tr("Try all values; the window stays free meanwhile"));
-    auto *buttons = new QHBoxLayout;
-    buttons->setContentsMargins(8, 2, 8, 0);
-    buttons->setSpacing(6);
-    buttons->addWidget(m_start, 1);
-    buttons->addWidget(m_cancel, 1);
-    auto *status = new QVBoxLayout;
-    status->setContentsMargins(8, 2, 8, 4);
-    status->setSpacing(2);
-    status->addWidget(m_progress);
-    status->addWidget(m_state);
-    auto *box = new QWidget;
-    auto *left = new QVBoxLayout(box);
-    left->setContentsMargins(0, 0, 0, 0);
-    left->setSpacing(0);
-    left->addWidget(area, 1);
-    left->addLayout(buttons);
-    left->addLayout(status);
-    box->setFixedWidth(330);
-    return box;
 }
 
 void SweepPanel::buildCharts()
@@ -128,9 +87,7 @@ void SweepPanel::show(int id)
         return follow(id);
     for (ChartPlot *chart : {m_tradeOff, m_pd, m_falseAlarms, m_latency})
         chart->setChart({});
-    m_progress->setValue(0);
-    m_state->clear();
-    m_cancel->setEnabled(false);
+    m_column->clearState();
 }
 
 void SweepPanel::follow(int id)
@@ -138,7 +95,7 @@ void SweepPanel::follow(int id)
     const Experiments::Entry *entry = m_experiments.entry(id);
     if (id != m_shown || !entry || !entry->campaign || !std::holds_alternative<SweepExperiment>(entry->campaign->experiment))
         return;
-    showState(*entry);
+    m_column->showState(*entry);
     showCharts(*entry);
     if (entry->state == Experiments::State::Done && m_isMeasuringCost && m_costOf != id)
         measureCost(*entry);
@@ -175,25 +132,6 @@ void SweepPanel::choose(const ChartPlot &chart, std::size_t point)
         emit valueChosen(QString::fromStdString(sweep.parameter), sweep.values[point]);
     } else if (const std::vector<SweepPoint> curve = sweepCurve(*entry->campaign); point < curve.size()) {
         emit valueChosen(QString::fromStdString(sweep.parameter), curve[point].value);
-    }
-}
-
-void SweepPanel::showState(const Experiments::Entry &entry)
-{
-    m_cancel->setEnabled(entry.isOpen());
-    m_progress->setValue(static_cast<int>(1000.0 * entry.progress));
-    const QString done = tr("%1 of %2 runs").arg(entry.runsDone()).arg(runCount(entry.campaign->experiment));
-    switch (entry.state) {
-    case Experiments::State::Waiting:
-        return m_state->setText(tr("waiting for the one before"));
-    case Experiments::State::Running:
-        return m_state->setText(entry.doing.isEmpty() ? done : done + QStringLiteral(" · ") + entry.doing);
-    case Experiments::State::Done:
-        return m_state->setText(tr("done, %1").arg(done));
-    case Experiments::State::Cancelled:
-        return m_state->setText(tr("cancelled after %1").arg(done));
-    case Experiments::State::Failed:
-        return m_state->setText(tr("failed: %1").arg(entry.failure));
     }
 }
 

@@ -8,15 +8,13 @@
 
 #include <vector>
 
-class QLabel;
-class QProgressBar;
-class QPushButton;
 class QTabWidget;
 
 namespace faintline {
 
 class ChartPlot;
 class Document;
+class StartColumn;
 class SweepForm;
 
 /// What the values of one setting are worth: Pd, false alarms, latency and cost against the setting, and the trade-off of Pd against false
@@ -51,22 +49,17 @@ signals:
     void failed(const faintline::Error &error);
 
 private:
-    QWidget *buildLeft();
     void buildCharts();
     void followDocument();
     void follow(int id);
     void showCharts(const Experiments::Entry &entry);
-    void showState(const Experiments::Entry &entry);
     void measureCost(const Experiments::Entry &entry);
     void choose(const ChartPlot &chart, std::size_t point);
 
     const Document &m_document;
     Experiments &m_experiments;
     SweepForm *m_form;
-    QPushButton *m_start;
-    QPushButton *m_cancel;
-    QProgressBar *m_progress;
-    QLabel *m_state;
+    StartColumn *m_column;
     QTabWidget *m_tabs;
     ChartPlot *m_tradeOff;
     ChartPlot *m_pd;

@@ -1,6 +1,7 @@
 #include "app/WhyPanel.h"
 
 #include "app/Document.h"
+#include "app/readingTable.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/PingViewports.h"
 #include "widgets/quantities.h"
@@ -145,14 +146,8 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_sentence->setText(tr("Click in a picture: here stands why there is a detection, or none."));
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
-    m_ladder->verticalHeader()->hide();
-    m_ladder->verticalHeader()->setDefaultSectionSize(20);
-    m_ladder->horizontalHeader()->setHighlightSections(false);
+    makeReadingTable(*m_ladder, 20);
     m_ladder->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-    m_ladder->setSelectionBehavior(QAbstractItemView::SelectRows);
-    m_ladder->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    m_ladder->setShowGrid(false);
-    m_ladder->setFrameShape(QFrame::NoFrame);
     m_ladder->setAccessibleName(tr("The best path, newest step first"));
     auto *splitter = new QSplitter(Qt::Vertical);
     splitter->addWidget(m_plot);
@@ -283,11 +278,7 @@ void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)
         }
         texts << signedText(step.logLikelihoodRatio) << numberText(step.lnTransition, 2) << signedText(step.lnK)
               << numberText(step.score, 2) << (std::isfinite(step.runnerUp) ? numberText(-step.runnerUp, 2) : QStringLiteral("–"));
-        for (int column = 0; column < texts.size(); ++column) {
-            auto *item = new QTableWidgetItem(texts[column]);
-            item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-            m_ladder->setItem(static_cast<int>(row), column, item);
-        }
+        fillRow(*m_ladder, static_cast<int>(row), texts);
     }
 }
 

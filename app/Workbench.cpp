@@ -1,5 +1,6 @@
 #include "app/Workbench.h"
 
+#include "app/BoxMeter.h"
 #include "app/OutputLayers.h"
 #include "app/statisticUnit.h"
 #include "widgets/ColourBar.h"
@@ -98,7 +99,7 @@ namespace {
 
 Workbench::Workbench(Document &document, QWidget *parent)
     : Bench(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
-      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
+      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)), m_boxMeter(new BoxMeter(document, this)),
       m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
       m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
       m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
@@ -109,7 +110,7 @@ Workbench::Workbench(Document &document, QWidget *parent)
     m_rows->addWidget(m_statistic);
     m_rows->addWidget(m_regulation);
     m_rows->setStretchFactor(0, 1);
-    m_rows->setSizes({590, 125, 125});
+    m_rows->setSizes({640, 106, 106});
     for (QSplitter *splitter : {m_pictures, m_rows})
         splitter->setChildrenCollapsible(false);
     for (QwtPlot *plot : std::initializer_list<QwtPlot *>{m_input, m_output, m_statistic, m_regulation})
@@ -147,6 +148,8 @@ void Workbench::linkViews()
         connect(view, &WaterfallView::orientationChanged, other, &WaterfallView::setOrientation);
         connect(view, &WaterfallView::colourMapChanged, other, &WaterfallView::setColourMap);
         connect(view, &WaterfallView::measuringChanged, other, &WaterfallView::setMeasuring);
+        connect(view, &WaterfallView::sidebandsChanged, other, &WaterfallView::setSidebandSpacing);
+        connect(m_boxMeter, &BoxMeter::measured, view, &WaterfallView::setSelectionNote);
         connect(view, &WaterfallView::layersChanged, other, [view, other] { copyLayers(*view, *other); });
         connect(view, &WaterfallView::eventActivated, this, &Workbench::eventActivated);
         connect(view, &WaterfallView::thresholdStepRequested, this, &Workbench::thresholdStepRequested);

@@ -11,6 +11,7 @@ class QSplitter;
 
 namespace faintline {
 
+class BoxMeter;
 class OutputLayers;
 class StripPlot;
 
@@ -70,6 +71,7 @@ private:
     WaterfallView *m_input;
     WaterfallView *m_output;
     OutputLayers *m_layers;
+    BoxMeter *m_boxMeter;
     QWidget *m_inputPane;
     QWidget *m_outputPane;
     StripPlot *m_statistic;

@@ -27,11 +27,14 @@ const std::vector<Equation> &equations()
     static const std::vector<Equation> all{
         make("input", "The input: power over noise",
              "S(t, f) = Σₙ w(n) · x(t·hop + n) · e^(−2πi f n),   Σ w² = 1\n"
-             "y(t, f) = |S(t, f)|² / B(t, f),   shown as 10·lg y",
+             "y(t, f) = |S(t, f)|² / B(t, f),   shown as 10·lg y\n"
+             "area SNR of a box = 10·lg [ 1/(T k_f) Σ ( y/N − 1 ) ]",
              "x  samples\n"
              "w  window of T_FT seconds\n"
              "hop  T_FT/k_t, bins T_FT⁻¹/k_f apart\n"
-             "B  noise background: mean power of the noise there, so y has mean 1 on noise",
+             "B  noise background: mean power of the noise there, so y has mean 1 on noise\n"
+             "T, k_f  the box's frames, bins per cell\n"
+             "N  mean y beside the box: then it is a line's SNR in one window",
              "Billon 2005, section 4; the background as in core/README.md"),
         make("output:smd", "The statistic of the sequential Markov detector",
              smdEquation,

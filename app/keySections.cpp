@@ -39,6 +39,7 @@ namespace {
                                       {"Drag", "pan"},
                                       {"Shift + drag", "zoom to a box"},
                                       {"Click", "place the cursor"},
+                                      {"Ctrl + click", "on the peak nearby; M's corners too"},
                                       {"Double-click", "go to the event there"}}};
         return section;
     }
@@ -68,9 +69,11 @@ namespace {
                                       {"E   G   Shift + G", "note on it; merge, separate several"},
                                       {"W", "why detected, or why not"},
                                       {"Ctrl + D", "draw a line by hand"},
-                                      {"Ctrl + B", "keep as A, to compare what comes after with"},
+                                      {"Ctrl + B", "keep as A, to compare others with it"},
                                       {"M   B", "measure a box; annotate it"},
+                                      {"K", "cursor to the peak nearby"},
                                       {"H", "harmonics of the cursor's frequency"},
+                                      {"I", "sidebands: drag one, or Alt + Left, Right"},
                                       {"Space", "play"},
                                       {"J  L", "one frame, ping or stage back, forward"},
                                       {"Ctrl + R", "run again"},

@@ -12,6 +12,7 @@
 #include <QTemporaryFile>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -64,6 +65,9 @@ namespace {
             ->allow_extra_args(false)
             ->capture_default_str();
         command->add_option("--size", size, "Pixels")->capture_default_str();
+        command->add_option("--scale", options.scale, "Device pixels per pixel, as on a screen of high resolution: 1.25 or 2 times the size, not blown up")
+            ->check(CLI::Range(1.0, 4.0))
+            ->capture_default_str();
         command->add_option("--time", options.seconds, "Where the cursor goes, s");
         command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
         command->add_option("--range", options.range, "Where the cursor goes in pings, in the range axis's unit");
@@ -106,8 +110,10 @@ namespace {
     }
 
     /// A screen for programs without one; the default of 800 × 800 would cut off windows.
-    std::unique_ptr<QTemporaryFile> useScreenOf(QSize size)
+    std::unique_ptr<QTemporaryFile> useScreenOf(QSize size, double scale)
     {
+        if (scale != 1.0)
+            qputenv("QT_SCALE_FACTOR", QByteArray::number(scale));
         if (qEnvironmentVariableIsSet("QT_QPA_PLATFORM"))
             return {};
         auto file = std::make_unique<QTemporaryFile>();
@@ -117,8 +123,8 @@ namespace {
             QStringLiteral(R"({"synchronousWindowSystemEvents": false, "windowFrameMargins": false, "screens": [)"
                            R"({"name": "picture", "x": 0, "y": 0, "width": %1, "height": %2,)"
                            R"( "logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})")
-                .arg(size.width())
-                .arg(size.height())
+                .arg(std::lround(size.width() * scale))
+                .arg(std::lround(size.height() * scale))
                 .toLatin1());
         file->close();
         qputenv("QT_QPA_PLATFORM", "offscreen:configfile=" + QFile::encodeName(file->fileName()));
@@ -136,7 +142,7 @@ namespace {
     {
         qInstallMessageHandler(keepQuiet);
         Theme::prepareEnvironment();
-        const auto screen = useScreenOf(options.size);
+        const auto screen = useScreenOf(options.size, options.scale);
         QApplication application(argc, argv);
         draw(options);
         return 0;

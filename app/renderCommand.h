@@ -18,6 +18,7 @@ struct RenderOptions {
     std::string out;    ///< PNG; with several views, their names go before the extension
     std::vector<std::string> views{"window"};
     QSize size{1600, 1000};
+    double scale = 1.0; ///< device pixels per pixel: the picture has so many times the size
     std::optional<double> seconds; ///< where the cursor goes
     std::optional<double> hz;
     std::optional<double> range;   ///< of pings

@@ -4,6 +4,7 @@
 #include "widgets/CurveKey.h"
 #include "widgets/NumberScaleDraw.h"
 #include "widgets/Theme.h"
+#include "widgets/deviceRect.h"
 #include "widgets/scaleTicks.h"
 
 #include <qwt_color_map.h>
@@ -64,9 +65,10 @@ public:
                                    QPointF(xMap.transform(x.high), yMap.transform(y.low)))
                                 .normalized()
                                 .toRect();
-        paint(place.size());
+        const auto [rect, pixels] = deviceRect(*painter, place);
+        paint(pixels);
         painter->save();
-        painter->drawImage(place.topLeft(), m_image);
+        painter->drawImage(rect, m_image);
         painter->setRenderHint(QPainter::Antialiasing);
         for (const Path &path : m_owner.paths())
             drawPath(*painter, path, xMap, yMap);

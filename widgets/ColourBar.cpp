@@ -149,10 +149,11 @@ void ColourBar::paintEvent(QPaintEvent *)
 void ColourBar::paintBar(QPainter &painter) const
 {
     const QRectF bar = barRect();
-    const int height = std::max(static_cast<int>(bar.height()), 1);
+    const double ratio = devicePixelRatioF();
+    const int height = std::max(static_cast<int>(ratio * bar.height()), 1);
     QImage image(1, height, QImage::Format_RGB32);
     for (int y = 0; y < height; ++y)
-        image.setPixel(0, y, m_map->at((valueAt(bar.top() + y + 0.5) - m_range.low) / m_range.width()));
+        image.setPixel(0, y, m_map->at((valueAt(bar.top() + (y + 0.5) / ratio) - m_range.low) / m_range.width()));
     painter.drawImage(bar, image);
     painter.setPen(QPen(Theme::colours(*this).frame, 1.0));
     painter.drawRect(bar.adjusted(-0.5, -0.5, 0.5, 0.5));

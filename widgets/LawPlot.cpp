@@ -55,8 +55,10 @@ public:
             painter->fillRect(bar, colour);
             if (m_owner.isEditable())
                 painter->fillRect(QRectF(bar.left(), bar.top() - 1.0, bar.width(), 3.0), isChosen ? colours.text : colour);
-            const QString words = numberText(h, 3);
-            if (metrics.horizontalAdvance(words) > place)
+            constexpr double gap = 5.0;
+            const auto fits = [&](const QString &words) { return metrics.horizontalAdvance(words) + gap <= place; };
+            const QString words = fits(numberText(h, 3)) ? numberText(h, 3) : numberText(h, 2);
+            if (!fits(words))
                 continue;
             painter->setPen(colours.text);
             painter->drawText(QRectF(bar.center().x() - 0.5 * place, bar.top() - metrics.height() - 2.0, place, metrics.height()),

@@ -77,13 +77,17 @@ struct OverlayItem::Canvas {
         painter.drawLines(lines);
     }
 
-    /// Small text on a dark plate, kept on the canvas.
+    /// Small text of one or more lines on a dark plate, kept on the canvas.
     void label(const QPointF &corner, const QString &text, const QColor &colour,
-               const QColor &plate = QColor(0, 0, 0, 165)) const
+               const QColor &plate = QColor(0, 0, 0, 165), const QFont &font = Theme::font(11)) const
     {
-        painter.setFont(Theme::font(11));
+        painter.setFont(font);
         const QFontMetricsF metrics(painter.font());
-        QRectF box(corner, QSizeF(std::ceil(metrics.horizontalAdvance(text)) + 8.0, std::ceil(metrics.height()) + 1.0));
+        const QStringList lines = text.split(QLatin1Char('\n'));
+        double width = 0.0;
+        for (const QString &line : lines)
+            width = std::max(width, metrics.horizontalAdvance(line));
+        QRectF box(corner, QSizeF(std::ceil(width) + 8.0, static_cast<double>(lines.size()) * std::ceil(metrics.height()) + 1.0));
         box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
         box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
         painter.setPen(Qt::NoPen);
@@ -91,7 +95,12 @@ struct OverlayItem::Canvas {
         painter.drawRoundedRect(box, 3.0, 3.0);
         painter.setBrush(Qt::NoBrush);
         painter.setPen(colour);
-        painter.drawText(box, Qt::AlignCenter, text);
+        if (lines.size() == 1)
+            painter.drawText(box, Qt::AlignCenter, text);
+        for (qsizetype i = 0; lines.size() > 1 && i < lines.size(); ++i)
+            painter.drawText(QRectF(box.left() + 4.0, box.top() + static_cast<double>(i) * std::ceil(metrics.height()), box.width(),
+                                    std::ceil(metrics.height())),
+                             Qt::AlignLeft | Qt::AlignVCenter, lines[i]);
     }
 };
 
@@ -193,6 +202,7 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
         drawLines(canvas, tracks, linePen(colours.track, 1.0));
     drawBoxes(canvas);
     drawHarmonics(canvas);
+    drawSidebands(canvas);
     drawSelection(canvas);
     drawCursor(canvas);
     if (hasEvents)
@@ -297,6 +307,27 @@ void OverlayItem::drawHarmonics(const Canvas &canvas) const
         canvas.stroke({line}, linePen(colours.cursor, 1.0, Qt::DashLine));
         canvas.label(line.p1() + QPointF(4.0, 4.0), QString::number(i + 1) + QStringLiteral("×"), colours.cursor);
     }
+}
+
+void OverlayItem::drawSidebands(const Canvas &canvas) const
+{
+    if (!sidebands)
+        return;
+    constexpr double roomForNames = 22.0;
+    const double first = canvas.frequency(sidebands->hz(0)), second = canvas.frequency(sidebands->hz(1));
+    for (int order = -Sidebands::orders; order <= Sidebands::orders; ++order) {
+        const QLineF line = canvas.along(sidebands->hz(order));
+        if (!canvas.rect.contains(line.center()))
+            continue;
+        canvas.stroke({line}, linePen(colours.cursor, 1.0, order == 0 ? Qt::SolidLine : Qt::DotLine));
+        const bool isNamed = std::abs(second - first) >= roomForNames || order == 0;
+        const QString name = order == 0  ? QStringLiteral("0")
+                             : order > 0 ? QStringLiteral("+%1").arg(order)
+                                         : QStringLiteral("−%1").arg(-order);
+        if (isNamed)
+            canvas.label(line.p1() + QPointF(4.0, 4.0), name, colours.cursor);
+    }
+    canvas.label(canvas.rect.bottomLeft() + QPointF(6.0, -6.0), sidebandText, colours.cursor, QColor(0, 0, 0, 190), Theme::monoFont(11));
 }
 
 void OverlayItem::drawCursor(const Canvas &canvas) const

@@ -2,6 +2,7 @@
 
 #include "analysis/analyse.h"
 #include "recording/Truth.h"
+#include "widgets/Sidebands.h"
 #include "widgets/Theme.h"
 #include "widgets/Viewport.h"
 
@@ -14,7 +15,7 @@
 
 namespace faintline {
 
-/// What is drawn over a waterfall: truth, tracks, events, the measured box, harmonics, the cursor.
+/// What is drawn over a waterfall: truth, tracks, events, the measured box, harmonics and sidebands, the cursor.
 ///
 /// Every line has a dark seam, so it can be seen on any colour of the map.
 class OverlayItem : public QwtPlotItem
@@ -50,6 +51,8 @@ public:
     int selectedEvent = 0;
     std::optional<Viewport::Point> cursor;
     std::vector<double> harmonicsHz;
+    std::optional<Sidebands> sidebands;
+    QString sidebandText; ///< carrier, spacing and levels
     std::optional<Viewport::Box> selection;
     QString selectionText;
     std::optional<Viewport::Box> rubber; ///< while a box is dragged
@@ -78,6 +81,7 @@ private:
     void drawBoxes(const Canvas &canvas) const;
     bool isFaint(int event) const;
     void drawHarmonics(const Canvas &canvas) const;
+    void drawSidebands(const Canvas &canvas) const;
     void drawCursor(const Canvas &canvas) const;
     void drawSelection(const Canvas &canvas) const;
 };

@@ -1,5 +1,6 @@
 #include "widgets/PolarItem.h"
 
+#include "widgets/deviceRect.h"
 #include "widgets/rasterise.h"
 
 #include <qwt_plot.h>
@@ -102,13 +103,12 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
 
 void PolarItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const
 {
-    const double ratio = painter->device()->devicePixelRatioF();
-    const QRect rect = canvasRect.toAlignedRect();
-    const QSize size(static_cast<int>(std::lround(rect.width() * ratio)), static_cast<int>(std::lround(rect.height() * ratio)));
-    const QImage picture = image({xMap.invTransform(rect.left()), xMap.invTransform(rect.right() + 1.0)},
-                                 {yMap.invTransform(rect.bottom() + 1.0), yMap.invTransform(rect.top())}, size);
+    const DeviceRect place = deviceRect(*painter, canvasRect);
+    const QRectF &rect = place.rect;
+    const QImage picture = image({xMap.invTransform(rect.left()), xMap.invTransform(rect.right())},
+                                 {yMap.invTransform(rect.bottom()), yMap.invTransform(rect.top())}, place.pixels);
     if (!picture.isNull())
-        painter->drawImage(QRectF(rect), picture);
+        drawOnPixels(*painter, place, picture);
 }
 
 } // namespace faintline

@@ -1,5 +1,7 @@
 #include "widgets/RasterItem.h"
 
+#include "widgets/deviceRect.h"
+
 #include <qwt_plot.h>
 #include <qwt_scale_map.h>
 
@@ -146,19 +148,17 @@ QImage RasterItem::image(const Span &x, const Span &y, bool isUpward, const QSiz
 void RasterItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
                       const QRectF &canvasRect) const
 {
-    const double ratio = painter->device()->devicePixelRatioF();
-    const QRect rect = canvasRect.toAlignedRect();
+    const DeviceRect place = deviceRect(*painter, canvasRect);
+    const QRectF &rect = place.rect;
     const auto span = [](const QwtScaleMap &map, double a, double b) {
         const double p = map.invTransform(a), q = map.invTransform(b);
         return Span{std::min(p, q), std::max(p, q)};
     };
-    const bool isUpward = yMap.invTransform(rect.bottom() + 1.0) < yMap.invTransform(rect.top());
-    const QSize size(static_cast<int>(std::lround(rect.width() * ratio)),
-                     static_cast<int>(std::lround(rect.height() * ratio)));
+    const bool isUpward = yMap.invTransform(rect.bottom()) < yMap.invTransform(rect.top());
     const QImage picture =
-        image(span(xMap, rect.left(), rect.right() + 1.0), span(yMap, rect.top(), rect.bottom() + 1.0), isUpward, size);
+        image(span(xMap, rect.left(), rect.right()), span(yMap, rect.top(), rect.bottom()), isUpward, place.pixels);
     if (!picture.isNull())
-        painter->drawImage(QRectF(rect), picture);
+        drawOnPixels(*painter, place, picture);
 }
 
 } // namespace faintline

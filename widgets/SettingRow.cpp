@@ -43,6 +43,19 @@ namespace {
         return QStringLiteral("<qt>%1</qt>").arg(lines.join(QStringLiteral("<br>")));
     }
 
+    /// Words and lists need the width of the form: they stand below their label.
+    bool isBelowLabel(const FieldInfo &info)
+    {
+        return info.kind == FieldKind::Choice || info.kind == FieldKind::Numbers;
+    }
+
+    /// A long unit beside the field would leave it no room: it stands with the label.
+    bool isWithLabel(const std::string &unit)
+    {
+        constexpr std::size_t longest = 5;
+        return unit.size() > longest;
+    }
+
 } // namespace
 
 SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, QWidget *parent)
@@ -65,7 +78,7 @@ SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldV
     unit->setForegroundRole(QPalette::PlaceholderText);
     m_reset->setText(QStringLiteral("↺"));
     m_reset->setAutoRaise(true);
-    m_reset->setFixedSize(20, 20);
+    m_reset->setFixedSize(18, 20);
     m_reset->setToolTip(tr("Back to the default"));
     m_reset->setAccessibleName(tr("Reset %1 to its default").arg(label));
     QSizePolicy keepsPlace = m_reset->sizePolicy();
@@ -73,19 +86,26 @@ SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldV
     m_reset->setSizePolicy(keepsPlace);
     connect(m_reset, &QToolButton::clicked, this, [this] { accept(m_default); });
 
-    auto *line = new QHBoxLayout;
-    line->setSpacing(5);
-    line->addWidget(m_editor, 1);
-    if (!info.unit.empty())
-        line->addWidget(unit);
     auto *grid = new QGridLayout(this);
     grid->setContentsMargins(0, 0, 0, 0);
-    grid->setHorizontalSpacing(6);
+    grid->setHorizontalSpacing(5);
     grid->setVerticalSpacing(1);
+    const bool isBelow = isBelowLabel(info);
     grid->addWidget(m_label, 0, 0);
-    grid->addLayout(line, 0, 1);
-    grid->addWidget(m_reset, 0, 2);
-    grid->addWidget(m_message, 1, 0, 1, 3);
+    if (!info.unit.empty() && isWithLabel(info.unit)) {
+        unit->setContentsMargins(0, 0, 0, 2);
+        grid->addWidget(unit, 1, 0);
+        grid->addWidget(m_editor, 0, 1, 2, 1);
+    } else {
+        auto *line = new QHBoxLayout;
+        line->setSpacing(5);
+        line->addWidget(m_editor, 1);
+        if (!info.unit.empty())
+            line->addWidget(unit);
+        grid->addLayout(line, isBelow ? 1 : 0, isBelow ? 0 : 1, 1, isBelow ? 2 : 1);
+    }
+    grid->addWidget(m_reset, isBelow ? 1 : 0, 2);
+    grid->addWidget(m_message, 2, 0, 1, 3);
     grid->setColumnStretch(1, 1);
     m_message->setWordWrap(true);
     m_message->setFont(Theme::font(12));
@@ -94,7 +114,8 @@ SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldV
 
 void SettingRow::setLabelWidth(int width)
 {
-    m_label->setFixedWidth(width);
+    if (!isBelowLabel(m_info))
+        m_label->setFixedWidth(width);
 }
 
 void SettingRow::makeEditor()
@@ -136,7 +157,7 @@ void SettingRow::makeEditor()
         break;
     }
     }
-    m_editor->setMinimumWidth(64);
+    m_editor->setMinimumWidth(56);
     m_editor->setFocusPolicy(Qt::StrongFocus);
     m_editor->installEventFilter(this);
 }

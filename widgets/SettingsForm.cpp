@@ -16,7 +16,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr int labelWidth = 122;
+    constexpr int labelWidth = 108;
 
     QString prefixOf(const QString &name)
     {
@@ -29,7 +29,7 @@ SettingsForm::SettingsForm(QWidget *parent) : QWidget(parent), m_scroll(new QScr
 {
     auto *content = new QWidget;
     m_layout = new QVBoxLayout(content);
-    m_layout->setContentsMargins(4, 2, 4, 4);
+    m_layout->setContentsMargins(2, 2, 2, 4);
     m_layout->setSpacing(2);
     for (const auto &field : AnalysisSettings::fields())
         addRow(field);

@@ -1,5 +1,7 @@
 #include "widgets/Theme.h"
 
+#include "widgets/icon.h"
+
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_layout.h>
@@ -9,8 +11,7 @@
 #include <QApplication>
 #include <QFontDatabase>
 #include <QLocale>
-#include <QStyle>
-#include <QStyleFactory>
+#include <QProxyStyle>
 #include <QToolTip>
 
 namespace faintline {
@@ -71,6 +72,30 @@ namespace {
         Q_UNUSED(isLoaded);
     }
 
+    /// Fusion, with tabs that leave their names the room of a narrow column, and our icons.
+    class Style : public QProxyStyle
+    {
+    public:
+        Style() : QProxyStyle(QStringLiteral("Fusion")) { setObjectName(styleName()); }
+        static QString styleName() { return QStringLiteral("faintline"); }
+
+        int pixelMetric(PixelMetric metric, const QStyleOption *option, const QWidget *widget) const override
+        {
+            constexpr int tabRoom = 13;
+            return metric == PM_TabBarTabHSpace ? tabRoom : QProxyStyle::pixelMetric(metric, option, widget);
+        }
+
+        /// Fusion's own buttons of a dock have few pixels, and light ones in every theme.
+        QIcon standardIcon(StandardPixmap kind, const QStyleOption *option, const QWidget *widget) const override
+        {
+            if (kind == SP_TitleBarCloseButton)
+                return icon(QStringLiteral("close"));
+            if (kind == SP_TitleBarNormalButton)
+                return icon(QStringLiteral("detach"));
+            return QProxyStyle::standardIcon(kind, option, widget);
+        }
+    };
+
     void styleAxis(QwtPlot &plot, QwtAxisId axis, const Theme::Colours &colours)
     {
         QwtScaleWidget &widget = *plot.axisWidget(axis);
@@ -108,8 +133,8 @@ void Theme::apply(Kind kind)
 {
     loadFonts();
     QLocale::setDefault(QLocale::c());
-    if (!qApp->style() || qApp->style()->name() != QLatin1String("fusion"))
-        QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    if (!qApp->style() || qApp->style()->objectName() != Style::styleName())
+        QApplication::setStyle(new Style);
     const QPalette colours = palette(kind);
     QApplication::setPalette(colours);
     QToolTip::setPalette(colours);

@@ -4,6 +4,7 @@
 #include "widgets/NumberScaleDraw.h"
 #include "widgets/OverlayItem.h"
 #include "widgets/RasterItem.h"
+#include "widgets/peakNear.h"
 #include "widgets/Theme.h"
 #include "widgets/TimeScaleDraw.h"
 #include "widgets/quantities.h"
@@ -37,6 +38,8 @@ namespace {
     constexpr double zoomPerNotch = 1.25;
     constexpr double clickSlop = 4.0; ///< pixels a click may wander
     constexpr int harmonicCount = 12;
+    constexpr double peakReach = 12.0;    ///< pixels
+    constexpr double sidebandReach = 5.0; ///< pixels
 
     double notchesOf(const QWheelEvent &event)
     {
@@ -109,7 +112,10 @@ void WaterfallView::setViewport(Viewport *viewport)
         connect(viewport, &Viewport::spanChanged, this, &WaterfallView::followSpan);
         connect(viewport, &Viewport::extentsChanged, this, &WaterfallView::layAxes);
         connect(viewport, &Viewport::cursorChanged, this, &WaterfallView::followCursor);
-        connect(viewport, &Viewport::selectionChanged, this, &WaterfallView::updateContent);
+        connect(viewport, &Viewport::selectionChanged, this, [this] {
+            m_selectionNote.clear();
+            updateContent();
+        });
     }
     layAxes();
     followCursor();
@@ -461,6 +467,61 @@ void WaterfallView::setHarmonics(bool isOn)
     emit harmonicsChanged(isOn);
 }
 
+void WaterfallView::setSidebandSpacing(double hz)
+{
+    if (hz == m_sidebandHz)
+        return;
+    m_sidebandHz = hz;
+    updateContent();
+    emit sidebandsChanged(hz);
+}
+
+void WaterfallView::setSidebands(bool isOn)
+{
+    if (!isOn || !m_picture || !m_viewport || m_frequency.unit != "Hz")
+        return setSidebandSpacing(0.0);
+    if (m_sidebandHz > 0.0)
+        return;
+    constexpr double share = 1.0 / 14.0; // so that five fit on either side of a carrier in the middle
+    if (!m_viewport->cursor())
+        m_viewport->setCursor({m_viewport->time().middle(), m_viewport->frequency().middle()});
+    const double bins = std::max(std::round(share * m_viewport->frequency().width() / m_frequency.step), 1.0);
+    setSidebandSpacing(bins * m_frequency.step);
+}
+
+void WaterfallView::setSelectionNote(const QString &note)
+{
+    m_selectionNote = note;
+    updateContent();
+}
+
+std::optional<Viewport::Point> WaterfallView::peakAround(const Viewport::Point &point) const
+{
+    const QPointF position = positionOf(point), reach(peakReach, peakReach);
+    const Viewport::Point a = pointAt(position - reach), b = pointAt(position + reach);
+    const auto around = [](double p, double q, double middle, double step) {
+        return Span{std::min({p, q, middle - step}), std::max({p, q, middle + step})};
+    };
+    const double row = m_picture->time().step * static_cast<double>(m_picture->framesPerRow(0));
+    return faintline::peakNear(*m_picture, m_frequency,
+                               {around(a.seconds, b.seconds, point.seconds, row), around(a.hz, b.hz, point.hz, m_frequency.step)});
+}
+
+void WaterfallView::moveCursorToPeak()
+{
+    if (!m_picture || !m_viewport || !m_viewport->cursor())
+        return;
+    if (const auto peak = peakAround(*m_viewport->cursor()))
+        m_viewport->setCursor(*peak);
+}
+
+/// Where the pointer is; with Ctrl the strongest cell near it.
+Viewport::Point WaterfallView::pointOf(const QMouseEvent &event) const
+{
+    const Viewport::Point point = pointAt(event.position());
+    return event.modifiers().testFlag(Qt::ControlModifier) ? peakAround(point).value_or(point) : point;
+}
+
 void WaterfallView::updateMarks()
 {
     const double frame = m_picture ? m_picture->time().step : 0.0;
@@ -484,7 +545,9 @@ void WaterfallView::updateContent()
     overlay.selectedEvent = m_selectedEvent;
     overlay.cursor = m_viewport && m_layers.testFlag(CursorLayer) ? m_viewport->cursor() : std::nullopt;
     overlay.selection = m_viewport ? m_viewport->selection() : std::nullopt;
-    overlay.selectionText = overlay.selection ? selectionText(*overlay.selection) : QString();
+    overlay.selectionText = selectionText();
+    overlay.sidebands = sidebands();
+    overlay.sidebandText = sidebandText();
     overlay.harmonicsHz.clear();
     if (m_hasHarmonics && m_frequency.unit == "Hz" && m_viewport && m_viewport->cursor())
         for (int i = 1; i <= harmonicCount; ++i)
@@ -492,8 +555,34 @@ void WaterfallView::updateContent()
     replot();
 }
 
-QString WaterfallView::selectionText(const Viewport::Box &box) const
+std::optional<Sidebands> WaterfallView::sidebands() const
 {
+    if (m_sidebandHz <= 0.0 || m_frequency.unit != "Hz" || !m_viewport || !m_viewport->cursor())
+        return {};
+    return Sidebands{m_viewport->cursor()->hz, m_sidebandHz};
+}
+
+QString WaterfallView::sidebandText() const
+{
+    const auto lines = sidebands();
+    if (!lines)
+        return {};
+    const auto level = [&](int order) {
+        const auto value = valueAt(m_viewport->cursor()->seconds, lines->hz(order));
+        return (value ? numberText(*value, 1) : QStringLiteral("–")).rightJustified(7);
+    };
+    QStringList rows{tr("carrier %1 %2 %3").arg(hertzText(lines->carrierHz, m_frequency.step), level(0), valueUnit()),
+                     tr("spacing %1").arg(hertzText(lines->spacingHz, 0.1 * m_frequency.step)), tr(" n     −n     +n %1").arg(valueUnit())};
+    for (int order = 1; order <= Sidebands::orders; ++order)
+        rows << QStringLiteral("%1 %2%3").arg(order, 2).arg(level(-order), level(order));
+    return rows.join(QLatin1Char('\n'));
+}
+
+QString WaterfallView::selectionText() const
+{
+    if (!m_viewport || !m_viewport->selection())
+        return {};
+    const Viewport::Box box = *m_viewport->selection();
     const double seconds = box.time.width(), hz = box.frequency.width();
     QStringList words;
     if (hasTime())
@@ -520,7 +609,11 @@ QString WaterfallView::selectionText(const Viewport::Box &box) const
         if (values.mean)
             words << tr("mean %1 dB").arg(numberText(*values.mean, 1));
     }
-    return words.join(QStringLiteral(" · "));
+    constexpr qsizetype extents = 3; // a line of these, then one of the levels
+    const QString levels = words.size() > extents ? words.mid(extents).join(QStringLiteral(" · ")) : QString();
+    QStringList lines{words.mid(0, extents).join(QStringLiteral(" · ")), levels, m_selectionNote};
+    lines.removeAll(QString());
+    return lines.join(QLatin1Char('\n'));
 }
 
 void WaterfallView::followCursor()
@@ -593,15 +686,36 @@ void WaterfallView::pressed(const QMouseEvent &event)
         return;
     m_dragStart = event.position();
     m_dragVisible = m_viewport->visible();
+    m_dragOrigin = pointAt(event.position());
+    m_draggedOrder = sidebandAt(event.position());
     m_drag = event.button() == Qt::MiddleButton              ? Drag::Pan
              : event.modifiers().testFlag(Qt::ShiftModifier) ? Drag::Zoom
+             : m_draggedOrder != 0                           ? Drag::Sideband
              : m_isMeasuring                                 ? Drag::Measure
                                                              : Drag::Press;
+    if (m_drag == Drag::Measure)
+        m_dragOrigin = pointOf(event);
 }
 
-Viewport::Box WaterfallView::draggedBox(const QPointF &to) const
+/// The sideband whose line is under the pointer; 0 where there is none, or the carrier.
+int WaterfallView::sidebandAt(const QPointF &position) const
 {
-    const Viewport::Point a = pointAt(m_dragStart), b = pointAt(to);
+    const auto lines = sidebands();
+    if (!lines)
+        return 0;
+    const int order = lines->nearestOrder(pointAt(position).hz);
+    const QPointF line = positionOf({m_viewport->cursor()->seconds, lines->hz(order)});
+    return std::abs(isTimeVertical() ? line.x() - position.x() : line.y() - position.y()) <= sidebandReach ? order : 0;
+}
+
+void WaterfallView::dragSideband(const QMouseEvent &event)
+{
+    setSidebandSpacing(std::max(sidebands()->spacingFor(m_draggedOrder, pointOf(event).hz), m_frequency.step));
+}
+
+Viewport::Box WaterfallView::draggedBox(const Viewport::Point &to) const
+{
+    const Viewport::Point a = m_dragOrigin, b = to;
     const Viewport::Box &full = m_viewport->full();
     const auto spanOf = [](double p, double q, const Span &limits) {
         return Span{std::max(std::min(p, q), limits.low), std::min(std::max(p, q), limits.high)};
@@ -629,10 +743,15 @@ void WaterfallView::moved(const QMouseEvent &event)
         m_viewport->pan(m_dragVisible.time.low - seconds - m_viewport->time().low,
                         m_dragVisible.frequency.low - shift - m_viewport->frequency().low);
     } else if (m_drag == Drag::Zoom) {
-        m_overlay->rubber = draggedBox(event.position());
+        m_overlay->rubber = draggedBox(pointAt(event.position()));
         replot();
     } else if (m_drag == Drag::Measure) {
-        m_viewport->setSelection(draggedBox(event.position()));
+        m_viewport->setSelection(draggedBox(pointOf(event)));
+    } else if (m_drag == Drag::Sideband) {
+        dragSideband(event);
+    } else if (m_drag == Drag::None) {
+        const auto across = isTimeVertical() ? Qt::SplitHCursor : Qt::SplitVCursor;
+        canvas()->setCursor(sidebandAt(event.position()) != 0 ? across : Qt::CrossCursor);
     }
 }
 
@@ -643,10 +762,10 @@ void WaterfallView::released(const QMouseEvent &event)
     canvas()->setCursor(Qt::CrossCursor);
     m_overlay->rubber.reset();
     if (drag == Drag::Zoom && !isClick) {
-        const Viewport::Box box = draggedBox(event.position());
+        const Viewport::Box box = draggedBox(pointAt(event.position()));
         m_viewport->zoomTo(box.time, box.frequency);
     } else if (drag == Drag::Press || (drag == Drag::Measure && isClick)) {
-        m_viewport->setCursor(pointAt(event.position()));
+        m_viewport->setCursor(pointOf(event));
     }
     replot();
 }
@@ -743,6 +862,8 @@ void WaterfallView::keyPressEvent(QKeyEvent *event)
         {Qt::Key_Period, [this] { emit thresholdStepRequested(1); }},
         {Qt::Key_M, [this] { setMeasuring(!m_isMeasuring); }},
         {Qt::Key_H, [this] { setHarmonics(!m_hasHarmonics); }},
+        {Qt::Key_I, [this] { setSidebands(m_sidebandHz == 0.0); }},
+        {Qt::Key_K, [this] { moveCursorToPeak(); }},
         {Qt::Key_Escape, [this] { clearMarks(); }},
     };
     const bool isPlain = !(event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
@@ -754,7 +875,12 @@ void WaterfallView::keyPressEvent(QKeyEvent *event)
         found->second();
         return true;
     };
-    const bool isDone = m_picture && m_viewport && (act(cursorKeys) || (isPlain && act(plainKeys)));
+    const std::pair<int, std::function<void()>> spacingKeys[] = {
+        {Qt::Key_Left, [this] { setSidebandSpacing(std::max(m_sidebandHz - m_frequency.step, m_frequency.step)); }},
+        {Qt::Key_Right, [this] { setSidebandSpacing(m_sidebandHz + m_frequency.step); }},
+    };
+    const bool isSpacing = sidebands() && event->modifiers().testFlag(Qt::AltModifier);
+    const bool isDone = m_picture && m_viewport && ((isSpacing && act(spacingKeys)) || act(cursorKeys) || (isPlain && act(plainKeys)));
     if (!isDone)
         QwtPlot::keyPressEvent(event);
 }
@@ -763,6 +889,7 @@ void WaterfallView::clearMarks()
 {
     setMeasuring(false);
     setHarmonics(false);
+    setSidebandSpacing(0.0);
     m_viewport->clearSelection();
     m_viewport->clearCursor();
 }
@@ -813,9 +940,14 @@ void WaterfallView::fillMenu(QMenu &menu)
               [this, layer = layer](bool isOn) { setLayer(layer, isOn); });
     menu.addSeparator();
     check(menu, tr("Measure a box"), QStringLiteral("M"), m_isMeasuring, [this](bool isOn) { setMeasuring(isOn); });
-    if (m_frequency.unit == "Hz")
+    if (m_frequency.unit == "Hz") {
         check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), m_hasHarmonics,
               [this](bool isOn) { setHarmonics(isOn); });
+        check(menu, tr("Sidebands of the cursor"), QStringLiteral("I"), m_sidebandHz > 0.0, [this](bool isOn) { setSidebands(isOn); });
+    }
+    add(menu, tr("Cursor to the peak nearby"), QStringLiteral("K"), [this] {
+        moveCursorToPeak();
+    })->setEnabled(m_viewport && m_viewport->cursor());
 }
 
 void WaterfallView::addActionsTo(QMenu *menu)

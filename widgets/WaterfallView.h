@@ -6,6 +6,7 @@
 #include "spectrum/PeakPyramid.h"
 #include "track/Track.h"
 #include "widgets/ColourMap.h"
+#include "widgets/Sidebands.h"
 #include "widgets/Viewport.h"
 
 #include <qwt_plot.h>
@@ -36,7 +37,9 @@ class RasterItem;
 /// Mouse: wheel scrolls time, with Shift frequency, with Ctrl zooms about the pointer, over an axis zooms that axis;
 /// drag pans, Shift+drag zooms to a box, click places the cursor, double-click activates an event. Keys: arrows move
 /// the cursor by a cell (with Ctrl by ten), Backspace back, 0 all, O orientation, [ ] black level, { } white level, A
-/// automatic range, C colour map, `,` `.` threshold, M measure, H harmonics, Escape clears.
+/// automatic range, C colour map, `,` `.` threshold, M measure, H harmonics, I sidebands, K to the peak, Escape clears.
+/// With Ctrl the cursor, a corner of the measured box and a dragged sideband go to the strongest cell nearby. A sideband's line is dragged to
+/// change their spacing; Alt with Left and Right does so by a bin.
 class WaterfallView : public QwtPlot
 {
     Q_OBJECT
@@ -98,6 +101,12 @@ public:
     int selectedEvent() const { return m_selectedEvent; }
     bool isMeasuring() const { return m_isMeasuring; }
     bool hasHarmonics() const { return m_hasHarmonics; }
+    /// Of the sidebands round the cursor's frequency, Hz; 0: none are shown.
+    double sidebandSpacing() const { return m_sidebandHz; }
+    /// What is said about the sidebands: carrier, spacing, the level of each at the cursor's time.
+    QString sidebandText() const;
+    /// What is said about the measured box.
+    QString selectionText() const;
 
     /// Pixel on the canvas ↔ time and frequency.
     Viewport::Point pointAt(const QPointF &canvasPosition) const;
@@ -131,6 +140,10 @@ public slots:
     void setLayer(faintline::WaterfallView::Layer layer, bool isOn);
     void setMeasuring(bool isOn);
     void setHarmonics(bool isOn); ///< lines at the multiples of the cursor's frequency
+    void setSidebandSpacing(double hz); ///< lines beside the cursor's frequency; 0: none
+    void setSidebands(bool isOn);       ///< with a spacing that suits what is visible; a cursor is placed where there is none
+    void setSelectionNote(const QString &note); ///< what else is known of the measured box; until it changes
+    void moveCursorToPeak();                    ///< to the strongest cell nearby
 
 signals:
     /// The pointer is over a cell; `value` in dB or nat.
@@ -144,6 +157,7 @@ signals:
     void layersChanged();
     void measuringChanged(bool isOn);
     void harmonicsChanged(bool isOn);
+    void sidebandsChanged(double spacingHz); ///< 0: none
     /// `,` and `.`: so many steps of a quarter nat.
     void thresholdStepRequested(int steps);
     void eventActivated(int id);
@@ -160,7 +174,7 @@ protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
-    enum class Drag { None, Press, Pan, Zoom, Measure };
+    enum class Drag { None, Press, Pan, Zoom, Measure, Sideband };
 
     bool isTimeVertical() const { return m_orientation != Orientation::LeftToRight; }
     QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
@@ -175,7 +189,11 @@ private:
     bool hasTime() const;
     void updateContent();
     void updateMarks();
-    QString selectionText(const Viewport::Box &box) const;
+    std::optional<Sidebands> sidebands() const;
+    int sidebandAt(const QPointF &canvasPosition) const;
+    void dragSideband(const QMouseEvent &event);
+    Viewport::Point pointOf(const QMouseEvent &event) const;
+    std::optional<Viewport::Point> peakAround(const Viewport::Point &point) const;
     int eventAt(const QPointF &canvasPosition) const;
     void moveCursor(int right, int up, int cells);
     void clearMarks();
@@ -184,7 +202,7 @@ private:
     void moved(const QMouseEvent &event);
     void released(const QMouseEvent &event);
     void hover(const QPointF &canvasPosition);
-    Viewport::Box draggedBox(const QPointF &to) const;
+    Viewport::Box draggedBox(const Viewport::Point &to) const;
     void fillMenu(QMenu &menu);
 
     QString m_heading;
@@ -208,10 +226,14 @@ private:
     int m_selectedEvent = 0;
     bool m_isMeasuring = false;
     bool m_hasHarmonics = false;
+    double m_sidebandHz = 0.0;
+    QString m_selectionNote;
 
     Drag m_drag = Drag::None;
     QPointF m_dragStart;         ///< canvas pixels
     Viewport::Box m_dragVisible; ///< what was visible when a pan began
+    Viewport::Point m_dragOrigin; ///< where a box began
+    int m_draggedOrder = 0;       ///< of the sideband
 };
 
 Q_DECLARE_OPERATORS_FOR_FLAGS(WaterfallView::Layers)

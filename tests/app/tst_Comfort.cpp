@@ -4,6 +4,9 @@
 #include "app/OpenOptionsDialog.h"
 #include "app/InjectDialog.h"
 #include "app/Panels.h"
+#include "app/ToolBar.h"
+#include "app/Workbench.h"
+#include "widgets/WaterfallView.h"
 
 #include <QAbstractButton>
 #include <QAccessible>
@@ -16,9 +19,11 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QSignalSpy>
+#include <QStyleOptionComboBox>
 #include <QTabBar>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QToolButton>
 
 #include <set>
 
@@ -178,13 +183,94 @@ private slots:
         }
     }
 
-    void narrowWindowsKeepTheirPictures()
+    void picturesHaveTheRoom_data()
+    {
+        QTest::addColumn<QSize>("size");
+        QTest::addColumn<int>("canvas");
+        QTest::newRow("1280x800") << QSize(1280, 800) << 320;
+        QTest::newRow("1600x1000") << QSize(1600, 1000) << 360;
+    }
+
+    void picturesHaveTheRoom()
+    {
+        QFETCH(QSize, size);
+        QFETCH(int, canvas);
+        m_window->resize(size);
+        m_window->findChild<Panels *>()->takeLayout(Panels::layoutNames().first());
+        QCoreApplication::processEvents();
+        QCOMPARE(m_window->size(), size); // nothing forces it wider
+        for (const WaterfallView *view : {m_window->workbench().input(), m_window->workbench().output()})
+            QVERIFY2(view->canvas()->width() >= canvas, qPrintable(QString::number(view->canvas()->width())));
+    }
+
+    void toolsSayWhatTheyAre()
+    {
+        const auto *bar = m_window->findChild<ToolBar *>();
+        const auto buttons = [&] {
+            QList<QToolButton *> result;
+            for (QToolButton *button : bar->findChildren<QToolButton *>())
+                if (button->isVisible() && !button->text().isEmpty())
+                    result << button;
+            return result;
+        };
+        for (const int width : {1280, 1600}) {
+            m_window->resize(width, 800);
+            QCoreApplication::processEvents();
+            QCOMPARE(buttons().size(), 11); // none has gone where there is no room
+            for (const QToolButton *button : buttons()) {
+                QVERIFY2(!button->icon().isNull(), qPrintable(button->text()));
+                QVERIFY2(!button->toolTip().isEmpty(), qPrintable(button->text()));
+                QVERIFY2(button->width() >= button->sizeHint().width(), qPrintable(button->text()));
+                if (width == 1600)
+                    QCOMPARE(button->toolButtonStyle(), Qt::ToolButtonTextBesideIcon);
+            }
+        }
+    }
+
+    void iconsTakeTheThemesColour()
+    {
+        const auto darkest = [](const QIcon &icon) {
+            const QImage image = icon.pixmap(24).toImage();
+            int lightness = 255;
+            for (int y = 0; y < image.height(); ++y)
+                for (int x = 0; x < image.width(); ++x)
+                    if (qAlpha(image.pixel(x, y)) > 200)
+                        lightness = std::min(lightness, image.pixelColor(x, y).lightness());
+            return lightness;
+        };
+        const QIcon icon = m_window->findChild<ToolBar *>()->findChildren<QToolButton *>().last()->icon();
+        QVERIFY(darkest(icon) < 100);
+        for (const Theme::Kind kind : {Theme::Kind::Dark, Theme::Kind::HighContrast}) {
+            Theme::apply(kind);
+            QVERIFY(darkest(icon) > 180);
+        }
+        Theme::apply(Theme::Kind::Light);
+    }
+
+    void nothingInTheFormsIsCut()
     {
         m_window->resize(1280, 800);
         m_window->findChild<Panels *>()->takeDefault();
+        auto *dock = m_window->findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
+        dock->raise();
         QCoreApplication::processEvents();
-        for (const char *name : {"input", "output"})
-            QVERIFY2(m_window->view(name)->width() >= 320, qPrintable(QString::number(m_window->view(name)->width())));
+        QVERIFY(!dock->widget()->visibleRegion().isEmpty());
+        for (const QComboBox *box : dock->findChildren<QComboBox *>()) {
+            if (!box->isVisible())
+                continue;
+            QStyleOptionComboBox option;
+            option.initFrom(box);
+            const int room = box->style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box).width();
+            for (int i = 0; i < box->count(); ++i)
+                QVERIFY2(box->fontMetrics().horizontalAdvance(box->itemText(i)) <= room, qPrintable(box->itemText(i)));
+        }
+        for (const QLabel *label : dock->findChildren<QLabel *>())
+            if (label->isVisible() && !label->text().isEmpty() && label->textFormat() != Qt::RichText)
+                for (const QString &word : label->text().remove(QLatin1Char('&')).split(QLatin1Char(' ')))
+                    QVERIFY2(label->fontMetrics().horizontalAdvance(word) <= label->width(), qPrintable(label->text()));
+        for (const QTabBar *tabs : m_window->findChildren<QTabBar *>())
+            for (int i = 0; tabs->isVisible() && tabs->parentWidget() == m_window.get() && i < tabs->count(); ++i)
+                QVERIFY2(tabs->tabRect(i).width() >= tabs->fontMetrics().horizontalAdvance(tabs->tabText(i)), qPrintable(tabs->tabText(i)));
     }
 };
 

@@ -72,6 +72,32 @@ private slots:
         QVERIFY(bytesOf(path("a.png")) == bytesOf(path("b.png")));
     }
 
+    void aFinerScreenHasMorePixelsNotLargerOnes()
+    {
+        const auto picture = [&](const QString &name, const QStringList &more) {
+            const Outcome outcome = run(QStringList{"render", path("scene.json"), "--view", "output,threshold", "--size", "400x300", "--out", path(name)} + more);
+            return outcome.error.isEmpty() && outcome.exitCode == 0;
+        };
+        QVERIFY(picture("plain.png", {}));
+        QVERIFY(picture("one.png", {"--scale", "1"}));
+        QVERIFY(picture("two.png", {"--scale", "2"}));
+        QVERIFY(picture("quarter.png", {"--scale", "1.25"}));
+        for (const QString &view : {QString("-output.png"), QString("-threshold.png")}) {
+            QVERIFY(bytesOf(path("plain" + view)) == bytesOf(path("one" + view)));
+            const QImage one(path("one" + view)), two(path("two" + view));
+            QCOMPARE(two.size(), QSize(800, 600));
+            QCOMPARE(QImage(path("quarter" + view)).size(), QSize(500, 375));
+            // Blown up, every two by two pixels would be alike; here text, hairlines and cells are finer.
+            int finer = 0;
+            for (int y = 0; y < one.height(); ++y)
+                for (int x = 0; x < one.width(); ++x)
+                    finer += two.pixel(2 * x, 2 * y) != two.pixel(2 * x + 1, 2 * y) || two.pixel(2 * x, 2 * y) != two.pixel(2 * x, 2 * y + 1);
+            const int least = view == "-output.png" ? one.width() * one.height() / 10 : 400; // a raster; lines and words
+            QVERIFY2(finer > least, qPrintable(QString::number(finer)));
+        }
+        QCOMPARE(run({"render", path("scene.json"), "--out", path("no.png"), "--scale", "0.5"}).exitCode, 2);
+    }
+
     void everyViewBothThemes()
     {
         const QStringList views{"window", "input", "output", "threshold", "events", "noise"};

@@ -30,6 +30,10 @@ private slots:
     void hoverReadsOut();
     void doubleClickActivatesAnEvent();
     void measuring();
+    void theMeasuredBoxSnapsToPeaks();
+    void theCursorGoesToThePeak();
+    void sidebandsAreDragged();
+    void sidebandsByKey();
     void levelsAndAutomaticRange();
     void valueAtEveryCell();
     void emptyAndBack();
@@ -228,6 +232,84 @@ void tst_WaterfallView::measuring()
     QVERIFY(m_viewport.showsAll());
     QTest::keyClick(m_view.get(), Qt::Key_M);
     QVERIFY(!m_viewport.selection());
+}
+
+void tst_WaterfallView::theMeasuredBoxSnapsToPeaks()
+{
+    // The one strong cell is at frame 40, bin 50: 40 s, 200 Hz.
+    const Viewport::Point peak{40.5, test::hzAxis(200).value(50)}; // frame 40
+    QTest::keyClick(m_view.get(), Qt::Key_M);
+    const QPoint near = m_view->positionOf(peak).toPoint() + QPoint(7, -6);
+    drag(near, pixel(70.0, 300.0), Qt::ControlModifier);
+    QVERIFY(m_viewport.selection());
+    QCOMPARE(m_viewport.selection()->time.low, peak.seconds);
+    QCOMPARE(m_viewport.selection()->frequency.low, peak.hz);
+    drag(near, pixel(70.0, 300.0));
+    QVERIFY(m_viewport.selection()->frequency.low != peak.hz);
+    drag(pixel(20.0, 120.0), near, Qt::ControlModifier); // the corner that moves as well
+    QCOMPARE(m_viewport.selection()->time.high, peak.seconds);
+    QCOMPARE(m_viewport.selection()->frequency.high, peak.hz);
+    m_view->setSelectionNote("area SNR 3.0 dB");
+    QVERIFY(m_view->selectionText().endsWith("area SNR 3.0 dB"));
+    drag(pixel(20.0, 120.0), pixel(30.0, 140.0));
+    QVERIFY(!m_view->selectionText().contains("area")); // it was another box's
+}
+
+void tst_WaterfallView::theCursorGoesToThePeak()
+{
+    const Viewport::Point peak{40.5, test::hzAxis(200).value(50)}; // frame 40
+    const QPoint near = m_view->positionOf(peak).toPoint() + QPoint(-8, 5);
+    QTest::mouseClick(m_view->canvas(), Qt::LeftButton, Qt::ControlModifier, near);
+    QCOMPARE(m_viewport.cursor().value(), peak);
+    QTest::mouseClick(m_view->canvas(), Qt::LeftButton, {}, near);
+    QVERIFY(m_viewport.cursor().value() != peak);
+    QTest::keyClick(m_view.get(), Qt::Key_K);
+    QCOMPARE(m_viewport.cursor().value(), peak);
+    QTest::mouseClick(m_view->canvas(), Qt::LeftButton, Qt::ControlModifier, near + QPoint(0, 60)); // too far
+    QVERIFY(m_viewport.cursor().value() != peak);
+}
+
+void tst_WaterfallView::sidebandsAreDragged()
+{
+    m_viewport.setCursor({40.5, 300.0});
+    QSignalSpy changed(m_view.get(), &WaterfallView::sidebandsChanged);
+    QTest::keyClick(m_view.get(), Qt::Key_I);
+    const double before = m_view->sidebandSpacing();
+    QVERIFY(before > 0.0);
+    QCOMPARE(changed.count(), 1);
+    QVERIFY2(m_view->sidebandText().contains("carrier 300"), qPrintable(m_view->sidebandText()));
+    drag(pixel(70.0, 300.0 - 2.0 * before), pixel(60.0, 220.0)); // the second one below
+    QVERIFY2(std::abs(m_view->sidebandSpacing() - 40.0) < 1.0, qPrintable(QString::number(m_view->sidebandSpacing())));
+    QCOMPARE(m_viewport.cursor()->hz, 300.0);
+    QVERIFY(m_viewport.showsAll());
+    // With Ctrl onto the peak at 200 Hz: the line has its level.
+    const double peak = test::hzAxis(200).value(50);
+    drag(pixel(40.0, 300.0 - 2.0 * m_view->sidebandSpacing()), m_view->positionOf({40.5, peak}).toPoint() + QPoint(5, 3), Qt::ControlModifier);
+    QCOMPARE(m_view->sidebandSpacing(), (300.0 - peak) / 2.0);
+    QVERIFY2(m_view->sidebandText().contains("30.0"), qPrintable(m_view->sidebandText()));
+    // Beside the lines one still pans.
+    m_viewport.zoomTo({20.0, 60.0}, {200.0, 400.0});
+    const double low = m_viewport.frequency().low;
+    drag(pixel(40.0, 325.0), pixel(40.0, 335.0));
+    QVERIFY(m_viewport.frequency().low < low);
+}
+
+void tst_WaterfallView::sidebandsByKey()
+{
+    QTest::keyClick(m_view.get(), Qt::Key_I);
+    QVERIFY(m_viewport.cursor()); // where there was none
+    m_viewport.setCursor({40.5, 300.0});
+    const double before = m_view->sidebandSpacing(), bin = m_view->frequencyAxis().step;
+    const Viewport::Point cursor = *m_viewport.cursor();
+    QTest::keyClick(m_view.get(), Qt::Key_Right, Qt::AltModifier);
+    QCOMPARE(m_view->sidebandSpacing(), before + bin);
+    QTest::keyClick(m_view.get(), Qt::Key_Left, Qt::AltModifier);
+    QCOMPARE(m_view->sidebandSpacing(), before);
+    QCOMPARE(*m_viewport.cursor(), cursor);
+    QTest::keyClick(m_view.get(), Qt::Key_Right);
+    QCOMPARE(m_viewport.cursor()->hz, cursor.hz + bin); // the carrier goes with the cursor
+    QTest::keyClick(m_view.get(), Qt::Key_Escape);
+    QCOMPARE(m_view->sidebandSpacing(), 0.0);
 }
 
 void tst_WaterfallView::levelsAndAutomaticRange()

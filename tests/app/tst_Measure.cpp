@@ -1,0 +1,125 @@
+// Measuring in the window with keys and mouse: a box's area SNR, sidebands in both pictures, the peak.
+
+#include "app/CommandPalette.h"
+#include "app/MainWindow.h"
+#include "app/Workbench.h"
+#include "widgets/WaterfallView.h"
+
+#include <QAction>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <memory>
+
+using namespace faintline;
+
+namespace {
+
+constexpr int patience = 60000; // ms
+
+} // namespace
+
+class tst_Measure : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+    std::unique_ptr<MainWindow> m_window;
+
+    WaterfallView &input() { return *m_window->workbench().input(); }
+    WaterfallView &output() { return *m_window->workbench().output(); }
+    Viewport &viewport() { return m_window->document().viewport(); }
+
+    static void drag(WaterfallView &view, const Viewport::Point &from, const Viewport::Point &to)
+    {
+        QWidget *canvas = view.canvas();
+        const QPoint start = view.positionOf(from).toPoint(), end = view.positionOf(to).toPoint();
+        QTest::mousePress(canvas, Qt::LeftButton, {}, start);
+        for (const double share : {0.5, 1.0}) {
+            const QPointF position = start + share * QPointF(end - start);
+            QMouseEvent move(QEvent::MouseMove, position, canvas->mapToGlobal(position), Qt::NoButton, Qt::LeftButton, {});
+            QCoreApplication::sendEvent(canvas, &move);
+        }
+        QTest::mouseRelease(canvas, Qt::LeftButton, {}, end);
+    }
+    QAction *action(const QKeySequence &key)
+    {
+        for (const QAction *menu : m_window->menuBar()->actions())
+            for (QAction *one : menu->menu()->actions())
+                if (one->shortcut() == key)
+                    return one;
+        return nullptr;
+    }
+
+private slots:
+    void initTestCase()
+    {
+        Theme::apply(Theme::Kind::Light);
+        const QString scene = m_folder.filePath("scene.json");
+        QFile file(scene);
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60,
+                       "lines": [{"frequencyHz": 150, "snrDb": 10, "referenceSeconds": 0.5}]})");
+        file.close();
+        m_window = std::make_unique<MainWindow>();
+        m_window->setAsking(false);
+        m_window->resize(1280, 800);
+        m_window->show();
+        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
+        m_window->open(scene, {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
+        QVERIFY(settled.wait(patience));
+        m_window->activateWindow();
+        input().setFocus();
+        QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
+    }
+    void cleanupTestCase() { m_window.reset(); }
+
+    void aBoxTellsItsAreaSnr()
+    {
+        QTest::keyClick(&input(), Qt::Key_M);
+        QVERIFY(input().isMeasuring() && output().isMeasuring());
+        drag(input(), {5.0, 138.0}, {55.0, 162.0});
+        QTRY_VERIFY_WITH_TIMEOUT(input().selectionText().contains("area SNR"), patience);
+        QCOMPARE(output().selectionText().section('\n', -1), input().selectionText().section('\n', -1));
+        // 100 windows: the line's beat with the noise, and the noise of 12 cells, leave √(32/100) of 10.
+        const double db = input().selectionText().section("area SNR ", 1).section(' ', 0, 0).toDouble();
+        QVERIFY2(std::abs(std::pow(10.0, 0.1 * db) - 10.0) < 4.0 * std::sqrt(32.0 / 100.0), qPrintable(input().selectionText()));
+        for (const char *word : {"Δt", "Δf", "Hz/s", "peak", "mean"})
+            QVERIFY2(input().selectionText().contains(QString::fromUtf8(word)), word);
+        drag(input(), {5.0, 300.0}, {55.0, 302.0});
+        QVERIFY(!input().selectionText().contains("SNR 10"));
+        QTest::keyClick(&input(), Qt::Key_Escape);
+        QVERIFY(input().selectionText().isEmpty());
+    }
+
+    void sidebandsAreInBothPictures()
+    {
+        viewport().setCursor({30.0, 250.0});
+        QAction *sidebands = action(Qt::Key_I);
+        QVERIFY(sidebands);
+        QTest::keyClick(&input(), Qt::Key_I);
+        QVERIFY(sidebands->isChecked());
+        QVERIFY(input().sidebandSpacing() > 0.0);
+        QCOMPARE(output().sidebandSpacing(), input().sidebandSpacing());
+        drag(output(), {10.0, 250.0 + output().sidebandSpacing()}, {10.0, 280.0});
+        QVERIFY2(std::abs(input().sidebandSpacing() - 30.0) < 2.0, qPrintable(QString::number(input().sidebandSpacing())));
+        QCOMPARE(output().sidebandSpacing(), input().sidebandSpacing());
+        QTest::keyClick(&input(), Qt::Key_Escape);
+        QVERIFY(!sidebands->isChecked());
+        QCOMPARE(output().sidebandSpacing(), 0.0);
+    }
+
+    void theCursorFindsTheLine()
+    {
+        viewport().setCursor({30.0, 146.0});
+        QVERIFY(action(Qt::Key_K));
+        QTest::keyClick(&input(), Qt::Key_K);
+        QVERIFY2(std::abs(viewport().cursor()->hz - 150.0) <= 1.0, qPrintable(QString::number(viewport().cursor()->hz)));
+    }
+};
+
+QTEST_MAIN(tst_Measure)
+#include "tst_Measure.moc"
