@@ -44,6 +44,12 @@ private:
     JobRunner m_runner; ///< last, so that its job ends first
 };
 
+/// The name of the text in a PNG that is its provenance.
+inline QString pictureProvenanceKey()
+{
+    return QStringLiteral("provenance");
+}
+
 /// Writes it beside an exported file: PATH.provenance.json.
 void writeProvenanceBeside(const QString &path, const std::string &json);
 

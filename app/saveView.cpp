@@ -24,7 +24,7 @@ namespace {
         buffer.open(QIODevice::WriteOnly);
         QImage image = view.grab().toImage();
         if (!provenance.isEmpty())
-            image.setText(QStringLiteral("provenance"), provenance);
+            image.setText(pictureProvenanceKey(), provenance);
         image.save(&buffer, "PNG");
         return bytes;
     }
