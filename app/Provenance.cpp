@@ -57,6 +57,14 @@ void Provenance::answer()
     }
 }
 
+QString pictureProvenance(const std::string &json)
+{
+    QString text = QString::fromStdString(parseJson(json, "provenance").dump());
+    while (text.contains(QLatin1String("  "))) // within a name, then
+        text.replace(QLatin1String("  "), QLatin1String(" \\u0020"));
+    return text;
+}
+
 void writeProvenanceBeside(const QString &path, const std::string &json)
 {
     writeTextFile(path.toStdString() + ".provenance.json", json);

@@ -50,6 +50,9 @@ inline QString pictureProvenanceKey()
     return QStringLiteral("provenance");
 }
 
+/// The same JSON on one line and without two spaces in a row, which do not survive there.
+QString pictureProvenance(const std::string &json);
+
 /// Writes it beside an exported file: PATH.provenance.json.
 void writeProvenanceBeside(const QString &path, const std::string &json);
 

@@ -352,6 +352,8 @@ namespace {
             if (value)
                 json[name] = *value;
         };
+        if (options.views.size() > 1) // one after the other in the same window, where automatic ranges may remember
+            json["views"] = options.views;
         tell("time", options.seconds);
         tell("frequency", options.hz);
         tell("range", options.range);
@@ -373,7 +375,7 @@ namespace {
     RenderOptions optionsFromJson(const Json &json)
     {
         RenderOptions options;
-        options.views = {json.at("view").get<std::string>()};
+        options.views = json.value("views", std::vector{json.at("view").get<std::string>()});
         options.size = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
         options.theme = json.at("theme").get<std::string>();
         const auto take = [&json](const char *name, std::optional<double> &value) {
@@ -403,7 +405,7 @@ namespace {
 
     void write(QImage image, const std::string &path, const Json &provenance)
     {
-        image.setText(pictureProvenanceKey(), QString::fromStdString(provenance.dump(2) + "\n"));
+        image.setText(pictureProvenanceKey(), pictureProvenance(provenance.dump()));
         QByteArray bytes;
         QBuffer buffer(&bytes);
         buffer.open(QIODevice::WriteOnly);
@@ -513,7 +515,8 @@ void replayPicture(const ReplayOptions &options)
         again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
         writeTextFile(again.source, session.dump(2) + "\n");
         render(again);
-        const bool isSame = QImage(QString::fromStdString(again.out)).convertToFormat(QImage::Format_RGB32)
+        const std::string remade = fileName(again, provenance["render"].at("view").get<std::string>());
+        const bool isSame = QImage(QString::fromStdString(remade)).convertToFormat(QImage::Format_RGB32)
                             == kept.convertToFormat(QImage::Format_RGB32);
         std::printf("%s: %s\n", qPrintable(QFileInfo(path).fileName()), isSame ? "the same pixels" : "differs");
         if (!isSame)

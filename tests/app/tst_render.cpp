@@ -1,6 +1,7 @@
 // Runs the program as a person would: `faintline render …`.
 
 #include <QImage>
+#include <QImageReader>
 #include <QProcess>
 #include <QProcessEnvironment>
 #include <QTemporaryDir>
@@ -75,6 +76,36 @@ private slots:
         }
         QCOMPARE(QImage(path("a.png")).size(), QSize(1200, 800));
         QVERIFY(bytesOf(path("a.png")) == bytesOf(path("b.png")));
+    }
+
+    void aPictureIsMadeAgain()
+    {
+        const QString out = path("again.png");
+        QCOMPARE(run({"render", path("scene.json"), "--out", out, "--size", "900x600", "--view", "output,threshold", "--theme", "dark", "--layer", "age",
+                      "--time", "20", "--frequency", "220", "--set", "decide.falseAlarmsPerHour=3"})
+                     .error,
+                 QByteArray());
+        for (const QString &name : {QString("again-output.png"), QString("again-threshold.png")}) {
+            const QString told = QImageReader(path(name)).text("provenance");
+            QVERIFY2(told.contains("scenario") && told.contains("\"falseAlarmsPerHour\":3") && !told.contains(m_folder.path()), qPrintable(told));
+            const Outcome outcome = run({"replay", path(name)});
+            QCOMPARE(outcome.error, QByteArray());
+            QCOMPARE(outcome.out, name.toUtf8() + ": the same pixels\n");
+        }
+        // One pixel of another colour is seen, its text says what it should have been.
+        QImage changed(path("again-output.png"));
+        changed.setPixelColor(40, 40, Qt::red);
+        QVERIFY(changed.save(path("changed.png")));
+        Outcome outcome = run({"replay", path("changed.png")});
+        QCOMPARE(outcome.exitCode, 1);
+        QCOMPARE(outcome.out, QByteArray("changed.png: differs\n"));
+        changed.setText("provenance", "{\"recording\": 7}");
+        QVERIFY(changed.save(path("broken.png")));
+        for (const QString &name : {QString("broken.png"), QString("text.wav"), QString("none.png")}) {
+            outcome = run({"replay", path(name)});
+            QCOMPARE(outcome.exitCode, 2);
+            QVERIFY2(outcome.error.startsWith("error: ") && outcome.error.count('\n') == 1, outcome.error.constData());
+        }
     }
 
     void everyViewBothThemes()
