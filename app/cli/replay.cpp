@@ -130,6 +130,7 @@ namespace {
         std::vector<fs::path> kept;
         std::vector<fs::path> remade;
         std::vector<std::string> arguments = provenance.arguments;
+        std::erase(arguments, "--summary"); // what is said here is about the files
         for (const std::string &output : provenance.outputs) {
             kept.push_back(path.parent_path() / fs::path(output).filename());
             remade.push_back(folder.path() / (std::to_string(remade.size()) + "-" + fs::path(output).filename().string()));

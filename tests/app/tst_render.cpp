@@ -87,7 +87,7 @@ private slots:
                  QByteArray());
         for (const QString &name : {QString("again-output.png"), QString("again-threshold.png")}) {
             const QString told = QImageReader(path(name)).text("provenance");
-            QVERIFY2(told.contains("scenario") && told.contains("\"falseAlarmsPerHour\":3") && !told.contains(m_folder.path()), qPrintable(told));
+            QVERIFY2(told.contains("scenario") && told.contains("\"decide.falseAlarmsPerHour\":3.0") && !told.contains(m_folder.path()), qPrintable(told));
             const Outcome outcome = run({"replay", path(name)});
             QCOMPARE(outcome.error, QByteArray());
             QCOMPARE(outcome.out, name.toUtf8() + ": the same pixels\n");
