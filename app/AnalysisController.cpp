@@ -138,9 +138,12 @@ void AnalysisController::run()
 
 void AnalysisController::startAnalysis()
 {
-    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.settings(), previous = m_document.analysis(),
-                    visible = m_document.viewport().time(), kept = m_kept](const RunContext &context) -> JobRunner::Delivery {
-        if (const bool isSame = previous && opened.recording && previous->recording == opened.recording;
+    // Of pings one is looked at: that of the cursor.
+    const auto &cursor = m_document.viewport().cursor();
+    const Span visible = m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
+    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.settings(), previous = m_document.analysis(), visible,
+                    kept = m_kept](const RunContext &context) -> JobRunner::Delivery {
+        if (const bool isSame = previous && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
             isSame && isWorthAPreview(*previous, settings)) {
             const Axis &time = previous->time();
             const FrameRange range = previewRange(*previous->frames, time.nearest(visible.low), time.nearest(visible.high));
@@ -182,7 +185,7 @@ void AnalysisController::showPreview(const AnalysisSettings &settings, const Sta
 void AnalysisController::dropPartialPreview()
 {
     const auto &shown = m_document.provisional();
-    if (!shown)
+    if (!shown || m_document.hasPings()) // there it is of one ping, and shown with that one only
         return;
     const Span &visible = m_document.viewport().time();
     const Axis &time = shown->time();

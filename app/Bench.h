@@ -4,6 +4,10 @@
 
 #include <QWidget>
 
+#include <vector>
+
+class QSplitter;
+
 namespace faintline {
 
 /// What fills the middle of the window while something is open: the pictures, and what moves about in them. There is one for lines over
@@ -24,6 +28,13 @@ public:
     virtual void cycleOrientation() = 0;
     virtual void cycleColourMap() = 0;
     virtual void setAutomaticRange() = 0;
+
+    /// How its pictures share the room.
+    QByteArray saveSplitters() const;
+    void restoreSplitters(const QByteArray &state);
+
+protected:
+    virtual std::vector<QSplitter *> splitters() const = 0;
 
 public slots:
     virtual void selectEvent(int id) = 0; ///< marks it, puts the cursor on it and brings it into view

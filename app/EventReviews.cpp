@@ -1,9 +1,11 @@
 #include "app/EventReviews.h"
 
+#include "analysis/judgeByBoxes.h"
 #include "exchange/annotationText.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeReviewed.h"
 #include "widgets/EventTable.h"
+#include "widgets/PingMap.h"
 #include "widgets/WaterfallView.h"
 
 #include <QAction>
@@ -46,6 +48,16 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
                 [this](QMenu *menu, double seconds, double hz) { fillContextMenu(*menu, seconds, hz); });
     connect(&m_provenance, &Provenance::failed, this, &EventReviews::failed);
     enable();
+}
+
+void EventReviews::addMaps(std::vector<PingMap *> maps)
+{
+    m_maps = std::move(maps);
+    for (PingMap *map : m_maps)
+        connect(map->plane(), &WaterfallView::contextMenuRequested, this, [this, map](QMenu *menu, double range, double bearing) {
+            if (const int track = map->trackAt({range, bearing}))
+                fillContextMenu(*menu, track);
+        });
 }
 
 QAction *EventReviews::add(const QString &text, const QKeySequence &key, const QString &tip, void (EventReviews::*act)())
@@ -162,14 +174,30 @@ void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
     }
 }
 
+/// What is said next is said about that track.
+void EventReviews::fillContextMenu(QMenu &menu, int track)
+{
+    m_table.setSelectedEvent(track);
+    for (PingMap *map : m_maps)
+        map->setSelectedTrack(track);
+    menu.addSection(tr("Track %1").arg(track));
+    menu.addActions(m_eventActions);
+}
+
 void EventReviews::importFrom(const QString &path)
 {
     const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
     const std::vector<Annotation> boxes = readAnnotations(path.toStdString(), info);
     Annotations after = m_document.annotations();
-    after.boxes.insert(after.boxes.end(), boxes.begin(), boxes.end());
+    JudgedByBoxes imported{{}, boxes, 0};
+    if (m_document.analysis()) {
+        imported = judgeByBoxes(after.reviews, *m_document.analysis(), m_document.shownEvents(), boxes);
+        after.reviews = imported.reviews;
+    }
+    after.boxes.insert(after.boxes.end(), imported.others.begin(), imported.others.end());
     m_document.annotate(std::move(after), tr("Import %1 annotations").arg(boxes.size()));
-    emit told(QFileInfo(path).fileName(), tr("%1 annotation(s) imported; Ctrl+Z takes them back.").arg(boxes.size()));
+    const QString judged = imported.judged == 0 ? QString() : tr(" %1 event(s) are judged by them.").arg(imported.judged);
+    emit told(QFileInfo(path).fileName(), tr("%1 annotation(s) imported; Ctrl+Z takes them back.").arg(boxes.size()) + judged);
 }
 
 void EventReviews::exportTo(const QString &path)
@@ -177,9 +205,14 @@ void EventReviews::exportTo(const QString &path)
     if (!m_document.analysis())
         return;
     writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), path.toStdString());
-    m_provenance.with([this, path](const std::string &json) {
+    // Only a threshold that is being dragged is not that of the settings.
+    const bool isDragged = m_document.shownThreshold() != m_document.analysis()->threshold;
+    m_provenance.with([this, path, isDragged, threshold = m_document.shownThreshold()](const std::string &provenance) {
         try {
-            writeProvenanceBeside(path, json);
+            Json json = parseJson(provenance, "provenance");
+            if (isDragged)
+                json["shownThreshold"] = threshold;
+            writeProvenanceBeside(path, json.dump(2) + "\n");
         } catch (const Error &error) {
             emit failed(error);
         }
@@ -228,6 +261,8 @@ void EventReviews::show()
         view->setFaintEvents(rejected);
         view->setAnnotations(m_document.hasPings() ? std::vector<Annotation>() : m_document.annotations().boxes);
     }
+    for (PingMap *map : m_maps)
+        map->setFaintTracks(rejected);
     enable();
 }
 

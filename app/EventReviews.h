@@ -14,11 +14,12 @@ class QWidget;
 namespace faintline {
 
 class EventTable;
+class PingMap;
 class WaterfallView;
 
 /// What a person says about events, and boxes of their own: the actions, and where it is shown.
 ///
-/// Events are judged where they are selected, in the table. Nothing is ever deleted by judging: a rejected event stays in the table and is
+/// Events are judged where they are selected, in the table, and tracks of pings by a right click on them. Nothing is ever deleted by judging: a rejected event stays in the table and is
 /// drawn faint. Each action is one undoable step of the document.
 class EventReviews : public QObject
 {
@@ -27,6 +28,9 @@ class EventReviews : public QObject
 public:
     /// `views`: the waterfalls that show events and boxes. Dialogs belong to `window`.
     EventReviews(Document &document, EventTable &table, std::vector<WaterfallView *> views, QWidget *window);
+
+    /// Where tracks of pings are seen.
+    void addMaps(std::vector<PingMap *> maps);
 
     /// The actions for a menu: those on events first. The table's context menu has the same.
     void addActionsTo(QMenu &menu);
@@ -58,6 +62,7 @@ private:
     void askForImport();
     void askForExport();
     void fillContextMenu(QMenu &menu, double seconds, double hz);
+    void fillContextMenu(QMenu &menu, int track);
     void show();
     void enable();
     std::vector<int> chosen() const;
@@ -66,6 +71,7 @@ private:
     Document &m_document;
     EventTable &m_table;
     std::vector<WaterfallView *> m_views;
+    std::vector<PingMap *> m_maps;
     QWidget *m_window;
     QList<QAction *> m_actions;      ///< null: a separator
     QList<QAction *> m_eventActions; ///< need a selected event

@@ -150,7 +150,10 @@ int ExperimentsPanel::importFile(const QString &path)
 static void writeWithOrigin(const Campaign &campaign, const QString &path)
 {
     writeCurve(campaign, path.toStdString());
-    const Json json = {{"version", FAINTLINE_VERSION}, {"experiment", toJson(campaign.experiment)}};
+    Json json = {{"version", FAINTLINE_VERSION}, {"experiment", toJson(campaign.experiment)}};
+    if (std::ssize(campaign.outcomes) < runCount(campaign.experiment)) // it was stopped
+        for (const RunOutcome &outcome : campaign.outcomes)
+            json["runs"].push_back(outcome.run);
     writeProvenanceBeside(path, json.dump(2) + "\n");
 }
 

@@ -151,7 +151,7 @@ void MainWindow::buildCentre()
     m_pages = new QStackedWidget;
     m_pages->addWidget(m_welcome);
     m_pages->addWidget(m_workbench);
-    m_pings = new PingBench(m_document);
+    m_pings = new PingBench(m_document, m_workbench->layers());
     m_pages->addWidget(m_pings);
     // What is not seen must not keep a small window from showing what is.
     const auto measureCurrent = [this](int current) {
@@ -182,7 +182,9 @@ void MainWindow::buildDocks()
     new ThresholdCurves(m_document, *m_threshold, this);
     m_events = new EventTable;
     m_events->setEmptySentence(tr("No event at this threshold."));
-    m_reviews = new EventReviews(m_document, *m_events, {m_workbench->input(), m_workbench->output()}, this);
+    m_reviews = new EventReviews(m_document, *m_events,
+                                 {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
+    m_reviews->addMaps({m_pings->input(), m_pings->output()});
     m_why = new WhyPanel(m_document, m_pings->viewports());
     m_info = new InfoPanel(m_document);
     m_noiseFit = new NoiseFitPanel(m_document);
@@ -604,7 +606,13 @@ void MainWindow::saveLayout()
     if (m_pages->currentWidget() == m_welcome || m_presentAction->isChecked())
         return;
     const ViewState view = m_workbench->viewState();
-    m_memory.setLayout({saveGeometry(), saveState(), m_workbench->saveSplitters(), view.colourMap, view.orientation});
+    WindowMemory::Layout layout = m_memory.layout(); // of the bench that is not seen as it was
+    (&bench() == m_pings ? layout.pingSplitters : layout.splitters) = bench().saveSplitters();
+    layout.geometry = saveGeometry();
+    layout.panels = saveState();
+    layout.colourMap = view.colourMap;
+    layout.orientation = view.orientation;
+    m_memory.setLayout(layout);
 }
 
 void MainWindow::restoreLayout()
@@ -613,6 +621,8 @@ void MainWindow::restoreLayout()
     restoreGeometry(layout.geometry);
     if (!layout.splitters.isEmpty())
         m_workbench->restoreSplitters(layout.splitters);
+    if (!layout.pingSplitters.isEmpty())
+        m_pings->restoreSplitters(layout.pingSplitters);
     m_workbench->restore({{}, {}, layout.orientation, layout.colourMap});
 }
 
@@ -673,11 +683,28 @@ void MainWindow::exportPicture(const QString &name)
         return;
     m_reviews->provenance().with([this, name, path](const std::string &provenance) {
         try {
-            saveView(*view(name), {}, path, provenance);
+            saveView(*view(name), {}, path, withView(name, provenance));
         } catch (const Error &error) {
             showError(error);
         }
     });
+}
+
+/// With what `faintline render` needs to make the picture again, where it can: of one view, on a screen as its own.
+std::string MainWindow::withView(const QString &name, const std::string &provenance)
+{
+    const QWidget &shown = *view(name);
+    if (&shown == this || shown.devicePixelRatioF() != 1.0)
+        return provenance;
+    const OutputLayers &layers = m_workbench->layers();
+    Json json = parseJson(provenance, "provenance");
+    json["view"] = toJson(bench().viewState());
+    json["render"] = {{"view", name.toStdString()},
+                      {"size", {shown.width(), shown.height()}},
+                      {"theme", Theme::nameOf(Theme::kind(palette())).toStdString()},
+                      {"layer", std::string(outputLayerNames[static_cast<std::size_t>(layers.layer())])},
+                      {"overlay", layers.isOverlay()}};
+    return json.dump(2) + "\n";
 }
 
 void MainWindow::exportReport()

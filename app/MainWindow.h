@@ -160,6 +160,7 @@ private:
     void chooseFile();
     void chooseRawFile();
     void exportPicture(const QString &view);
+    std::string withView(const QString &view, const std::string &provenance);
     void exportReport();
     void injectLine();
     void reproduce(const Reproducible &reproducible, bool quick);

@@ -164,7 +164,8 @@ void MainWindow::addLayerMenu(QMenu &menu)
     QMenu *choices = menu.addMenu(tr("&Output layer"));
     auto *group = new QActionGroup(choices);
     const std::pair<QString, OutputLayer> all[]{{tr("Layer: &statistic D"), OutputLayer::Statistic},
-                                                {tr("Layer: winning s&lope"), OutputLayer::Rate},
+                                                {tr("Layer: winning s&lope or range rate"), OutputLayer::Rate},
+                                                {tr("Layer: winning &bearing rate"), OutputLayer::SecondRate},
                                                 {tr("Layer: path &age since the last reset"), OutputLayer::Age},
                                                 {tr("Layer: &resets"), OutputLayer::Reset},
                                                 {tr("Layer: &inhibited cells"), OutputLayer::Inhibited}};
@@ -172,8 +173,12 @@ void MainWindow::addLayerMenu(QMenu &menu)
         QAction *action = addViewAction(*choices, text, {}, [layers, layer = layer] { layers->setLayer(layer); });
         action->setCheckable(true);
         action->setActionGroup(group);
-        const auto check = [layers, action, layer = layer] { action->setChecked(layers->layer() == layer); };
+        const auto check = [layers, action, layer = layer] {
+            action->setChecked(layers->layer() == layer);
+            action->setVisible(layers->isOffered(layer));
+        };
         connect(layers, &OutputLayers::layerChanged, action, check);
+        connect(&m_document, &Document::opened, action, check);
         check();
     }
     choices->addSeparator();

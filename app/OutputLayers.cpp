@@ -1,6 +1,9 @@
 #include "app/OutputLayers.h"
 
 #include "widgets/LayerItem.h"
+#include "widgets/PingMap.h"
+#include "widgets/PolarLayerItem.h"
+#include "widgets/PolarView.h"
 #include "widgets/Theme.h"
 #include "widgets/WaterfallView.h"
 #include "widgets/quantities.h"
@@ -33,6 +36,8 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
     connect(&document, &Document::opened, this, [this] {
         m_runner.cancel();
         m_result = {};
+        if (!isOffered(m_layer))
+            setLayer(OutputLayer::Rate);
         show();
     });
     connect(&document, &Document::analysisChanged, this, &OutputLayers::follow);
@@ -50,24 +55,57 @@ OutputLayers::OutputLayers(Document &document, WaterfallView &output, QObject *p
     connect(&m_runner, &JobRunner::cancelled, this, &OutputLayers::settled);
 }
 
+void OutputLayers::addPings(PingMap &map, PingViewports &viewports)
+{
+    m_map = &map;
+    m_pings = &viewports;
+    m_pingItem = new LayerItem;
+    m_pingItem->attach(map.plane());
+    m_pingItem->makeKey().release()->attach(map.plane());
+    (new PolarLayerItem(*m_pingItem))->attach(map.polar());
+    m_pingItem->makeKey().release()->attach(map.polar());
+    map.plane()->installEventFilter(this);
+    map.plane()->canvas()->installEventFilter(this);
+    map.polar()->canvas()->installEventFilter(this);
+    connect(&viewports.map(), &Viewport::spanChanged, this, [this] {
+        if (m_layer != OutputLayer::Statistic)
+            follow();
+    });
+    connect(&viewports, &PingViewports::placeChanged, this, &OutputLayers::followPing);
+    connect(&map, &PingMap::polarChanged, this, &OutputLayers::follow);
+    connect(map.plane(), &WaterfallView::orientationChanged, this, &OutputLayers::follow);
+}
+
+const LayerItem &OutputLayers::item() const
+{
+    return m_document.hasPings() && m_pingItem ? *m_pingItem : *m_item;
+}
+
+bool OutputLayers::isOffered(OutputLayer layer) const
+{
+    return layer != OutputLayer::SecondRate || m_document.hasPings();
+}
+
 bool OutputLayers::isPossible() const
 {
     const auto &analysis = m_document.analysis();
-    return analysis && !m_document.hasPings() && analysis->bank.empty() && analysis->model.space.axes().size() == 1;
+    if (!analysis)
+        return false;
+    return m_document.hasPings() ? m_map != nullptr : analysis->grid().axes.size() == 1;
 }
 
 bool OutputLayers::eventFilter(QObject *watched, QEvent *event)
 {
-    if (watched == &m_output && event->type() == QEvent::PaletteChange)
+    if (event->type() == QEvent::PaletteChange && (watched == &m_output || (m_map && watched == m_map->plane())))
         show();
-    if (watched == m_output.canvas() && event->type() == QEvent::Resize && m_layer != OutputLayer::Statistic)
+    if (event->type() == QEvent::Resize && !qobject_cast<WaterfallView *>(watched) && m_layer != OutputLayer::Statistic) // of a canvas
         follow();
     return QObject::eventFilter(watched, event);
 }
 
 void OutputLayers::setLayer(OutputLayer layer)
 {
-    if (layer == m_layer)
+    if (layer == m_layer || !isOffered(layer))
         return;
     m_layer = layer;
     show();
@@ -79,7 +117,9 @@ QString OutputLayers::heading() const
 {
     switch (m_layer) {
     case OutputLayer::Rate:
-        return tr("Winning slope of each cell");
+        return m_document.hasPings() ? tr("Winning range rate of each cell") : tr("Winning slope of each cell");
+    case OutputLayer::SecondRate:
+        return tr("Winning bearing rate of each cell");
     case OutputLayer::Age:
         return tr("Age of each cell's best path");
     case OutputLayer::Reset:
@@ -94,7 +134,11 @@ QString OutputLayers::heading() const
 
 void OutputLayers::cycleLayer()
 {
-    setLayer(static_cast<OutputLayer>((static_cast<std::size_t>(m_layer) + 1) % outputLayerNames.size()));
+    auto next = m_layer;
+    do
+        next = static_cast<OutputLayer>((static_cast<std::size_t>(next) + 1) % outputLayerNames.size());
+    while (!isOffered(next));
+    setLayer(next);
 }
 
 void OutputLayers::setOverlay(bool isOverlay)
@@ -120,8 +164,53 @@ void OutputLayers::follow()
 
 void OutputLayers::followCursor()
 {
-    if (m_isWatching || m_layer != OutputLayer::Statistic)
+    if (!m_document.hasPings() && (m_isWatching || m_layer != OutputLayer::Statistic))
         follow();
+}
+
+/// A layer is of its own ping: what is known of another one is taken away at once.
+void OutputLayers::followPing()
+{
+    if (!m_document.hasPings() || (!m_isWatching && m_layer == OutputLayer::Statistic))
+        return;
+    show();
+    follow();
+}
+
+std::optional<OutputLayers::Place> OutputLayers::cursor() const
+{
+    const Analysis &analysis = *m_document.analysis();
+    const std::vector<Axis> &axes = analysis.grid().axes;
+    if (m_document.hasPings()) {
+        const PingViewports::Place &place = m_pings->place();
+        return Place{analysis.time().nearest(place.seconds), axes[0].nearest(place.range) * axes[1].count + axes[1].nearest(place.bearing)};
+    }
+    const auto &at = m_document.viewport().cursor();
+    return at ? std::optional(Place{analysis.time().nearest(at->seconds), axes[0].nearest(at->hz)}) : std::nullopt;
+}
+
+/// The part of the map in view, no finer than its pixels.
+LayerWindow OutputLayers::windowOfPing() const
+{
+    const std::vector<Axis> &axes = m_document.analysis()->grid().axes;
+    const Viewport &viewport = m_pings->map();
+    const auto span = [](const Axis &axis, const Span &visible) { return std::pair(axis.nearest(visible.low), axis.nearest(visible.high) + 1); };
+    const auto [firstRange, endRange] = span(axes[0], viewport.time());
+    // On a cyclic axis the ends of a view all round are neighbours.
+    const bool isAllRound = viewport.frequency().width() > axes[1].step * static_cast<double>(axes[1].count - 1);
+    const auto [firstBeam, endBeam] = isAllRound ? std::pair(Index(0), axes[1].count) : span(axes[1], viewport.frequency());
+    LayerWindow window{firstRange, endRange, firstBeam, endBeam, axes[0].count, axes[1].count};
+    if (m_map->isPolar()) {
+        const PolarView &polar = *m_map->polar();
+        const double perPixel = polar.invTransform(QwtAxis::XBottom, 1.0) - polar.invTransform(QwtAxis::XBottom, 0.0);
+        window.mostRows = std::max<Index>(1, static_cast<Index>(viewport.time().width() / perPixel));
+    } else {
+        const QSize size = m_map->plane()->canvas()->contentsRect().size();
+        const bool isRangeVertical = m_map->plane()->orientation() != WaterfallView::Orientation::LeftToRight;
+        window.mostRows = std::max(1, isRangeVertical ? size.height() : size.width());
+        window.mostColumns = std::max(1, isRangeVertical ? size.width() : size.height());
+    }
+    return window;
 }
 
 /// The frames and cells in view, no finer than the pixels.
@@ -146,19 +235,18 @@ void OutputLayers::compute()
     if (!isPossible())
         return emit settled();
     const auto analysis = m_document.analysis();
-    const auto cursor = m_document.viewport().cursor();
     const bool wantsPicture = m_layer != OutputLayer::Statistic;
-    m_runner.start([this, analysis, cursor, wantsPicture, window = window()](const RunContext &context) -> JobRunner::Delivery {
+    const bool isOfPing = m_document.hasPings();
+    const LayerWindow wanted = isOfPing ? windowOfPing() : window();
+    m_runner.start([this, analysis, cursor = cursor(), wantsPicture, isOfPing, wanted](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<LayerReplay>(analysis);
-        Result result{analysis, {}, {}, -1, -1};
+        Result result{analysis, {}, {}, cursor};
         if (wantsPicture)
-            result.picture = std::make_shared<const LayerPicture>(layerPicture(*m_replay, window, context));
-        if (cursor) {
-            result.frame = analysis->time().nearest(cursor->seconds);
-            result.cell = analysis->grid().axes.front().nearest(cursor->hz);
-            result.atCursor = readCell(*analysis, m_replay->at(result.frame, context), result.cell);
-        }
+            result.picture = std::make_shared<const LayerPicture>(isOfPing ? layerPictureOf(*m_replay, cursor->frame, wanted, context)
+                                                                           : layerPicture(*m_replay, wanted, context));
+        if (cursor)
+            result.atCursor = readCell(*analysis, m_replay->at(cursor->frame, context), cursor->cell);
         return [this, result] {
             if (m_document.analysis() != result.analysis)
                 return;
@@ -172,66 +260,96 @@ void OutputLayers::compute()
 std::optional<CellReading> OutputLayers::readingAt(const Viewport::Point &point) const
 {
     const auto &analysis = m_document.analysis();
-    if (!analysis || m_result.analysis != analysis)
+    if (!analysis)
         return {};
     const Index frame = analysis->time().nearest(point.seconds);
     const Index cell = analysis->grid().axes.front().nearest(point.hz);
-    if (m_result.atCursor && frame == m_result.frame && cell == m_result.cell)
+    return readingAt({frame, cell}, frame, cell);
+}
+
+std::optional<CellReading> OutputLayers::readingAt(const PingViewports::Place &place) const
+{
+    const auto &analysis = m_document.analysis();
+    if (!analysis)
+        return {};
+    const std::vector<Axis> &axes = analysis->grid().axes;
+    const Index frame = analysis->time().nearest(place.seconds);
+    const Index row = axes[0].nearest(place.range);
+    const Index column = axes[1].nearest(place.bearing);
+    if (m_result.cursor && m_result.cursor->frame != frame)
+        return {};
+    return readingAt({frame, row * axes[1].count + column}, row, column);
+}
+
+std::optional<CellReading> OutputLayers::readingAt(const Place &place, Index row, Index column) const
+{
+    if (m_result.analysis != m_document.analysis())
+        return {};
+    if (m_result.atCursor && m_result.cursor == place)
         return m_result.atCursor;
-    if (!m_result.picture)
-        return {};
-    const LayerPicture &picture = *m_result.picture;
-    const Index row = frame / picture.framesPerRow - picture.firstRow;
-    const Index column = cell / picture.cellsPerColumn - picture.firstColumn;
-    if (row < 0 || row >= picture.rows || column < 0 || column >= picture.columns)
-        return {};
-    const auto pixel = static_cast<std::size_t>(row * picture.columns + column);
-    return CellReading{static_cast<double>(picture.rate[pixel]), static_cast<double>(picture.age[pixel]), picture.inhibited[pixel] > 0.0f,
-                       static_cast<double>(picture.statistic[pixel])};
+    const Index pixel = m_result.picture ? m_result.picture->pixelAt(row, column) : -1;
+    return pixel >= 0 ? std::optional(readPixel(*m_result.picture, pixel)) : std::nullopt;
 }
 
 void OutputLayers::show()
 {
     const auto &analysis = m_document.analysis();
-    const bool isShown = analysis && m_result.analysis == analysis && m_result.picture && m_layer != OutputLayer::Statistic;
-    m_item->setTimeVertical(m_output.orientation() != WaterfallView::Orientation::LeftToRight);
-    const Theme::Colours &colours = Theme::colours(m_output);
-    m_item->setColours(colours.text, colours.canvas);
-    if (!isShown) {
-        m_item->setPicture(nullptr, {}, {});
-        return m_output.replot();
+    const bool isOfPing = m_document.hasPings() && m_map;
+    WaterfallView &view = isOfPing ? *m_map->plane() : m_output;
+    LayerItem &item = isOfPing ? *m_pingItem : *m_item;
+    const auto replot = [&] {
+        view.replot();
+        if (isOfPing)
+            m_map->polar()->replot();
+    };
+    item.setTimeVertical(view.orientation() != WaterfallView::Orientation::LeftToRight);
+    const Theme::Colours &colours = Theme::colours(view);
+    item.setColours(colours.text, colours.canvas);
+    const bool isKnown = analysis && m_result.analysis == analysis && m_result.picture && m_layer != OutputLayer::Statistic;
+    if (!isKnown || (isOfPing && m_result.cursor->frame != cursor()->frame)) {
+        item.setPicture(nullptr, {}, {});
+        return replot();
     }
-    m_item->setPicture(m_result.picture, analysis->time(), analysis->grid().axes.front());
-    m_item->setOverlay(m_isOverlay, analysis->threshold);
+    const std::vector<Axis> &axes = analysis->grid().axes;
+    item.setPicture(m_result.picture, isOfPing ? axes[0] : analysis->time(), isOfPing ? axes[1] : axes[0]);
+    item.setOverlay(m_isOverlay, analysis->threshold);
     switch (m_layer) {
-    case OutputLayer::Rate: {
-        const KinematicAxis &axis = analysis->model.space.axes().front();
-        const double step = analysis->grid().axes.front().step / analysis->time().step;
-        const double largest = step * std::max({std::abs(axis.firstRate), std::abs(axis.firstRate + axis.rateCount - 1), 1});
-        const QString name = QString::fromStdString(analysis->grid().axes.front().unit);
-        const FrequencyUnit unit = name == QLatin1String("Hz") ? rateUnit(largest) : FrequencyUnit{name + "/s", 1.0};
-        m_item->setLayer(m_layer, {-largest, largest}, tr("Winning slope (%1)").arg(unit.name), unit.hz);
+    case OutputLayer::Rate:
+        showRates(item, 0);
         break;
-    }
+    case OutputLayer::SecondRate:
+        showRates(item, 1);
+        break;
     case OutputLayer::Age: {
         const std::vector<float> &ages = m_result.picture->age;
-        const auto longest = static_cast<double>(*std::max_element(ages.begin(), ages.end()));
+        const double longest = std::max(static_cast<double>(*std::max_element(ages.begin(), ages.end())), analysis->time().step);
         constexpr double manySeconds = 7200.0;
         const bool isLong = longest > manySeconds;
-        m_item->setLayer(m_layer, {0.0, std::max(longest, analysis->time().step)},
-                         isLong ? tr("Path age since reset (h)") : tr("Path age since reset (s)"), isLong ? 3600.0 : 1.0);
+        if (isOfPing)
+            item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (pings)"), analysis->time().step);
+        else
+            item.setLayer(m_layer, {0.0, longest}, isLong ? tr("Path age since reset (h)") : tr("Path age since reset (s)"), isLong ? 3600.0 : 1.0);
         break;
     }
     case OutputLayer::Reset:
-        m_item->setLayer(m_layer, {0.0, 1.0}, tr("States reset (fraction)"), 1.0);
+        item.setLayer(m_layer, {0.0, 1.0}, tr("States reset (fraction)"), 1.0);
         break;
     case OutputLayer::Inhibited:
-        m_item->setLayer(m_layer, {0.0, 1.0}, tr("Kept from the detector"), 1.0);
+        item.setLayer(m_layer, {0.0, 1.0}, tr("Kept from the detector"), 1.0);
         break;
     case OutputLayer::Statistic:
         break;
     }
-    m_output.replot();
+    replot();
+}
+
+void OutputLayers::showRates(LayerItem &item, std::size_t axis)
+{
+    const double largest = largestRate(*m_document.analysis(), axis);
+    const QString name = QString::fromStdString(m_document.analysis()->grid().axes[axis].unit);
+    const FrequencyUnit unit = name == QLatin1String("Hz") ? rateUnit(largest) : FrequencyUnit{name + "/s", 1.0};
+    const QString title = !m_document.hasPings() ? tr("Winning slope (%1)") : axis == 0 ? tr("Winning range rate (%1)") : tr("Winning bearing rate (%1)");
+    item.setLayer(m_layer, {-largest, largest}, title.arg(unit.name), unit.hz);
 }
 
 } // namespace faintline

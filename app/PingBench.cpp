@@ -1,9 +1,11 @@
 #include "app/PingBench.h"
 
 #include "analysis/regulation.h"
+#include "app/OutputLayers.h"
 #include "app/statisticUnit.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/PingMap.h"
+#include "widgets/PolarView.h"
 #include "widgets/StripPlot.h"
 #include "widgets/Theme.h"
 #include "widgets/quantities.h"
@@ -50,8 +52,8 @@ namespace {
 
 } // namespace
 
-PingBench::PingBench(Document &document, QWidget *parent)
-    : Bench(parent), m_document(document), m_viewports(document.viewport()),
+PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
+    : Bench(parent), m_document(document), m_layers(layers), m_viewports(document.viewport()),
       m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
       m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())),
       m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
@@ -106,9 +108,13 @@ PingBench::PingBench(Document &document, QWidget *parent)
         view->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     }
     linkViews();
+    layers.addPings(*m_output, m_viewports);
+    connect(&layers, &OutputLayers::layerChanged, this, &PingBench::showHeading);
+    connect(&layers, &OutputLayers::readingChanged, this, &PingBench::readCursor);
 
     connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
     connect(&document, &Document::analysisChanged, this, &PingBench::showAnalysis);
+    connect(&document, &Document::provisionalChanged, this, &PingBench::showStatistic);
     connect(&document, &Document::shownThresholdChanged, this, &PingBench::showThreshold);
     connect(&document, &Document::shownEventsChanged, this, &PingBench::showEvents);
     m_player.setInterval(playerInterval);
@@ -254,8 +260,7 @@ void PingBench::showAnalysis()
     const Analysis &analysis = *m_document.analysis();
     const Grid &grid = analysis.grid();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
-    const QString unit = statisticUnit(analysis.settings);
-    m_output->plane()->setStatisticUnit(unit, tr("Statistic D (%1)").arg(unit));
+    showHeading();
     if (isFirst)
         followExtents();
     // Only on the map: maxima over an axis exceed it nearly everywhere.
@@ -273,6 +278,20 @@ void PingBench::showAnalysis()
     if (isFirst)
         placeCursor();
     followPlace();
+}
+
+/// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.
+void PingBench::showHeading()
+{
+    const bool isStatistic = m_layers.layer() == OutputLayer::Statistic || m_layers.isOverlay();
+    m_output->setColourBarShown(isStatistic);
+    if (!m_document.hasPings() || !m_document.analysis())
+        return;
+    const bool isProvisional = provisional() != nullptr;
+    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
+    const QString statistic = isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
+    m_output->plane()->setStatisticUnit(unit, isStatistic ? statistic : m_layers.heading());
+    m_output->polar()->followPicture();
 }
 
 void PingBench::showRegulation()
@@ -363,12 +382,31 @@ void PingBench::followPlace()
     if (const Index now = ping(); now != m_shownPing) {
         m_shownPing = now;
         m_input->setPicture(pictureOfFrame(*analysis.input, analysis.grid(), now), analysis.grid().axes[1]);
-        m_output->setPicture(pictureOfFrame(*analysis.statistic, analysis.grid(), now), analysis.grid().axes[1]);
+        showStatistic();
         const QScopedValueRollback following(m_isFollowing, true);
         m_slider->setValue(static_cast<int>(now));
         showMarks();
     }
     readCursor();
+}
+
+/// What changed settings make of the ping shown, until their analysis is there; null where there is no such thing.
+const PeakPyramid *PingBench::provisional() const
+{
+    const auto &statistic = m_document.provisional();
+    return statistic && m_document.analysis() && m_shownPing == m_document.analysis()->time().nearest(statistic->time().first) ? statistic.get()
+                                                                                                                                : nullptr;
+}
+
+void PingBench::showStatistic()
+{
+    if (!m_document.hasPings() || !m_document.analysis() || m_shownPing < 0)
+        return;
+    const Analysis &analysis = *m_document.analysis();
+    const PeakPyramid *now = provisional();
+    m_output->setPicture(now ? pictureOfFrame(*now, analysis.grid(), 0) : pictureOfFrame(*analysis.statistic, analysis.grid(), m_shownPing),
+                         analysis.grid().axes[1]);
+    showHeading();
 }
 
 void PingBench::showMarks()
@@ -397,6 +435,13 @@ void PingBench::read(double range, double bearing)
                       secondsText(analysis.time().value(static_cast<double>(m_shownPing)), 1.0), axisText(ranges, r), axisText(bearings, b),
                       tr("y %1 dB").arg(value(*m_input->plane(), r, b)),
                       tr("D %1 %2").arg(value(*m_output->plane(), r, b), m_output->plane()->valueUnit())};
+    if (const auto best = m_layers.readingAt(PingViewports::Place{analysis.time().value(static_cast<double>(m_shownPing)), r, b})) {
+        const auto rate = [&](const Axis &axis, double perSecond) {
+            return numberText(perSecond, decimalsFor(axis.step / analysis.time().step)) + unitText(axis) + QStringLiteral("/s");
+        };
+        words << tr("best state %1, %2").arg(rate(ranges, best->ratePerSecond), rate(bearings, best->secondRatePerSecond))
+              << tr("path age %1").arg(std::lround(best->ageSeconds / analysis.time().step));
+    }
     if (const PingMarks::Box *box = m_marks.boxAt({r, b}))
         words << (box->pings == 1 ? tr("inhibited: track %1, from now on").arg(box->track)
                                   : tr("inhibited: track %1, %2 pings").arg(box->track).arg(box->pings));
@@ -405,6 +450,8 @@ void PingBench::read(double range, double bearing)
 
 void PingBench::readCursor()
 {
+    if (!m_document.hasPings())
+        return;
     read(m_viewports.place().range, m_viewports.place().bearing);
 }
 

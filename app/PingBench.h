@@ -14,6 +14,7 @@ class QSplitter;
 
 namespace faintline {
 
+class OutputLayers;
 class PingMap;
 class StripPlot;
 
@@ -26,7 +27,8 @@ class PingBench : public Bench
     Q_OBJECT
 
 public:
-    explicit PingBench(Document &document, QWidget *parent = nullptr);
+    /// `layers`: the window's, shown over the output's map as well.
+    PingBench(Document &document, OutputLayers &layers, QWidget *parent = nullptr);
 
     PingMap *input() const { return m_input; }
     PingMap *output() const { return m_output; }
@@ -57,15 +59,19 @@ public slots:
 protected:
     /// Gives up what would leave the maps no room.
     void resizeEvent(QResizeEvent *event) override;
+    std::vector<QSplitter *> splitters() const override { return {m_maps, m_histories, m_rows}; }
 
 private:
     QWidget *buildBar();
     void linkViews();
     std::vector<WaterfallView *> views() const;
     void showAnalysis();
+    void showHeading();
     void showRegulation();
     void showThreshold();
     void showEvents();
+    const PeakPyramid *provisional() const;
+    void showStatistic();
     void followExtents();
     void placeCursor();
     void followPlace();
@@ -76,6 +82,7 @@ private:
     void play();
 
     Document &m_document;
+    OutputLayers &m_layers;
     PingViewports m_viewports;
     PingMap *m_input;
     PingMap *m_output;

@@ -30,7 +30,8 @@ Provenance::Provenance(const Document &document, QObject *parent) : QObject(pare
 
 void Provenance::with(std::function<void(const std::string &json)> use)
 {
-    m_requests.push_back({m_document.source(), m_document.settings(), m_document.annotations(), std::move(use)});
+    const auto &analysis = m_document.analysis(); // what is seen is the analysis's, which may lag behind
+    m_requests.push_back({m_document.source(), analysis ? analysis->settings : m_document.settings(), m_document.annotations(), std::move(use)});
     if (!m_runner.isRunning())
         answer();
 }
@@ -54,6 +55,14 @@ void Provenance::answer()
         m_requests.erase(m_requests.begin());
         request.use(provenanceOf(request.source, request.settings, request.annotations, m_hash));
     }
+}
+
+QString pictureProvenance(const std::string &json)
+{
+    QString text = QString::fromStdString(parseJson(json, "provenance").dump());
+    while (text.contains(QLatin1String("  "))) // within a name, then
+        text.replace(QLatin1String("  "), QLatin1String(" \\u0020"));
+    return text;
 }
 
 void writeProvenanceBeside(const QString &path, const std::string &json)

@@ -44,6 +44,15 @@ private:
     JobRunner m_runner; ///< last, so that its job ends first
 };
 
+/// The name of the text in a PNG that is its provenance.
+inline QString pictureProvenanceKey()
+{
+    return QStringLiteral("provenance");
+}
+
+/// The same JSON on one line and without two spaces in a row, which do not survive there.
+QString pictureProvenance(const std::string &json);
+
 /// Writes it beside an exported file: PATH.provenance.json.
 void writeProvenanceBeside(const QString &path, const std::string &json);
 

@@ -103,26 +103,6 @@ namespace {
         return {json.at(0).get<double>(), json.at(1).get<double>()};
     }
 
-    Json toJson(const ViewState &view)
-    {
-        Json json = Json::object();
-        if (view.visible) {
-            json["seconds"] = toJson(view.visible->time);
-            json["hz"] = toJson(view.visible->frequency);
-        }
-        if (view.cursor)
-            json["cursor"] = {view.cursor->seconds, view.cursor->hz};
-        if (view.bearing)
-            json["bearing"] = toJson(*view.bearing);
-        if (view.cursorBearing)
-            json["cursorBearing"] = *view.cursorBearing;
-        if (view.isPolar)
-            json["polar"] = true;
-        json["orientation"] = view.orientation.toStdString();
-        json["colourMap"] = view.colourMap.toStdString();
-        return json;
-    }
-
     ViewState viewFromJson(const Json &json)
     {
         checkKeys(json, "view", {"seconds", "hz", "cursor", "orientation", "colourMap", "bearing", "cursorBearing", "polar"});
@@ -167,6 +147,26 @@ namespace {
     }
 
 } // namespace
+
+Json toJson(const ViewState &view)
+{
+    Json json = Json::object();
+    if (view.visible) {
+        json["seconds"] = toJson(view.visible->time);
+        json["hz"] = toJson(view.visible->frequency);
+    }
+    if (view.cursor)
+        json["cursor"] = {view.cursor->seconds, view.cursor->hz};
+    if (view.bearing)
+        json["bearing"] = toJson(*view.bearing);
+    if (view.cursorBearing)
+        json["cursorBearing"] = *view.cursorBearing;
+    if (view.isPolar)
+        json["polar"] = true;
+    json["orientation"] = view.orientation.toStdString();
+    json["colourMap"] = view.colourMap.toStdString();
+    return json;
+}
 
 bool isSessionPath(const QString &path)
 {

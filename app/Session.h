@@ -24,6 +24,8 @@ struct ViewState {
     bool isPolar = false;
 };
 
+Json toJson(const ViewState &view);
+
 /// A session file: the recipe, never the results. The recording is named relative to the session and known by its
 /// hash; a scenario is written out.
 struct Session {

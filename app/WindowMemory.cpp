@@ -14,6 +14,7 @@ namespace {
     const QString geometryKey = QStringLiteral("window/geometry");
     const QString panelsKey = QStringLiteral("window/panels");
     const QString splittersKey = QStringLiteral("window/splitters");
+    const QString pingSplittersKey = QStringLiteral("window/pingSplitters");
 
 } // namespace
 
@@ -44,7 +45,7 @@ WindowMemory::Layout WindowMemory::layout() const
     if (!m_store)
         return {};
     return {m_store->value(geometryKey).toByteArray(), m_store->value(panelsKey).toByteArray(),
-            m_store->value(splittersKey).toByteArray(), m_store->value(colourMapKey).toString(),
+            m_store->value(splittersKey).toByteArray(), m_store->value(pingSplittersKey).toByteArray(), m_store->value(colourMapKey).toString(),
             m_store->value(orientationKey).toString()};
 }
 
@@ -55,6 +56,7 @@ void WindowMemory::setLayout(const Layout &layout)
     m_store->setValue(geometryKey, layout.geometry);
     m_store->setValue(panelsKey, layout.panels);
     m_store->setValue(splittersKey, layout.splitters);
+    m_store->setValue(pingSplittersKey, layout.pingSplitters);
     m_store->setValue(colourMapKey, layout.colourMap);
     m_store->setValue(orientationKey, layout.orientation);
 }

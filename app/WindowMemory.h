@@ -17,7 +17,8 @@ public:
     struct Layout {
         QByteArray geometry;
         QByteArray panels;
-        QByteArray splitters;
+        QByteArray splitters;     ///< of the workbench
+        QByteArray pingSplitters; ///< of the bench of pings
         QString colourMap;
         QString orientation;
     };

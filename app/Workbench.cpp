@@ -393,22 +393,4 @@ void Workbench::restore(const ViewState &view)
         m_output->setColourMap(view.colourMap);
 }
 
-QByteArray Workbench::saveSplitters() const
-{
-    QByteArray state;
-    QDataStream stream(&state, QIODevice::WriteOnly);
-    stream << m_pictures->saveState() << m_rows->saveState();
-    return state;
-}
-
-void Workbench::restoreSplitters(const QByteArray &state)
-{
-    QByteArray pictures;
-    QByteArray rows;
-    QDataStream stream(state);
-    stream >> pictures >> rows;
-    m_pictures->restoreState(pictures);
-    m_rows->restoreState(rows);
-}
-
 } // namespace faintline

@@ -38,15 +38,14 @@ public:
     void cycleColourMap() override { m_output->cycleColourMap(); }
     void setAutomaticRange() override;
 
-    QByteArray saveSplitters() const;
-    void restoreSplitters(const QByteArray &state);
-
 public slots:
     void selectEvent(int id) override;
     void stepFrames(int frames) override;
     void setPlaying(bool isPlaying) override;
 
 protected:
+    std::vector<QSplitter *> splitters() const override { return {m_pictures, m_rows}; }
+
     /// The curves give way where there is little height: the pictures come first.
     void resizeEvent(QResizeEvent *event) override;
 

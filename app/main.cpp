@@ -9,6 +9,7 @@
 
 #include <QApplication>
 #include <QFile>
+#include <QImageReader>
 #include <QTemporaryFile>
 
 #include <algorithm>
@@ -72,7 +73,7 @@ namespace {
         command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
         command->add_option("--range", options.range, "Where the cursor goes in pings, in the range axis's unit");
         command->add_option("--bearing", options.bearing, "Where the cursor goes in pings, degrees");
-        command->add_option("--layer", options.layer, "Of the output: statistic, rate, age, reset or inhibited")->capture_default_str();
+        command->add_option("--layer", options.layer, "Of the output: statistic, rate, bearing-rate (of pings), age, reset or inhibited")->capture_default_str();
         command->add_flag("--overlay", options.isLayerOver, "The layer over the statistic instead of in its place");
         command->add_option("--theme", options.theme, "light, dark or contrast")
             ->check(CLI::IsMember({"light", "dark", "contrast"}))
@@ -96,6 +97,14 @@ namespace {
         command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
         addOpening(*command, options.opening);
+        return command;
+    }
+
+    CLI::App *addReplay(CLI::App &program, ReplayOptions &options)
+    {
+        CLI::App *command = program.add_subcommand("replay", "Make a picture again from what it tells of itself, and compare the pixels");
+        command->add_option("PICTURE", options.picture, "A PNG that render wrote (faintline-cli replay does tables)")->required();
+        command->add_option("--recording", options.recording, "The recording, if it is not beside the picture");
         return command;
     }
 
@@ -138,11 +147,13 @@ namespace {
             std::fprintf(stderr, "error: Qt: %s\n", qPrintable(message));
     }
 
-    int runRender(int argc, char *argv[], const RenderOptions &options, void (*draw)(const RenderOptions &) = render)
+    /// Draws in a window nobody sees, of at most that size.
+    template <class Options>
+    int runRender(int argc, char *argv[], const Options &options, QSize size, double scale, void (*draw)(const Options &))
     {
         qInstallMessageHandler(keepQuiet);
         Theme::prepareEnvironment();
-        const auto screen = useScreenOf(options.size, options.scale);
+        const auto screen = useScreenOf(size, scale);
         QApplication application(argc, argv);
         draw(options);
         return 0;
@@ -183,6 +194,8 @@ namespace {
         const CLI::App *reportCommand = addReport(program, reporting);
         CheckOptions checking;
         const CLI::App *checkCommand = addCheckPictures(program, checking);
+        ReplayOptions replaying;
+        const CLI::App *replayCommand = addReplay(program, replaying);
         try {
             program.parse(argc, argv);
         } catch (const CLI::ParseError &error) {
@@ -195,11 +208,14 @@ namespace {
             return 0;
         }
         if (reportCommand->parsed())
-            return runRender(argc, argv, reporting, report);
+            return runRender(argc, argv, reporting, reporting.size, 1.0, report);
+        if (replayCommand->parsed())
+            return runRender(argc, argv, replaying, QImageReader(QString::fromStdString(replaying.picture)).size(), scaleOf(replaying.picture),
+                             replayPicture);
         if (!renderCommand->parsed())
             return runWindow(argc, argv, files, opening);
         rendering.size = parseSize(size);
-        return runRender(argc, argv, rendering);
+        return runRender(argc, argv, rendering, rendering.size, rendering.scale, render);
     }
 
 } // namespace

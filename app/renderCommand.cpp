@@ -9,8 +9,10 @@
 #include "app/NoiseFitPanel.h"
 #include "app/OutputLayers.h"
 #include "app/PingBench.h"
+#include "app/Provenance.h"
 #include "app/ReportWriter.h"
 #include "app/SequentialPanel.h"
+#include "app/SequentialTests.h"
 #include "app/StateSlicePanel.h"
 #include "app/SweepForm.h"
 #include "app/SweepPanel.h"
@@ -18,15 +20,21 @@
 #include "app/Workbench.h"
 #include "app/scanScenario.h"
 #include "base/AtomicFile.h"
+#include "base/json.h"
+#include "recording/openRecording.h"
 #include "widgets/PingMap.h"
 
 #include <QApplication>
 #include <QBuffer>
 #include <QEventLoop>
+#include <QDir>
 #include <QFileInfo>
+#include <QImageReader>
 #include <QPixmap>
+#include <QTemporaryDir>
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <memory>
 
@@ -225,14 +233,15 @@ namespace {
     {
         const auto found = std::find(outputLayerNames.begin(), outputLayerNames.end(), options.layer);
         if (found == outputLayerNames.end())
-            throw Error("--layer " + options.layer, "is not known; there are statistic, rate, age, reset, inhibited");
-        if (found != outputLayerNames.begin() && window.document().hasPings())
-            throw Error("--layer " + options.layer, "is of lines over frequency; these are pings");
+            throw Error("--layer " + options.layer, "is not known; there are statistic, rate, bearing-rate, age, reset, inhibited");
         OutputLayers &layers = window.workbench().layers();
+        const auto layer = static_cast<OutputLayer>(found - outputLayerNames.begin());
+        if (!layers.isOffered(layer))
+            throw Error("--layer " + options.layer, "is of pings on range and bearing; these are lines over frequency");
         std::optional<Error> failure;
         QObject::connect(&layers, &OutputLayers::failed, &window, [&](const Error &error) { failure = error; });
         layers.setOverlay(options.isLayerOver);
-        layers.setLayer(static_cast<OutputLayer>(found - outputLayerNames.begin()));
+        layers.setLayer(layer);
         settleLayers(window);
         if (failure)
             throw *failure;
@@ -335,8 +344,71 @@ namespace {
             .toStdString();
     }
 
-    void write(const QImage &image, const std::string &path)
+    /// What a picture was asked for, beside what it was made from.
+    Json toJson(const RenderOptions &options, const std::string &view)
     {
+        Json json = {{"view", view}, {"size", {options.size.width(), options.size.height()}}, {"theme", options.theme}};
+        const auto tell = [&json](const char *name, const auto &value) {
+            if (value)
+                json[name] = *value;
+        };
+        if (options.views.size() > 1) // one after the other in the same window, where automatic ranges may remember
+            json["views"] = options.views;
+        tell("time", options.seconds);
+        tell("frequency", options.hz);
+        tell("range", options.range);
+        tell("bearing", options.bearing);
+        tell("step", options.step);
+        if (options.scale != 1.0)
+            json["scale"] = options.scale;
+        if (options.layer != "statistic")
+            json["layer"] = options.layer;
+        if (options.isLayerOver)
+            json["overlay"] = true;
+        if (!options.presetA.empty()) {
+            json["presetA"] = options.presetA;
+            json["set"] = options.settings; // A's as well, on top of its own preset
+        }
+        if (!options.settingsA.empty())
+            json["setA"] = options.settingsA;
+        return json;
+    }
+
+    RenderOptions optionsFromJson(const Json &json)
+    {
+        RenderOptions options;
+        options.views = json.value("views", std::vector{json.at("view").get<std::string>()});
+        options.size = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
+        options.theme = json.at("theme").get<std::string>();
+        options.scale = json.value("scale", 1.0);
+        const auto take = [&json](const char *name, std::optional<double> &value) {
+            if (json.contains(name))
+                value = json[name].get<double>();
+        };
+        take("time", options.seconds);
+        take("frequency", options.hz);
+        take("range", options.range);
+        take("bearing", options.bearing);
+        options.layer = json.value("layer", options.layer);
+        options.isLayerOver = json.value("overlay", false);
+        options.presetA = json.value("presetA", std::string());
+        options.settings = json.value("set", std::vector<std::string>());
+        options.settingsA = json.value("setA", std::vector<std::string>());
+        return options;
+    }
+
+    /// Of what the window shows; a radar's scans are known by their test.
+    Json provenanceOf(MainWindow &window)
+    {
+        const Document &document = window.document();
+        if (document.isEmpty())
+            return {{"version", FAINTLINE_VERSION}, {"sequential", writeFields(window.sequentialTests().test(), ScanTest::fields())}};
+        return parseJson(faintline::provenanceOf(document.source(), document.settings(), document.annotations()), "provenance");
+    }
+
+    void write(QImage image, const std::string &path, const Json &provenance)
+    {
+        image.setText(pictureProvenanceKey(), pictureProvenance(provenance.dump()));
         QByteArray bytes;
         QBuffer buffer(&bytes);
         buffer.open(QIODevice::WriteOnly);
@@ -400,13 +472,67 @@ void render(const RenderOptions &options)
         prepare(window, options.views);
         showLayer(window, options);
     }
+    Json provenance = provenanceOf(window);
     const bool wasPolar = window.pingBench().output()->isPolar();
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         QWidget &widget = *window.view(QString::fromStdString(view));
         pictureOf(widget, options.size); // at that size a layer may have more pixels to fill
         settleLayers(window);
-        write(pictureOf(widget, options.size), fileName(options, view));
+        provenance["render"] = toJson(options, view);
+        write(pictureOf(widget, options.size), fileName(options, view), provenance);
+    }
+}
+
+double scaleOf(const std::string &picture)
+{
+    const Json provenance = Json::parse(QImageReader(QString::fromStdString(picture)).text(pictureProvenanceKey()).toStdString(), nullptr, false);
+    const double scale = provenance.value(Json::json_pointer("/render/scale"), 1.0);
+    return scale >= 1.0 && scale <= 4.0 ? scale : 1.0;
+}
+
+void replayPicture(const ReplayOptions &options)
+{
+    const QString path = QString::fromStdString(options.picture);
+    QImageReader reader(path);
+    const QImage kept = reader.read();
+    if (kept.isNull())
+        throw Error(options.picture, "is no picture that can be read: " + reader.errorString().toStdString());
+    const QString text = kept.text(pictureProvenanceKey());
+    if (text.isEmpty())
+        throw Error(options.picture, "tells nothing of what it was made from");
+    const Json provenance = parseJson(text.toStdString(), options.picture);
+    try {
+        if (!provenance.contains("recording") || !provenance.contains("render") || provenance["render"].contains("step"))
+            throw Error(options.picture, "is of a radar's scans, of a lesson, or of an older version: what it tells does not suffice to make it again");
+        const QTemporaryDir folder;
+        Json session = provenance;
+        Json &source = session["recording"];
+        if (source.contains("path")) {
+            const QFileInfo beside(QFileInfo(path).absoluteDir().filePath(QString::fromStdString(source["path"].get<std::string>())));
+            const QString recording = options.recording.empty() ? beside.absoluteFilePath()
+                                                                : QFileInfo(QString::fromStdString(options.recording)).absoluteFilePath();
+            if (!QFileInfo::exists(recording))
+                throw Error(recording.toStdString(), "is what " + options.picture + " was made from, and is not there; --recording says where it is");
+            if (recordingHash(recording.toStdString()) != source["sha256"].get<std::string>())
+                throw Error(recording.toStdString(), "is not what " + options.picture + " was made from");
+            source["path"] = recording.toStdString();
+        }
+        session.erase("render");
+        session.erase("version");
+        RenderOptions again = optionsFromJson(provenance["render"]);
+        again.source = folder.filePath(QStringLiteral("picture.faintline")).toStdString();
+        again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
+        writeTextFile(again.source, session.dump(2) + "\n");
+        render(again);
+        const std::string remade = fileName(again, provenance["render"].at("view").get<std::string>());
+        const bool isSame = QImage(QString::fromStdString(remade)).convertToFormat(QImage::Format_RGB32)
+                            == kept.convertToFormat(QImage::Format_RGB32);
+        std::printf("%s: %s\n", qPrintable(QFileInfo(path).fileName()), isSame ? "the same pixels" : "differs");
+        if (!isSame)
+            throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+    } catch (const Json::exception &error) {
+        throw Error(options.picture, std::string("tells of its making in a broken way: ") + error.what());
     }
 }
 

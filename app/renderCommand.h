@@ -39,6 +39,18 @@ struct RenderOptions {
 /// run to run. Needs a QApplication. Throws Error.
 void render(const RenderOptions &options);
 
+/// A picture to be made again from what it tells of itself.
+struct ReplayOptions {
+    std::string picture;   ///< PNG that `render` wrote, or the window with what suffices for it
+    std::string recording; ///< where the recording is; empty: beside the picture
+};
+
+/// Device pixels per pixel that a picture says it was made with, else 1: Qt wants to know before its application begins.
+double scaleOf(const std::string &picture);
+
+/// Compares the pixels; prints whether they are the same. Throws Error where they are not, or where it cannot be made again.
+void replayPicture(const ReplayOptions &options);
+
 /// The same for a report as one HTML page: the same bytes from run to run.
 void report(const RenderOptions &options);
 

@@ -17,14 +17,14 @@ namespace faintline {
 
 namespace {
 
-    QByteArray png(QWidget &view, const QString &provenance)
+    QByteArray png(QWidget &view, const std::string &provenance)
     {
         QByteArray bytes;
         QBuffer buffer(&bytes);
         buffer.open(QIODevice::WriteOnly);
         QImage image = view.grab().toImage();
-        if (!provenance.isEmpty())
-            image.setText(QStringLiteral("provenance"), provenance);
+        if (!provenance.empty())
+            image.setText(pictureProvenanceKey(), pictureProvenance(provenance));
         image.save(&buffer, "PNG");
         return bytes;
     }
@@ -37,8 +37,8 @@ namespace {
         generator.setOutputDevice(&buffer);
         generator.setSize(view.size());
         generator.setViewBox(view.rect());
-        generator.setTitle(view.accessibleName());
-        generator.setDescription(provenance);
+        generator.setTitle(view.accessibleName().toHtmlEscaped()); // the generator leaves that to us
+        generator.setDescription(provenance.toHtmlEscaped());
         generator.setResolution(96); // a pixel stays a pixel
         QPainter painter(&generator);
         view.render(&painter);
@@ -73,7 +73,7 @@ void saveView(QWidget &view, const std::string &csv, const QString &path, const 
     const QString extension = QFileInfo(path).suffix().toLower();
     QByteArray bytes;
     if (extension == QLatin1String("png"))
-        bytes = png(view, origin);
+        bytes = png(view, provenance);
     else if (extension == QLatin1String("svg"))
         bytes = svg(view, origin);
     else if (extension == QLatin1String("pdf"))

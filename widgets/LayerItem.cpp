@@ -16,9 +16,14 @@ namespace faintline {
 
 namespace {
 
+    bool isRate(OutputLayer layer)
+    {
+        return layer == OutputLayer::Rate || layer == OutputLayer::SecondRate;
+    }
+
     const ColourMap &mapOf(OutputLayer layer)
     {
-        return ColourMap::named(layer == OutputLayer::Rate ? QStringLiteral("blue-red") : QStringLiteral("viridis"));
+        return ColourMap::named(isRate(layer) ? QStringLiteral("blue-red") : QStringLiteral("viridis"));
     }
 
     constexpr QRgb noSlope = qRgb(110, 110, 110);
@@ -31,11 +36,11 @@ LayerItem::LayerItem()
     setZ(2.0); // above the raster, below the grid and the marks
 }
 
-void LayerItem::setPicture(std::shared_ptr<const LayerPicture> picture, const Axis &time, const Axis &frequency)
+void LayerItem::setPicture(std::shared_ptr<const LayerPicture> picture, const Axis &rows, const Axis &columns)
 {
     m_picture = std::move(picture);
-    m_time = time;
-    m_frequency = frequency;
+    m_rows = rows;
+    m_columns = columns;
     m_image = {};
 }
 
@@ -69,7 +74,7 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
     };
     if (m_layer == OutputLayer::Inhibited)
         return value > 0.0 ? clear(inhibitedColour, m_isOverlay ? 0.55 : 1.0) : clear(qRgb(0, 0, 0), m_isOverlay ? 0.0 : 1.0);
-    if (m_layer == OutputLayer::Rate && m_picture->resetFraction[pixel] >= 1.0f) // all states begin anew here: none has won
+    if (isRate(m_layer) && m_picture->resetFraction[pixel] >= 1.0f) // all states begin anew here: none has won
         return clear(noSlope, m_isOverlay ? 0.0 : 1.0);
     const QRgb colour = mapOf(m_layer).at((value - m_range.low) / m_range.width());
     if (!m_isOverlay)
@@ -95,15 +100,15 @@ const QImage &LayerItem::image() const
 
 void LayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const
 {
-    if (!m_picture || m_layer == OutputLayer::Statistic || m_picture->rows == 0 || m_picture->columns == 0)
+    if (!isShown())
         return;
     const auto edge = [](const Axis &axis, Index cell) { return axis.value(static_cast<double>(cell) - 0.5); };
     const QwtScaleMap &timeMap = m_isTimeVertical ? yMap : xMap;
     const QwtScaleMap &hzMap = m_isTimeVertical ? xMap : yMap;
-    const double time0 = timeMap.transform(edge(m_time, m_picture->firstRow * m_picture->framesPerRow));
-    const double time1 = timeMap.transform(edge(m_time, (m_picture->firstRow + 1) * m_picture->framesPerRow));
-    const double hz0 = hzMap.transform(edge(m_frequency, m_picture->firstColumn * m_picture->cellsPerColumn));
-    const double hz1 = hzMap.transform(edge(m_frequency, (m_picture->firstColumn + 1) * m_picture->cellsPerColumn));
+    const double time0 = timeMap.transform(edge(m_rows, m_picture->firstRow * m_picture->perRow));
+    const double time1 = timeMap.transform(edge(m_rows, (m_picture->firstRow + 1) * m_picture->perRow));
+    const double hz0 = hzMap.transform(edge(m_columns, m_picture->firstColumn * m_picture->perColumn));
+    const double hz1 = hzMap.transform(edge(m_columns, (m_picture->firstColumn + 1) * m_picture->perColumn));
     const QTransform place = m_isTimeVertical ? QTransform(hz1 - hz0, 0.0, 0.0, time1 - time0, hz0, time0)
                                               : QTransform(0.0, hz1 - hz0, time1 - time0, 0.0, time0, hz0);
     painter->save();

@@ -14,7 +14,7 @@ class QPainter;
 
 namespace faintline {
 
-/// Draws a layer of the detector's output on a waterfall, instead of the statistic or over it, and its key in a corner.
+/// Draws a layer of the detector's output on a waterfall or on the map of a ping, instead of the statistic or over it, and its key in a corner.
 ///
 /// Rates have a diverging map about 0, grey where every state was reset and none has won; ages and reset fractions one that grows,
 /// inhibited cells a colour of their own. Over the statistic a layer is as opaque as the statistic stands out of the noise, so that what
@@ -24,9 +24,13 @@ class LayerItem : public QwtPlotItem
 public:
     LayerItem();
 
-    /// `time` and `frequency`: the analysis's own. Null: nothing is drawn.
-    void setPicture(std::shared_ptr<const LayerPicture> picture, const Axis &time, const Axis &frequency);
+    /// `rows` and `columns`: the analysis's own axes, time and frequency or a ping's range and bearing. Null: nothing is drawn.
+    void setPicture(std::shared_ptr<const LayerPicture> picture, const Axis &rows, const Axis &columns);
     const std::shared_ptr<const LayerPicture> &picture() const { return m_picture; }
+    bool isShown() const { return m_picture && m_layer != OutputLayer::Statistic && m_picture->rows > 0 && m_picture->columns > 0; }
+    const Axis &rows() const { return m_rows; }
+    const Axis &columns() const { return m_columns; }
+    const QImage &image() const; ///< columns × rows of the picture, premultiplied
 
     /// `range`: values at the ends of the colours; `title`: what they are, with the unit; `divisor`: of that unit.
     void setLayer(OutputLayer layer, const Span &range, const QString &title, double divisor);
@@ -49,12 +53,11 @@ public:
 private:
     class Key;
     QRgb colourOf(std::size_t pixel) const;
-    const QImage &image() const;
     void drawKey(QPainter *painter, const QRectF &canvas) const;
 
     std::shared_ptr<const LayerPicture> m_picture;
-    Axis m_time;
-    Axis m_frequency;
+    Axis m_rows;
+    Axis m_columns;
     OutputLayer m_layer = OutputLayer::Statistic;
     Span m_range{0.0, 1.0};
     QString m_title;

@@ -8,12 +8,13 @@
 
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QLineF>
 #include <QStackedWidget>
 
 namespace faintline {
 
 PingMap::PingMap(const QString &heading, Viewport &viewport, QWidget *parent)
-    : QWidget(parent), m_viewport(viewport), m_pages(new QStackedWidget), m_plane(new WaterfallView(heading)),
+    : QWidget(parent), m_viewport(viewport), m_pages(new QStackedWidget), m_bar(new ColourBar), m_plane(new WaterfallView(heading)),
       m_overlay(new PingOverlayItem([this](const PingMarks::Place &place, const QwtScaleMap &x, const QwtScaleMap &y) {
           return m_plane->orientation() == WaterfallView::Orientation::LeftToRight
               ? QPointF(x.transform(place.range), y.transform(place.bearing))
@@ -25,13 +26,15 @@ PingMap::PingMap(const QString &heading, Viewport &viewport, QWidget *parent)
     m_polar = new PolarView(*m_plane);
     m_pages->addWidget(m_plane);
     m_pages->addWidget(m_polar);
-    auto *bar = new ColourBar;
-    bar->attach(m_plane);
+    m_bar->attach(m_plane);
+    QSizePolicy policy = m_bar->sizePolicy();
+    policy.setRetainSizeWhenHidden(true); // maps side by side stay as large as each other
+    m_bar->setSizePolicy(policy);
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(m_pages, 1);
-    layout->addWidget(bar);
+    layout->addWidget(m_bar);
     connect(m_plane, &WaterfallView::layersChanged, this, &PingMap::follow);
     connect(&viewport, &Viewport::cursorChanged, this, &PingMap::follow);
     connect(m_plane, &WaterfallView::hovered, this, [this](double range, double bearing) { emit hovered(range, bearing); });
@@ -76,6 +79,30 @@ void PingMap::setSelectedTrack(int id)
     follow();
 }
 
+void PingMap::setFaintTracks(const std::vector<int> &ids)
+{
+    for (int i = 0; i < 2; ++i)
+        overlays(i)->faintTracks = ids;
+    follow();
+}
+
+int PingMap::trackAt(const PingMarks::Place &place) const
+{
+    constexpr double reach = 14.0; // pixels
+    const auto on = [this](const PingMarks::Place &where) {
+        return isPolar() ? m_polar->positionOf(where) : m_plane->positionOf({where.range, where.bearing});
+    };
+    int nearest = 0;
+    double least = reach;
+    for (const PingMarks::Trail &trail : m_overlay->marks.tracks)
+        for (const PingMarks::Place &where : trail.places)
+            if (const double distance = QLineF(on(where), on(place)).length(); distance <= least) {
+                least = distance;
+                nearest = trail.id;
+            }
+    return nearest;
+}
+
 void PingMap::setInhibitionShown(bool isShown)
 {
     for (int i = 0; i < 2; ++i)
@@ -88,6 +115,11 @@ void PingMap::setConventionalShown(bool isShown)
     for (int i = 0; i < 2; ++i)
         overlays(i)->hasConventional = isShown;
     follow();
+}
+
+void PingMap::setColourBarShown(bool isShown)
+{
+    m_bar->setVisible(isShown);
 }
 
 void PingMap::setPolar(bool polar)

@@ -9,6 +9,7 @@ class QStackedWidget;
 
 namespace faintline {
 
+class ColourBar;
 class PingOverlayItem;
 class PolarView;
 
@@ -31,6 +32,13 @@ public:
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &bearing);
     void setMarks(const PingMarks &marks);
     void setSelectedTrack(int id);
+    void setFaintTracks(const std::vector<int> &ids); ///< rejected ones
+
+    /// The track whose mark or tail lies under a place, as near as one can point; 0 where there is none.
+    int trackAt(const PingMarks::Place &place) const;
+
+    /// Whether the colours of the picture are keyed beside it.
+    void setColourBarShown(bool isShown);
 
 public slots:
     void setPolar(bool isPolar);
@@ -52,6 +60,7 @@ private:
 
     Viewport &m_viewport;
     QStackedWidget *m_pages;
+    ColourBar *m_bar;
     WaterfallView *m_plane;
     PolarView *m_polar;
     PingOverlayItem *m_overlay; ///< of the plane

@@ -13,6 +13,7 @@ namespace faintline {
 namespace {
 
     const QColor seam(0, 0, 0, 150);
+    constexpr double faintOpacity = 0.3;
 
     void stroke(QPainter &painter, const QPolygonF &line, const QPen &pen)
     {
@@ -71,12 +72,20 @@ void PingOverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const Qwt
         for (const PingMarks::Trail &trail : marks.conventional)
             drawTrail(canvas, trail, colours.curves[1], Head::Diamond);
     if (hasTracks)
-        for (const PingMarks::Trail &trail : marks.tracks)
+        for (const PingMarks::Trail &trail : marks.tracks) {
+            painter->setOpacity(isFaint(trail.id) ? faintOpacity : 1.0);
             drawTrail(canvas, trail, trail.id == selectedTrack ? colours.selectedEvent : colours.track, Head::Square);
+        }
+    painter->setOpacity(1.0);
     if (hasEvents)
         drawDetections(canvas);
     drawCursor(canvas);
     painter->restore();
+}
+
+bool PingOverlayItem::isFaint(int track) const
+{
+    return track != selectedTrack && std::find(faintTracks.begin(), faintTracks.end(), track) != faintTracks.end();
 }
 
 void PingOverlayItem::drawBoxes(const Canvas &canvas) const
@@ -135,11 +144,13 @@ void PingOverlayItem::drawDetections(const Canvas &canvas) const
 {
     for (const PingMarks::Detection &detection : marks.detections) {
         const QPointF at = canvas.at(detection.place);
+        canvas.painter.setOpacity(isFaint(detection.id) ? faintOpacity : 1.0);
         for (const QPen &pen : {QPen(seam, 4.0), QPen(colours.event, 2.0)}) {
             canvas.painter.setPen(pen);
             canvas.painter.drawEllipse(at, 12.0, 12.0);
         }
     }
+    canvas.painter.setOpacity(1.0);
 }
 
 void PingOverlayItem::drawCursor(const Canvas &canvas) const

@@ -28,6 +28,7 @@ public:
     bool hasConventional = false;
     bool hasEvents = true;
     int selectedTrack = 0;
+    std::vector<int> faintTracks; ///< rejected ones: there, but not in the way
     std::optional<PingMarks::Place> cursor; ///< drawn as a small cross
 
     void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const override;
@@ -36,6 +37,7 @@ private:
     struct Canvas;
     enum class Head { Circle, Square, Diamond };
 
+    bool isFaint(int track) const;
     void drawBoxes(const Canvas &canvas) const;
     void drawTrail(const Canvas &canvas, const PingMarks::Trail &trail, const QColor &colour, Head head) const;
     void drawDetections(const Canvas &canvas) const;

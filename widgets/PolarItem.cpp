@@ -2,6 +2,7 @@
 
 #include "widgets/deviceRect.h"
 #include "widgets/rasterise.h"
+#include "widgets/visitPolar.h"
 
 #include <qwt_plot.h>
 #include <qwt_scale_map.h>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace faintline {
@@ -55,29 +55,14 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
     const double cellsPerPixel = perPixel / range.step;
     // Rings one pixel wide, from the first cell's near side on.
     const int rings = std::max(1, static_cast<int>(std::ceil(static_cast<double>(range.count) / cellsPerPixel)));
-    const double nearSide = range.value(-0.5);
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(rings) * static_cast<std::size_t>(m_bearing.count));
     rasterise(*m_picture, {0.0, cellsPerPixel, rings}, {0.0, 1.0, static_cast<int>(m_bearing.count)}, bytes);
 
     std::vector<int> values(static_cast<std::size_t>(size.width()) * static_cast<std::size_t>(size.height()), nothing);
-    const double turn = m_bearing.step * static_cast<double>(m_bearing.count);
-    for (int row = 0; row < size.height(); ++row) {
-        const double north = y.high - (row + 0.5) * y.width() / size.height();
-        for (int column = 0; column < size.width(); ++column) {
-            const double east = x.low + (column + 0.5) * perPixel;
-            const auto ring = static_cast<Index>(std::floor((std::hypot(east, north) - nearSide) / perPixel));
-            if (ring < 0 || ring >= rings)
-                continue;
-            double bearing = std::atan2(east, north) * 180.0 / std::numbers::pi;
-            const double low = m_bearing.value(-0.5);
-            bearing -= 360.0 * std::floor((bearing - low) / 360.0);
-            if (bearing - low >= turn)
-                continue;
-            const auto beam = std::min<Index>(static_cast<Index>((bearing - low) / m_bearing.step), m_bearing.count - 1);
-            values[static_cast<std::size_t>(row) * static_cast<std::size_t>(size.width()) + static_cast<std::size_t>(column)] =
-                bytes[static_cast<std::size_t>(ring * m_bearing.count + beam)];
-        }
-    }
+    visitPolar(x, y, size, range, m_bearing, [&](std::size_t pixel, double distance, Index beam) {
+        if (const auto ring = static_cast<Index>(distance / perPixel); ring < rings)
+            values[pixel] = bytes[static_cast<std::size_t>(ring * m_bearing.count + beam)];
+    });
 
     std::array<QRgb, 256> table;
     for (int byte = 0; byte < 256; ++byte)

@@ -242,6 +242,8 @@ void PolarView::contextMenuEvent(QContextMenuEvent *event)
 {
     QMenu menu(this);
     m_view.addActionsTo(&menu);
+    const PingMarks::Place place = placeAt(canvas()->mapFrom(this, event->pos()));
+    emit m_view.contextMenuRequested(&menu, place.range, place.bearing);
     menu.exec(event->globalPos());
 }
 

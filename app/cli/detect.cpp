@@ -3,6 +3,7 @@
 
 #include "analysis/analyse.h"
 #include "analysis/explain.h"
+#include "analysis/judgeByBoxes.h"
 #include "analysis/regulation.h"
 #include "base/json.h"
 #include "exchange/ModelFile.h"
@@ -10,7 +11,9 @@
 #include "base/AtomicFile.h"
 #include "detect/SumDetector.h"
 #include "evaluate/trackScore.h"
+#include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
+#include "exchange/writeReviewed.h"
 
 #include <CLI/CLI.hpp>
 
@@ -30,6 +33,7 @@ namespace {
         std::string grid;
         std::string model;
         std::string events;
+        std::string annotations;
         std::string tracks;
         std::string statistic;
         std::string conventional;
@@ -118,13 +122,25 @@ namespace {
         return analyse(frames, model, settings, context, sink);
     }
 
+    /// The events, each with what the annotations say of it.
+    void writeJudged(const Analysis &analysis, const std::vector<Annotation> &boxes, const DetectOptions &options)
+    {
+        const std::vector<Event> found = events(analysis);
+        const JudgedByBoxes judged = judgeByBoxes({}, analysis, found, boxes);
+        writeReviewed(analysis, found, {judged.reviews, {}}, options.events);
+        if (options.summary)
+            std::printf("%zu annotation(s), %d event(s) judged by them\n", boxes.size(), judged.judged);
+    }
+
     void detect(const DetectOptions &options, const Common &common)
     {
         if (options.events.empty() && options.tracks.empty() && options.statistic.empty()
             && options.conventional.empty() && !options.summary)
             throw Error("detect", "says nothing without at least one of --events, --tracks, --statistic, --summary, --conventional");
+        if (!options.annotations.empty() && options.events.empty())
+            throw Error("--annotations", "is told beside the events; it needs --events");
         if (!options.events.empty())
-            checkEventsPath(options.events);
+            options.annotations.empty() ? checkEventsPath(options.events) : checkReviewedPath(options.events);
         if (!options.tracks.empty())
             checkTracksPath(options.tracks);
         if (!options.conventional.empty())
@@ -150,6 +166,12 @@ namespace {
             recording = options.analysis.recording();
         }
         const AnalysisSettings settings = options.analysis.settings();
+        std::vector<Annotation> annotations;
+        if (!options.annotations.empty()) {
+            if (!recording && frames->grid().axes.size() != 1)
+                throw Error("--annotations", "is boxes over time and frequency; these frames have more than one axis");
+            annotations = readAnnotations(options.annotations, recording ? recording->info() : RecordingInfo());
+        }
         StatisticSink sink;
         if (!options.statistic.empty()) {
             if (recording) {
@@ -162,7 +184,9 @@ namespace {
         const auto analysis = frames ? detectInFrames(options, context, sink, frames)
                                      : analyse(recording, settings, context, nullptr, sink);
         context.checkpoint(1.0, "done");
-        if (!options.events.empty())
+        if (!options.annotations.empty())
+            writeJudged(*analysis, annotations, options);
+        else if (!options.events.empty())
             writeEvents(*analysis, options.events);
         if (!options.tracks.empty())
             writeTracks(*analysis, options.tracks);
@@ -170,7 +194,7 @@ namespace {
             writeEvents(conventionally(*analysis), options.conventional);
         if (writer)
             writer->finish();
-        writeProvenance(common, {options.analysis.file, options.frames, options.grid, options.model, options.analysis.session},
+        writeProvenance(common, {options.analysis.file, options.frames, options.grid, options.model, options.analysis.session, options.annotations},
                         {options.events, options.tracks, options.statistic, options.conventional});
         if (options.summary)
             printSummary(*analysis);
@@ -322,6 +346,8 @@ void addDetect(CLI::App &app, Common &common)
     command->add_option("--grid", options->grid, "JSON that names the frames' axes");
     command->add_option("--model", options->model, "JSON of a model for the frames");
     command->add_option("--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
+    command->add_option("--annotations", options->annotations,
+                        "Boxes with judgements (Raven, Audacity, SigMF, CSV, JSON): the events written gain review and note where they match");
     command->add_option("--tracks", options->tracks, "Write the tracks: .csv or .json");
     command->add_option("--conventional", options->conventional,
                         "Of pings: write the events of the conventional detector beside it (one ping's threshold, then "

@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/provenance.h"
+#include "app/cli/windowExport.h"
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
@@ -82,12 +83,45 @@ namespace {
         return std::equal(std::istreambuf_iterator<char>(first), {}, std::istreambuf_iterator<char>(second), {});
     }
 
-    void replay(const std::string &result, const Common &common)
+    /// Whether it is; says so.
+    bool compare(const fs::path &kept, const fs::path &remade)
+    {
+        const bool isSame = sameBytes(kept, remade);
+        std::printf("%s: %s\n", kept.filename().c_str(), isSame ? "the same bytes" : "differs");
+        return isSame;
+    }
+
+    void replayWindowExport(const Json &json, const fs::path &kept, const std::string &recording, const Common &common)
+    {
+        const std::string version = json.value("version", std::string());
+        if (version != FAINTLINE_VERSION)
+            std::printf("made with version %s, this is %s\n", version.c_str(), FAINTLINE_VERSION);
+        const TemporaryFolder folder;
+        const fs::path remade = folder.path() / kept.filename();
+        remakeWindowExport(json, kept.string(), recording, remade.string(), common.context());
+        if (!compare(kept, remade))
+            throw Error(kept.string(), "is not what its provenance makes", Error::Kind::Failure);
+    }
+
+    bool isPicture(const std::string &name)
+    {
+        return name.ends_with(".png") || name.ends_with(".svg") || name.ends_with(".pdf") || name.ends_with(".html");
+    }
+
+    void replay(const std::string &result, const std::string &recording, const Common &common)
     {
         const fs::path asked = fs::absolute(result);
         const fs::path path = fs::absolute(result.ends_with(suffix) ? result : result + suffix);
+        if (!fs::exists(path) && isPicture(result))
+            throw Error(result, "is a picture, which the window's program makes: 'faintline replay' takes a PNG that 'faintline render' wrote");
         if (!fs::exists(path))
             throw Error(result, "has no provenance: there is no " + path.filename().string() + " beside it");
+        if (const Json json = readJsonFile(path.string()); isOfWindow(json)) {
+            const std::string kept = path.string().substr(0, path.string().size() - suffix.size());
+            return replayWindowExport(json, kept, recording, common);
+        }
+        if (!recording.empty())
+            throw Error("--recording", "is for what the window exported; " + result + " was written by a command, which names its own");
         const Provenance provenance = readProvenance(path.string());
         if (provenance.version != FAINTLINE_VERSION)
             std::printf("made with version %s, this is %s\n", provenance.version.c_str(), FAINTLINE_VERSION);
@@ -96,6 +130,7 @@ namespace {
         std::vector<fs::path> kept;
         std::vector<fs::path> remade;
         std::vector<std::string> arguments = provenance.arguments;
+        std::erase(arguments, "--summary"); // what is said here is about the files
         for (const std::string &output : provenance.outputs) {
             kept.push_back(path.parent_path() / fs::path(output).filename());
             remade.push_back(folder.path() / (std::to_string(remade.size()) + "-" + fs::path(output).filename().string()));
@@ -123,9 +158,7 @@ namespace {
         for (std::size_t i = 0; i < kept.size(); ++i) {
             if (!fs::exists(kept[i]) && kept[i] != asked)
                 continue; // another file of the same run, kept elsewhere
-            const bool isSame = sameBytes(kept[i], remade[i]);
-            std::printf("%s: %s\n", kept[i].filename().c_str(), isSame ? "the same bytes" : "differs");
-            if (!isSame && different.empty())
+            if (!compare(kept[i], remade[i]) && different.empty())
                 different = kept[i].string();
         }
         if (!different.empty())
@@ -154,9 +187,13 @@ void writeProvenance(const Common &common, const std::vector<std::string> &input
 void addReplay(CLI::App &app, Common &common)
 {
     const auto result = std::make_shared<std::string>();
+    const auto recording = std::make_shared<std::string>();
     CLI::App *command = app.add_subcommand("replay", "Make a result again from its own provenance, and compare");
-    command->add_option("RESULT", *result, "A file written by detect, compare, simulate or inject, with its .provenance.json beside it")->required();
-    command->callback([result, &common] { replay(*result, common); });
+    command->add_option("RESULT", *result, "A file written by detect, compare, simulate or inject, or a table exported from the window, with its "
+                                          ".provenance.json beside it")
+        ->required();
+    command->add_option("--recording", *recording, "Of a table exported from the window: the recording, if it is not beside it");
+    command->callback([result, recording, &common] { replay(*result, *recording, common); });
 }
 
 } // namespace faintline::cli

@@ -64,6 +64,13 @@ StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Ind
     return result;
 }
 
+float shownScore(const Analysis &analysis, const DetectionChain &chain, std::size_t model, float score)
+{
+    const auto *smd = dynamic_cast<const Smd *>(&chain.detector().member(model));
+    const auto offset = static_cast<float>(smd ? smd->offset() : 0.0);
+    return score + offset - static_cast<float>(analysis.bank.empty() ? 0.0 : analysis.bank[model].offset);
+}
+
 std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model)
 {
     std::vector<Axis> axes = analysis.grid().axes;

@@ -43,6 +43,9 @@ private:
 /// The scores of all states after the chain's last frame, as the statistic shows them.
 StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Index frame, std::size_t model = 0);
 
+/// A score of a model of the chain as the statistic of its newest frame shows it, to the bit.
+float shownScore(const Analysis &analysis, const DetectionChain &chain, std::size_t model, float score);
+
 /// The axes of a state: the grid's axes, then the rate along each of them in its unit a second.
 std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model = 0);
 

@@ -40,6 +40,37 @@ namespace {
         return (smd ? smd->offset() : 0.0) - (analysis.bank.empty() ? 0.0 : analysis.bank[model].offset);
     }
 
+    /// The best path into a cell in the newest frame, by the tracker that follows the cell or by the detector.
+    struct PathInto {
+        std::vector<PathStep> steps; ///< under a tracker: from the frame it was seeded in
+        bool isTracked = false;
+        std::size_t model = 0;
+    };
+
+    PathInto pathInto(const Analysis &analysis, const DetectionChain &chain, Index cell)
+    {
+        const std::size_t model = chain.detector().winnerAt(cell);
+        const StateSpace &space = modelOf(analysis, model).space;
+        const std::span<const float> scores = chain.detector().member(model).scores();
+        Index state = cell;
+        for (Index other = cell; other < space.stateCount(); other += space.cellCount())
+            if (scores[static_cast<std::size_t>(other)] > scores[static_cast<std::size_t>(state)])
+                state = other;
+        auto best = static_cast<double>(shownScore(analysis, chain, model, scores[static_cast<std::size_t>(state)]));
+        const HmmTracker *following = nullptr;
+        for (const HmmTracker &tracker : chain.trackers()) {
+            Index candidate = 0;
+            if (const double score = tracker.scoreAt(cell, &candidate); score > best) {
+                best = score;
+                state = candidate;
+                following = &tracker;
+            }
+        }
+        if (following)
+            return {following->explain(state), true, following->track().model};
+        return {chain.detectorPathInto(state, model), false, model};
+    }
+
     /// The chain frame by frame, and what the states it is about to go on from have: what no path can tell of its competitors.
     class Competitors
     {
@@ -175,7 +206,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     detailed.settings.track.smoothingFrames = static_cast<int>(std::min<Index>(frame + 1, 1 << 30));
     std::vector<float> statistic;
     const auto chain = runTo(detailed, frame, statistic, context.part(0.0, 0.5));
-    const DetectionChain::PathInto path = chain->pathInto(cell);
+    const PathInto path = pathInto(detailed, *chain, cell);
 
     Explanation explanation;
     explanation.seconds = time.value(static_cast<double>(frame));

@@ -1,6 +1,6 @@
 #include "analysis/outputLayers.h"
 
-#include "base/Error.h"
+#include "analysis/StateReplay.h"
 #include "detect/Smd.h"
 
 #include <algorithm>
@@ -12,16 +12,32 @@ namespace {
 
     constexpr float unreached = -std::numeric_limits<float>::infinity();
 
-    double rateUnit(const Analysis &analysis)
+    /// Of a rate of one cell a frame along an axis.
+    double rateUnit(const Analysis &analysis, std::size_t axis)
     {
-        return analysis.grid().axes.front().step / analysis.time().step;
+        return analysis.grid().axes[axis].step / analysis.time().step;
     }
 
-    std::vector<float> ratesOfPlanes(const Analysis &analysis)
+    const MarkovModel &modelOf(const Analysis &analysis, std::size_t model)
     {
-        std::vector<float> rates;
-        for (Index plane = 0; plane < analysis.model.space.planeCount(); ++plane)
-            rates.push_back(static_cast<float>(analysis.model.space.ratesOfPlane(plane).front() * rateUnit(analysis)));
+        return analysis.bank.empty() ? analysis.model : analysis.bank[model].model;
+    }
+
+    std::size_t modelCount(const Analysis &analysis)
+    {
+        return std::max<std::size_t>(1, analysis.bank.size());
+    }
+
+    /// In the axis's unit a second, by model and plane; along an axis that is not there 0.
+    std::vector<std::vector<float>> ratesOfPlanes(const Analysis &analysis, std::size_t axis)
+    {
+        std::vector<std::vector<float>> rates(modelCount(analysis));
+        for (std::size_t model = 0; model < rates.size(); ++model) {
+            const StateSpace &space = modelOf(analysis, model).space;
+            for (Index plane = 0; plane < space.planeCount(); ++plane)
+                rates[model].push_back(
+                    axis < space.axes().size() ? static_cast<float>(space.ratesOfPlane(plane)[axis] * rateUnit(analysis, axis)) : 0.0f);
+        }
         return rates;
     }
 
@@ -29,13 +45,14 @@ namespace {
 
 LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget) : m_replay(std::move(analysis), byteBudget / 2)
 {
-    const StateSpace &space = this->analysis()->model.space;
-    if (space.axes().size() != 1 || !this->analysis()->bank.empty())
-        throw Error("output layers", "are of lines over frequency; these frames have more than one axis");
-    const auto cells = static_cast<std::size_t>(space.cellCount());
-    m_ages.states.resize(static_cast<std::size_t>(space.stateCount()));
-    m_agesBefore.resize(m_ages.states.size());
+    for (std::size_t model = 0; model < modelCount(*this->analysis()); ++model) {
+        m_models.push_back(modelOf(*this->analysis(), model));
+        m_ages.states.emplace_back(static_cast<std::size_t>(m_models.back().space.stateCount()));
+    }
+    m_before.resize(m_models.size());
+    const auto cells = static_cast<std::size_t>(m_models.front().space.cellCount());
     m_layers.statistic.resize(cells);
+    m_layers.model.resize(cells);
     m_layers.plane.resize(cells);
     m_layers.age.resize(cells);
     m_layers.resetFraction.resize(cells);
@@ -68,10 +85,10 @@ void LayerReplay::seek(Index frame)
         m_ages.trackers.clear();
 }
 
-/// The detector's scores as the next frame's step will find them, what it is about to forget forgotten.
-std::vector<float> LayerReplay::scoresBefore() const
+/// A model's scores as the next frame's step will find them, what it is about to forget forgotten.
+std::vector<float> LayerReplay::scoresBefore(std::size_t model) const
 {
-    const Detector &detector = m_replay.chain().detector();
+    const Detector &detector = m_replay.chain().detector().member(model);
     std::vector<float> scores(detector.scores().begin(), detector.scores().end());
     const auto *smd = dynamic_cast<const Smd *>(&detector);
     const auto background = std::max(0.0f, static_cast<float>(smd ? -smd->offset() : 0.0));
@@ -88,12 +105,14 @@ void LayerReplay::step()
 {
     const Index frame = m_replay.next();
     const bool isFirst = frame == 0;
-    const std::vector<float> before = isFirst ? std::vector<float>() : scoresBefore();
+    for (std::size_t model = 0; model < m_models.size() && !isFirst; ++model)
+        m_before[model] = scoresBefore(model);
     const std::span<const float> statistic = m_replay.step();
-    if (isFirst)
-        std::fill(m_ages.states.begin(), m_ages.states.end(), 0);
-    else
-        followPaths(before);
+    for (std::size_t model = 0; model < m_models.size(); ++model)
+        if (isFirst)
+            std::fill(m_ages.states[model].begin(), m_ages.states[model].end(), 0);
+        else
+            followPaths(model);
     followTrackers();
     m_now = m_layers.frame = frame;
     project(statistic);
@@ -101,45 +120,68 @@ void LayerReplay::step()
         m_checkpoints.emplace(m_replay.next(), std::make_shared<const Ages>(m_ages));
 }
 
-void LayerReplay::followPaths(std::span<const float> before)
+/// One axis's part of the step: of the ways into a state along it, the best, in the order that decides ties.
+void LayerReplay::move(const MarkovModel &model, std::size_t axis, const Paths &from, Paths &to)
 {
-    std::swap(m_ages.states, m_agesBefore);
-    const MarkovModel &model = analysis()->model;
-    const KinematicAxis &axis = model.space.axes().front();
-    const auto cells = static_cast<std::size_t>(axis.cells);
-    const auto lnK = static_cast<float>(m_replay.chain().detector().regulation().stepLnK);
-    std::vector<float> best(cells);
-    std::vector<std::int32_t> age(cells);
-    const std::vector<KinematicAxis::Move> moves = axis.moves();
-    for (int rate = 0; rate < axis.rateCount; ++rate) {
-        std::fill(best.begin(), best.end(), unreached);
-        for (const KinematicAxis::Move &move : moves) { // in the order that decides ties
-            if (move.toRate != rate)
-                continue;
-            const auto ln = static_cast<float>(move.lnProbability * model.transitionScale);
-            const std::size_t plane = static_cast<std::size_t>(move.fromRate) * cells;
-            const auto take = [&](Index to, Index from, Index count) {
-                for (Index i = 0; i < count; ++i) {
-                    const auto target = static_cast<std::size_t>(to + i);
-                    const std::size_t source = plane + static_cast<std::size_t>(from + i);
-                    const float score = before[source] + ln;
-                    age[target] = score > best[target] ? m_agesBefore[source] : age[target];
-                    best[target] = score > best[target] ? score : best[target];
-                }
-            };
-            const Index shift = move.cells;
-            if (std::abs(shift) >= axis.cells)
-                continue;
-            take(std::max<Index>(shift, 0), std::max<Index>(-shift, 0), axis.cells - std::abs(shift));
-            if (axis.cyclic && shift > 0)
-                take(0, axis.cells - shift, shift);
-            if (axis.cyclic && shift < 0)
-                take(axis.cells + shift, 0, -shift);
-        }
-        std::int32_t *to = m_ages.states.data() + static_cast<std::size_t>(rate) * cells;
-        for (std::size_t cell = 0; cell < cells; ++cell)
-            to[cell] = best[cell] + lnK > 0.0f ? age[cell] + 1 : 0;
+    const std::vector<KinematicAxis> &axes = model.space.axes();
+    const KinematicAxis &own = axes[axis];
+    Index inner = 1; // what lies side by side while the axis's own coordinates stay
+    Index outerCells = 1;
+    Index innerRates = 1;
+    Index outerRates = 1;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        (i < axis ? outerCells : inner) *= i == axis ? 1 : axes[i].cells;
+        (i < axis ? outerRates : innerRates) *= i == axis ? 1 : axes[i].rateCount;
     }
+    to.scores.assign(from.scores.size(), unreached);
+    to.ages.assign(from.ages.size(), 0);
+    const Index cells = model.space.cellCount();
+    const auto plane = [&](Index outer, Index rate, Index innermost) { return ((outer * own.rateCount + rate) * innerRates + innermost) * cells; };
+    const auto take = [&](Index target, Index source, Index count, float ln) {
+        const float *score = from.scores.data() + source;
+        const std::int32_t *age = from.ages.data() + source;
+        float *best = to.scores.data() + target;
+        std::int32_t *its = to.ages.data() + target;
+        for (Index i = 0; i < count; ++i) {
+            const float other = score[i] + ln;
+            const bool isBetter = other > best[i];
+            its[i] = isBetter ? age[i] : its[i];
+            best[i] = isBetter ? other : best[i];
+        }
+    };
+    for (const KinematicAxis::Move &move : own.moves()) {
+        const auto ln = static_cast<float>(move.lnProbability * model.transitionScale);
+        const Index shift = move.cells;
+        if (std::abs(shift) >= own.cells)
+            continue;
+        for (Index outerRate = 0; outerRate < outerRates; ++outerRate)
+            for (Index innerRate = 0; innerRate < innerRates; ++innerRate)
+                for (Index outer = 0; outer < outerCells; ++outer) {
+                    const Index block = outer * own.cells * inner;
+                    const Index target = plane(outerRate, move.toRate, innerRate) + block;
+                    const Index source = plane(outerRate, move.fromRate, innerRate) + block;
+                    take(target + std::max<Index>(shift, 0) * inner, source + std::max<Index>(-shift, 0) * inner,
+                         (own.cells - std::abs(shift)) * inner, ln);
+                    if (own.cyclic && shift > 0)
+                        take(target, source + (own.cells - shift) * inner, shift * inner, ln);
+                    if (own.cyclic && shift < 0)
+                        take(target + (own.cells + shift) * inner, source, -shift * inner, ln);
+                }
+    }
+}
+
+void LayerReplay::followPaths(std::size_t model)
+{
+    std::swap(m_paths.scores, m_before[model]);
+    std::swap(m_paths.ages, m_ages.states[model]);
+    for (std::size_t axis = m_models[model].space.axes().size(); axis-- > 0;) { // the last one first: rates of the first decide ties
+        move(m_models[model], axis, m_paths, m_moved);
+        std::swap(m_paths, m_moved);
+    }
+    const auto lnK = static_cast<float>(m_replay.chain().detector().member(model).regulation().stepLnK);
+    for (std::size_t state = 0; state < m_paths.ages.size(); ++state)
+        m_paths.ages[state] = m_paths.scores[state] + lnK > 0.0f ? m_paths.ages[state] + 1 : 0;
+    std::swap(m_paths.ages, m_ages.states[model]);
 }
 
 void LayerReplay::followTrackers()
@@ -151,7 +193,7 @@ void LayerReplay::followTrackers()
         auto &ages = now[tracker.track().id];
         for (const auto &[state, before] : tracker.origins()) {
             if (isNew) {
-                ages[state] = m_ages.states[static_cast<std::size_t>(state)];
+                ages[state] = m_ages.states[tracker.track().model][static_cast<std::size_t>(state)];
                 continue;
             }
             const auto from = earlier->second.find(before);
@@ -163,39 +205,48 @@ void LayerReplay::followTrackers()
 
 void LayerReplay::project(std::span<const float> statistic)
 {
-    const StateSpace &space = analysis()->model.space;
-    const auto cells = static_cast<std::size_t>(space.cellCount());
-    const std::span<const float> scores = m_replay.chain().detector().scores();
+    const DetectionChain &chain = m_replay.chain();
+    const auto cells = static_cast<std::size_t>(analysis()->grid().size());
     std::copy(statistic.begin(), statistic.end(), m_layers.statistic.begin());
-    std::vector<float> best(scores.begin(), scores.begin() + static_cast<std::ptrdiff_t>(cells));
-    std::fill(m_layers.plane.begin(), m_layers.plane.end(), 0);
     std::fill(m_layers.isInhibited.begin(), m_layers.isInhibited.end(), '\0');
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        int resets = 0;
-        for (Index plane = 0; plane < space.planeCount(); ++plane) {
-            const std::size_t state = static_cast<std::size_t>(plane) * cells + cell;
-            resets += m_ages.states[state] == 0 ? 1 : 0;
-            if (scores[state] > best[cell]) {
-                best[cell] = scores[state];
-                m_layers.plane[cell] = static_cast<std::int32_t>(plane);
+    for (std::size_t cell = 0; cell < cells; ++cell)
+        m_layers.model[cell] = static_cast<unsigned char>(chain.detector().winnerAt(static_cast<Index>(cell)));
+    std::fill(m_layers.resetFraction.begin(), m_layers.resetFraction.end(), 0.0f);
+    std::vector<float> best(cells, unreached);
+    for (std::size_t model = 0; model < m_models.size(); ++model) {
+        const std::span<const float> scores = chain.detector().member(model).scores();
+        for (std::size_t plane = 0, state = 0; state < scores.size(); ++plane)
+            for (std::size_t cell = 0; cell < cells; ++cell, ++state) {
+                if (m_layers.model[cell] != model)
+                    continue;
+                const std::int32_t age = m_ages.states[model][state];
+                m_layers.resetFraction[cell] += age == 0 ? 1.0f : 0.0f; // counted, so far
+                if (plane == 0 || scores[state] > best[cell]) {
+                    best[cell] = scores[state];
+                    m_layers.plane[cell] = static_cast<std::int32_t>(plane);
+                    m_layers.age[cell] = age;
+                }
             }
-        }
-        m_layers.age[cell] = m_ages.states[static_cast<std::size_t>(m_layers.plane[cell]) * cells + cell];
-        m_layers.resetFraction[cell] = static_cast<float>(resets) / static_cast<float>(space.planeCount());
     }
-    for (const HmmTracker &tracker : m_replay.chain().trackers())
+    for (std::size_t cell = 0; cell < cells; ++cell)
+        m_layers.resetFraction[cell] /= static_cast<float>(m_models[m_layers.model[cell]].space.planeCount());
+    std::unordered_map<std::size_t, double> followed; ///< the statistic where a tracker has a say
+    for (const HmmTracker &tracker : chain.trackers())
         for (const auto &[state, age] : m_ages.trackers[tracker.track().id]) {
-            const auto cell = static_cast<std::size_t>(space.cellOf(state));
+            const auto cell = static_cast<std::size_t>(state) % cells;
+            const auto [shown, isFirst] = followed.try_emplace(cell);
+            if (isFirst)
+                shown->second = static_cast<double>(shownScore(*analysis(), chain, m_layers.model[cell], best[cell]));
             Index candidate = 0;
-            if (const double score = tracker.scoreAt(space.cellOf(state), &candidate);
-                candidate == state && score > static_cast<double>(best[cell])) {
-                best[cell] = static_cast<float>(score);
-                m_layers.plane[cell] = static_cast<std::int32_t>(space.planeOf(state));
+            if (const double score = tracker.scoreAt(static_cast<Index>(cell), &candidate); candidate == state && score > shown->second) {
+                shown->second = score;
+                m_layers.model[cell] = static_cast<unsigned char>(tracker.track().model);
+                m_layers.plane[cell] = static_cast<std::int32_t>(static_cast<std::size_t>(state) / cells);
                 m_layers.age[cell] = age;
                 m_layers.resetFraction[cell] = 0.0f; // a tracker's paths are not reset
             }
         }
-    for (const CellBox &box : m_replay.chain().inhibited())
+    for (const CellBox &box : chain.inhibited())
         box.forEachCell(analysis()->grid(), [&](Index cell) { m_layers.isInhibited[static_cast<std::size_t>(cell)] = 1; });
 }
 
@@ -204,6 +255,8 @@ const std::vector<float> &LayerPicture::values(OutputLayer layer) const
     switch (layer) {
     case OutputLayer::Rate:
         return rate;
+    case OutputLayer::SecondRate:
+        return secondRate;
     case OutputLayer::Age:
         return age;
     case OutputLayer::Reset:
@@ -216,60 +269,128 @@ const std::vector<float> &LayerPicture::values(OutputLayer layer) const
     return statistic;
 }
 
+Index LayerPicture::pixelAt(Index row, Index column) const
+{
+    const Index r = row / perRow - firstRow;
+    const Index c = column / perColumn - firstColumn;
+    return row < 0 || column < 0 || r < 0 || r >= rows || c < 0 || c >= columns ? -1 : r * columns + c;
+}
+
+namespace {
+
+    /// A picture of a window that grows cell by cell.
+    class LayerPainter
+    {
+    public:
+        LayerPainter(const Analysis &analysis, const LayerWindow &window, Index rows, Index columns)
+            : m_rows(rows), m_columns(columns), m_frameSeconds(static_cast<float>(analysis.time().step)), m_rates(ratesOfPlanes(analysis, 0)),
+              m_secondRates(ratesOfPlanes(analysis, 1))
+        {
+            const Index endRow = std::min(window.endRow, rows);
+            const Index endColumn = std::min(window.endColumn, columns);
+            const Index beginRow = std::clamp<Index>(window.beginRow, 0, endRow);
+            const Index beginColumn = std::clamp<Index>(window.beginColumn, 0, endColumn);
+            const auto per = [](Index length, Index most) { return std::max<Index>(1, (length + most - 1) / std::max<Index>(1, most)); };
+            const auto count = [](Index begin, Index end, Index by) { return end > begin ? (end - 1) / by - begin / by + 1 : 0; };
+            picture.perRow = per(endRow - beginRow, window.mostRows);
+            picture.perColumn = per(endColumn - beginColumn, window.mostColumns);
+            picture.firstRow = beginRow / picture.perRow;
+            picture.firstColumn = beginColumn / picture.perColumn;
+            picture.rows = count(beginRow, endRow, picture.perRow);
+            picture.columns = count(beginColumn, endColumn, picture.perColumn);
+            const auto size = static_cast<std::size_t>(picture.rows * picture.columns);
+            picture.statistic.assign(size, unreached);
+            for (std::vector<float> *values :
+                 {&picture.rate, &picture.secondRate, &picture.age, &picture.resetFraction, &picture.inhibited})
+                values->assign(size, 0.0f);
+        }
+
+        Index firstRow() const { return picture.firstRow * picture.perRow; }
+        Index endRow() const { return std::min((picture.firstRow + picture.rows) * picture.perRow, m_rows); }
+
+        /// One row of the window, whose first cell is `first` of the layers.
+        void paintRow(Index row, const CellLayers &layers, Index first)
+        {
+            const Index begin = picture.firstColumn * picture.perColumn;
+            const Index end = std::min((picture.firstColumn + picture.columns) * picture.perColumn, m_columns);
+            for (Index column = begin; column < end; ++column)
+                paint(static_cast<std::size_t>(picture.pixelAt(row, column)), layers, static_cast<std::size_t>(first + column));
+        }
+
+        LayerPicture picture;
+
+    private:
+        void paint(std::size_t pixel, const CellLayers &layers, std::size_t cell)
+        {
+            if (layers.isInhibited[cell])
+                picture.inhibited[pixel] = 1.0f;
+            if (!(layers.statistic[cell] > picture.statistic[pixel]))
+                return;
+            const auto plane = static_cast<std::size_t>(layers.plane[cell]);
+            picture.statistic[pixel] = layers.statistic[cell];
+            picture.rate[pixel] = m_rates[layers.model[cell]][plane];
+            picture.secondRate[pixel] = m_secondRates[layers.model[cell]][plane];
+            picture.age[pixel] = static_cast<float>(layers.age[cell]) * m_frameSeconds;
+            picture.resetFraction[pixel] = layers.resetFraction[cell];
+        }
+
+        Index m_rows;
+        Index m_columns;
+        float m_frameSeconds;
+        std::vector<std::vector<float>> m_rates;
+        std::vector<std::vector<float>> m_secondRates;
+    };
+
+} // namespace
+
 LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const RunContext &context)
 {
     const Analysis &analysis = *replay.analysis();
-    const Index endFrame = std::min(window.endFrame, analysis.time().count);
-    const Index endCell = std::min(window.endCell, analysis.grid().size());
-    const Index beginFrame = std::clamp<Index>(window.beginFrame, 0, endFrame);
-    const Index beginCell = std::clamp<Index>(window.beginCell, 0, endCell);
-    LayerPicture picture;
-    const auto per = [](Index length, Index most) { return std::max<Index>(1, (length + most - 1) / std::max<Index>(1, most)); };
-    picture.framesPerRow = per(endFrame - beginFrame, window.mostRows);
-    picture.cellsPerColumn = per(endCell - beginCell, window.mostColumns);
-    picture.firstRow = beginFrame / picture.framesPerRow;
-    picture.firstColumn = beginCell / picture.cellsPerColumn;
-    picture.rows = endFrame > beginFrame ? (endFrame - 1) / picture.framesPerRow - picture.firstRow + 1 : 0;
-    picture.columns = endCell > beginCell ? (endCell - 1) / picture.cellsPerColumn - picture.firstColumn + 1 : 0;
-    const auto size = static_cast<std::size_t>(picture.rows * picture.columns);
-    picture.statistic.assign(size, unreached);
-    for (std::vector<float> *values : {&picture.rate, &picture.age, &picture.resetFraction, &picture.inhibited})
-        values->assign(size, 0.0f);
-    const std::vector<float> rates = ratesOfPlanes(analysis);
-    const auto frameSeconds = static_cast<float>(analysis.time().step);
-    for (Index row = 0; row < picture.rows; ++row) {
-        const Index first = (picture.firstRow + row) * picture.framesPerRow;
-        const Index last = std::min(first + picture.framesPerRow, analysis.time().count);
-        for (Index frame = first; frame < last; ++frame) {
-            const double done = static_cast<double>(row) / static_cast<double>(picture.rows);
-            context.checkpoint(done, "layers");
-            const CellLayers &layers = replay.at(frame, context.part(done, done));
-            for (Index column = 0; column < picture.columns; ++column) {
-                const Index from = (picture.firstColumn + column) * picture.cellsPerColumn;
-                const auto pixel = static_cast<std::size_t>(row * picture.columns + column);
-                for (Index i = from; i < std::min(from + picture.cellsPerColumn, analysis.grid().size()); ++i) {
-                    const auto cell = static_cast<std::size_t>(i);
-                    if (layers.isInhibited[cell])
-                        picture.inhibited[pixel] = 1.0f;
-                    if (!(layers.statistic[cell] > picture.statistic[pixel]))
-                        continue;
-                    picture.statistic[pixel] = layers.statistic[cell];
-                    picture.rate[pixel] = rates[static_cast<std::size_t>(layers.plane[cell])];
-                    picture.age[pixel] = static_cast<float>(layers.age[cell]) * frameSeconds;
-                    picture.resetFraction[pixel] = layers.resetFraction[cell];
-                }
-            }
-        }
+    LayerPainter painter(analysis, window, analysis.time().count, analysis.grid().size());
+    const Index first = painter.firstRow();
+    const Index end = painter.endRow();
+    for (Index frame = first; frame < end; ++frame) {
+        const double done = static_cast<double>(frame - first) / static_cast<double>(end - first);
+        context.checkpoint(done, "layers");
+        painter.paintRow(frame, replay.at(frame, context.part(done, done)), 0);
     }
-    return picture;
+    return std::move(painter.picture);
+}
+
+LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const RunContext &context)
+{
+    const Analysis &analysis = *replay.analysis();
+    const Index columns = analysis.grid().axes[1].count;
+    LayerPainter painter(analysis, window, analysis.grid().axes[0].count, columns);
+    const CellLayers &layers = replay.at(ping, context);
+    for (Index row = painter.firstRow(); row < painter.endRow(); ++row)
+        painter.paintRow(row, layers, row * columns);
+    return std::move(painter.picture);
+}
+
+double largestRate(const Analysis &analysis, std::size_t axis)
+{
+    int cellsPerFrame = 1;
+    for (std::size_t model = 0; model < modelCount(analysis); ++model) {
+        const KinematicAxis &own = modelOf(analysis, model).space.axes()[axis];
+        cellsPerFrame = std::max({cellsPerFrame, std::abs(own.firstRate), std::abs(own.firstRate + own.rateCount - 1)});
+    }
+    return cellsPerFrame * rateUnit(analysis, axis);
 }
 
 CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell)
 {
     const auto i = static_cast<std::size_t>(cell);
-    return {analysis.model.space.ratesOfPlane(layers.plane[i]).front() * rateUnit(analysis),
-            static_cast<double>(layers.age[i]) * analysis.time().step,
-            layers.isInhibited[i] != 0, static_cast<double>(layers.statistic[i])};
+    const std::vector<int> rates = modelOf(analysis, layers.model[i]).space.ratesOfPlane(layers.plane[i]);
+    return {rates[0] * rateUnit(analysis, 0), rates.size() > 1 ? rates[1] * rateUnit(analysis, 1) : 0.0,
+            static_cast<double>(layers.age[i]) * analysis.time().step, layers.isInhibited[i] != 0, static_cast<double>(layers.statistic[i])};
+}
+
+CellReading readPixel(const LayerPicture &picture, Index pixel)
+{
+    const auto i = static_cast<std::size_t>(pixel);
+    return {static_cast<double>(picture.rate[i]), static_cast<double>(picture.secondRate[i]), static_cast<double>(picture.age[i]),
+            picture.inhibited[i] > 0.0f, static_cast<double>(picture.statistic[i])};
 }
 
 } // namespace faintline

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/ChainReplay.h"
+#include "model/MarkovModel.h"
 
 #include <array>
 #include <cstdint>
@@ -17,6 +18,7 @@ namespace faintline {
 struct CellLayers {
     Index frame = 0;
     std::vector<float> statistic;     ///< D, as the run showed it
+    std::vector<unsigned char> model; ///< of a bank, the one whose state is best
     std::vector<std::int32_t> plane;  ///< of the best state; the lowest among equals
     std::vector<std::int32_t> age;    ///< frames since the last reset of the best path; 0: it was reset in this frame
     std::vector<float> resetFraction; ///< of the cell's states, those that were reset in this frame
@@ -28,9 +30,10 @@ struct CellLayers {
 ///   age(n, t) = 0 where path n was reset in frame t, else 1 + age(m, t-1), m the predecessor that won
 ///
 /// Who won is read off two successive frames' scores, m = argmax [ln P(n|m) + u(m, t-1)], reset where ln K + that ≤ 0, ties as the
-/// recursion decides them: the recursion itself runs once, in the chain. A tracker's paths go on from those it was seeded with, without
-/// reset. Oracle: tracePath (age + 1 = steps of its path). For lines, whose grid has one axis. Cost: the detector's and as much again per
-/// frame; going back costs an interval of checkpoints at most (ChainReplay). One object per thread.
+/// recursion decides them: the recursion itself runs once, in the chain. Axes move independently, so the maximum is taken one axis after
+/// the other, and a path's age goes along with its score. A tracker's paths go on from those it was seeded with, without reset. Of a bank,
+/// each model's paths are its own. Oracle: tracePath (age + 1 = steps of its path). Lines and pings alike. Cost: the detector's and several
+/// times that a frame; going back costs an interval of checkpoints at most (ChainReplay). One object per thread.
 class LayerReplay
 {
 public:
@@ -44,67 +47,91 @@ public:
 private:
     using TrackerAges = std::map<int, std::unordered_map<Index, std::int32_t>>; ///< by the track's number, then the state
     struct Ages {
-        std::vector<std::int32_t> states;
+        std::vector<std::vector<std::int32_t>> states; ///< of each model
         TrackerAges trackers;
+    };
+    /// Scores of all states on their way into the next frame, and the ages of the paths that have them.
+    struct Paths {
+        std::vector<float> scores;
+        std::vector<std::int32_t> ages;
     };
 
     void seek(Index frame);
     void step();
-    std::vector<float> scoresBefore() const;
-    void followPaths(std::span<const float> before);
+    std::vector<float> scoresBefore(std::size_t model) const;
+    void followPaths(std::size_t model);
     void followTrackers();
     void project(std::span<const float> statistic);
+    static void move(const MarkovModel &model, std::size_t axis, const Paths &from, Paths &to);
 
     ChainReplay m_replay;
     Index m_now = -1; ///< frame that ages and layers belong to; -1: none
+    std::vector<MarkovModel> m_models;
     Ages m_ages;
-    std::vector<std::int32_t> m_agesBefore;
+    std::vector<std::vector<float>> m_before; ///< each model's scores before the step
+    Paths m_paths;
+    Paths m_moved;
     std::map<Index, std::shared_ptr<const Ages>> m_checkpoints; ///< by the frame that comes next
     CellLayers m_layers;
 };
 
 /// A layer that can be looked at in the place of the statistic, or over it.
 enum class OutputLayer {
-    Statistic, ///< none: D itself
-    Rate,      ///< winning rate, the axis's unit a second
-    Age,       ///< path age since the last reset, s
-    Reset,     ///< fraction of the cell's states that were reset
-    Inhibited  ///< 1 where the detector was kept from the data, else 0
+    Statistic,  ///< none: D itself
+    Rate,       ///< winning rate along the first axis, its unit a second
+    SecondRate, ///< the same along the second one, of pings
+    Age,        ///< path age since the last reset, s
+    Reset,      ///< fraction of the cell's states that were reset
+    Inhibited   ///< 1 where the detector was kept from the data, else 0
 };
-inline constexpr std::array<std::string_view, 5> outputLayerNames{"statistic", "rate", "age", "reset", "inhibited"};
+inline constexpr std::array<std::string_view, 6> outputLayerNames{"statistic", "rate", "bearing-rate", "age", "reset", "inhibited"};
 
-/// What of a recording is looked at, in frames and cells; rows and columns the picture may have at most.
+/// What is looked at, in rows and columns, and how many of either the picture may have at most. Of a recording a row is a frame, a column a
+/// cell; of one ping a row is a cell of the first axis, a column one of the second.
 struct LayerWindow {
-    Index beginFrame = 0, endFrame = 0;
-    Index beginCell = 0, endCell = 0;
+    Index beginRow = 0, endRow = 0;
+    Index beginColumn = 0, endColumn = 0;
     Index mostRows = 1, mostColumns = 1;
     bool operator==(const LayerWindow &) const = default;
 };
 
-/// Layers of a window, made coarser where it has more frames or cells than the picture rows or columns: a row stands for `framesPerRow`
-/// frames, a column for `cellsPerColumn` cells, both counted from 0, and each shows the values of the cell whose D is largest among
-/// them, so that a line of one bin survives. Inhibited: whether any of them is.
+/// Layers of a window, made coarser where it has more rows or columns than the picture may have: a pixel stands for `perRow` × `perColumn`
+/// of them, counted from 0, and shows the values of the cell whose D is largest among them, so that a line of one bin survives.
+/// Inhibited: whether any of them is.
 struct LayerPicture {
-    Index framesPerRow = 1, cellsPerColumn = 1;
+    Index perRow = 1, perColumn = 1;
     Index firstRow = 0, firstColumn = 0;
     Index rows = 0, columns = 0;
     std::vector<float> statistic; ///< rows × columns, as those below
     std::vector<float> rate;
+    std::vector<float> secondRate;
     std::vector<float> age;
     std::vector<float> resetFraction;
     std::vector<float> inhibited;
 
     const std::vector<float> &values(OutputLayer layer) const;
+    /// The pixel that holds a row and column of the window, -1 outside of it.
+    Index pixelAt(Index row, Index column) const;
 };
+
+/// Of lines: frames × cells.
 LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const RunContext &context = {});
+/// Of one ping. Precondition: the grid has two axes.
+LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const RunContext &context = {});
+
+/// The largest rate along an axis, in its unit a second; of a bank, of all its models.
+double largestRate(const Analysis &analysis, std::size_t axis);
 
 /// Of one cell.
 struct CellReading {
-    double ratePerSecond = 0.0; ///< of its best state
+    double ratePerSecond = 0.0; ///< of its best state, along the first axis
+    double secondRatePerSecond = 0.0; ///< along the second one, where there is one
     double ageSeconds = 0.0;
     bool isInhibited = false;
     double statistic = 0.0; ///< D
 };
 CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell);
+/// Of a pixel.
+CellReading readPixel(const LayerPicture &picture, Index pixel);
 
 } // namespace faintline

@@ -9,6 +9,7 @@ namespace faintline {
 namespace {
 
     constexpr Index settlingFrames = 128; ///< before what is shown
+    constexpr Index settlingPings = 16;   ///< the same of pings
     constexpr Index averagedFrames = 48;  ///< of these, the last, whose ln K is taken
     constexpr double settlingGain = 0.3;
     constexpr std::size_t mostKeptBytes = std::size_t(64) << 20;
@@ -46,11 +47,13 @@ namespace {
         smd.useThreads(context.threads);
         std::vector<float> statistic(static_cast<std::size_t>(model.space.cellCount()));
         const Index frames = std::min(range.end - range.readFirst, settlingFrames);
+        const Index averaged = std::min(averagedFrames, (frames + 1) / 2);
         double sum = 0.0;
         Index counted = 0;
         for (Index frame = 0; frame < frames; ++frame) {
+            context.checkpoint(0.0, "previewing");
             smd.update(blocks.at(range.readFirst + frame, 1), statistic);
-            if (frame < frames - averagedFrames)
+            if (frame < frames - averaged)
                 continue;
             sum += smd.regulation().lnK;
             ++counted;
@@ -80,11 +83,11 @@ std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Ind
 FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
 {
     const Index count = frames.time().count;
-    if (frames.grid().axes.size() != 1 || count == 0)
+    if (count == 0)
         return {};
     FrameRange range;
     range.first = std::clamp<Index>(first, 0, count - 1);
-    range.readFirst = std::max<Index>(0, range.first - settlingFrames);
+    range.readFirst = std::max<Index>(0, range.first - (frames.grid().axes.size() == 1 ? settlingFrames : settlingPings));
     range.end = std::clamp<Index>(last, range.first, count - 1) + 1;
     const Index cells = (range.end - range.readFirst) * frames.grid().size();
     range.isKeepable = static_cast<std::size_t>(cells) * sizeof(float) <= mostKeptBytes;
@@ -93,7 +96,7 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
 
 bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings)
 {
-    return before.bank.empty() && settings.model.motion == Motion::Slopes && before.grid().axes.size() == 1
+    return (before.grid().axes.size() > 1 || settings.model.motion == Motion::Slopes)
         && firstStale(before.settings, settings) == Stage::Detector
         && !(before.settings.model == settings.model && before.settings.detector == settings.detector);
 }
@@ -106,7 +109,8 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
     trial.settings = settings;
     trial.recording = before.recording;
     trial.frames = before.frames;
-    trial.model = makeModel(settings.model, before.grid());
+    const std::vector<MarkovModel> models = makeModels(settings.model, before.grid());
+    trial.model = models.front();
     Blocks blocks(*before.frames, kept);
     auto calibration = std::make_shared<Calibration>(*before.calibration);
     if (const auto *smd = std::get_if<SmdSettings>(&settings.detector)) {
@@ -116,6 +120,10 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
             calibration->lnK = settledLnK(trial.model, before.calibration->lnK, range, blocks, context);
     }
     trial.calibration = calibration;
+    for (std::size_t i = 0; i < models.size() && models.size() > 1; ++i) {
+        const bool isKnown = i < before.bank.size();
+        trial.bank.push_back({models[i], isKnown ? before.bank[i].calibration : trial.calibration, isKnown ? before.bank[i].offset : 0.0});
+    }
 
     const auto detector = makeDetector(trial);
     detector->useThreads(context.threads);

@@ -31,7 +31,8 @@ struct StatisticPreview {
 };
 
 /// The frames that are needed to show `first … last`: these, and some before them for the detector to settle on. Empty where they hold more
-/// than 7·10⁷ cells, on which a preview would take as long as everything else, or lie on several axes.
+/// than 7·10⁷ cells, on which a preview would take as long as everything else. Of pings, whose frames have as many states as a recording's
+/// minute, 16 before those shown.
 struct FrameRange {
     Index readFirst = 0;
     Index first = 0;
@@ -48,7 +49,7 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
 /// K, where it would be calibrated to 50 % of noise states continued, is found on these frames themselves: regulated toward that over
 /// the first of them (ResetLaw::Half) and held from then on. Most cells are noise, so it lies near the calibrated one; it is a preview's.
 /// Depends on nothing but the frames and settings. Cost: one pass of the recursion; no simulation. Oracle: Smd run with the same ln K.
-/// Precondition: `kept` is null or holds the range.
+/// A bank's models keep the offsets that make their false alarms equal. Precondition: `kept` is null or holds the range.
 StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range, const KeptFrames *kept,
                                   const RunContext &context = {});
 

@@ -51,7 +51,15 @@ namespace {
         return text;
     }
 
-    /// So many decimals, the C locale's way; a minus sign that is one.
+    /// A minus sign that is one, in the exponent as well.
+    std::string withMinus(std::string text)
+    {
+        for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at))
+            text.replace(at, 1, "\u2212");
+        return text;
+    }
+
+    /// So many decimals, the C locale's way.
     std::string fixed(double value, int decimals)
     {
         const double scale = std::pow(10.0, decimals);
@@ -66,7 +74,7 @@ namespace {
             }
             text.append(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, decimals - static_cast<std::ptrdiff_t>(text.size() - point - 1))), '0');
         }
-        return text.starts_with('-') ? "\u2212" + text.substr(1) : text;
+        return withMinus(text);
     }
 
     /// Three significant digits.
@@ -76,7 +84,7 @@ namespace {
             return formatNumber(value);
         const double magnitude = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
         const std::string text = formatNumber(std::round(value / magnitude) * magnitude);
-        return text.size() < 12 ? text : fixed(value, static_cast<int>(std::clamp(-std::log10(magnitude), 0.0, 12.0)));
+        return text.size() < 12 ? withMinus(text) : fixed(value, static_cast<int>(std::clamp(-std::log10(magnitude), 0.0, 12.0)));
     }
 
     std::string cells(const std::vector<std::string> &texts, const char *tag = "td")
@@ -85,6 +93,42 @@ namespace {
         for (const std::string &text : texts)
             row += std::string("<") + tag + ">" + escaped(text) + "</" + tag + ">";
         return row + "</tr>\n";
+    }
+
+    /// A row of which the first so many are numbers.
+    std::string numbers(const std::vector<std::string> &texts, std::size_t count, const char *tag = "td")
+    {
+        std::string row = "<tr>";
+        for (std::size_t i = 0; i < texts.size(); ++i)
+            row += std::string("<") + tag + (i < count ? " class=\"n\">" : ">") + escaped(texts[i]) + "</" + tag + ">";
+        return row + "</tr>\n";
+    }
+
+    std::string capitalised(std::string name)
+    {
+        if (!name.empty() && name.front() >= 'a' && name.front() <= 'z')
+            name.front() = static_cast<char>(name.front() - 'a' + 'A');
+        return name;
+    }
+
+    std::string heading(const Axis &axis)
+    {
+        return capitalised(axis.name) + " (" + axis.unit + ")";
+    }
+
+    /// A unit in which rates along an axis are no long fractions.
+    struct RateUnit {
+        std::string name;
+        double scale = 1.0;
+    };
+    RateUnit rateUnit(const Axis &axis, const std::vector<Event> &events, std::size_t i)
+    {
+        double largest = 0.0;
+        for (const Event &event : events)
+            largest = std::max(largest, std::abs(event.ratesPerSecond[i]));
+        if (axis.unit != "Hz" || largest >= 0.1 || largest == 0.0)
+            return {axis.unit + "/s", 1.0};
+        return largest >= 1e-4 ? RateUnit{"mHz/s", 1e3} : RateUnit{"\u00b5Hz/s", 1e6};
     }
 
     std::string fact(const std::string &name, const std::string &value)
@@ -110,7 +154,7 @@ namespace {
         }
         text += fact("Frames", std::to_string(analysis.time().count) + ", every " + rough(analysis.time().step) + " " + analysis.time().unit);
         for (const Axis &axis : analysis.grid().axes)
-            text += fact(axis.name, std::to_string(axis.count) + " cells of " + rough(axis.step) + " " + axis.unit);
+            text += fact(capitalised(axis.name), std::to_string(axis.count) + " cells of " + rough(axis.step) + " " + axis.unit);
         return text + "</table>\n";
     }
 
@@ -151,9 +195,16 @@ namespace {
         const std::vector<Axis> &axes = analysis.grid().axes;
         std::vector<std::string> names{"No.", "Onset (s)", "Detected (s)", "End (s)"};
         for (const Axis &axis : axes)
-            names.push_back(axis.name + " (" + axis.unit + ")");
-        names.insert(names.end(), {"Drift (" + axes.back().unit + "/s)", "D (nat)", "State", "Review", "Note"});
-        std::string text = "<table class=\"numbers\">\n" + cells(names, "th");
+            names.push_back(heading(axis));
+        std::vector<RateUnit> units;
+        for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+            units.push_back(rateUnit(axes[axis], material.events, axis));
+            names.push_back((axes.size() == 1 ? "Drift" : capitalised(axes[axis].name) + " rate") + " (" + units.back().name + ")");
+        }
+        names.push_back("D (nat)");
+        const std::size_t numeric = names.size();
+        names.insert(names.end(), {"State", "Review", "Note"});
+        std::string text = "<table class=\"numbers\">\n" + numbers(names, numeric, "th");
         const std::vector<EventReview> said = eventReviews(analysis, material.events, material.annotations.reviews);
         for (std::size_t i = 0; i < material.events.size(); ++i) {
             const Event &event = material.events[i];
@@ -163,9 +214,11 @@ namespace {
             std::string review = nameOf(said[i].verdict);
             if (said[i].signal != event.id)
                 review += (review.empty() ? "part of " : ", part of ") + std::to_string(said[i].signal);
-            row.insert(row.end(), {rough(event.driftPerSecond), fixed(event.statistic, 1),
+            for (std::size_t axis = 0; axis < axes.size(); ++axis)
+                row.push_back(rough(units[axis].scale * event.ratesPerSecond[axis]));
+            row.insert(row.end(), {fixed(event.statistic, 1),
                                    std::string(event.isConfirmed ? "confirmed" : "tentative") + (event.isOpen ? ", open" : ""), review, said[i].note});
-            std::string line = cells(row);
+            std::string line = numbers(row, numeric);
             if (said[i].verdict == Verdict::Rejected)
                 line.insert(3, " class=\"rejected\"");
             text += line;
@@ -177,10 +230,11 @@ namespace {
     {
         if (boxes.empty())
             return {};
-        std::string text = "<h2>Annotations</h2>\n<table class=\"numbers\">\n" + cells({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, "th");
+        std::string text = "<h2>Annotations</h2>\n<table class=\"numbers\">\n" + numbers({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, 4, "th");
         for (const Annotation &box : boxes)
-            text += cells({fixed(box.startSeconds, 2), fixed(box.endSeconds, 2), box.lowHz ? fixed(*box.lowHz, 2) : "", box.highHz ? fixed(*box.highHz, 2) : "",
-                           box.label, nameOf(box.verdict), box.note});
+            text += numbers({fixed(box.startSeconds, 2), fixed(box.endSeconds, 2), box.lowHz ? fixed(*box.lowHz, 2) : "",
+                             box.highHz ? fixed(*box.highHz, 2) : "", box.label, nameOf(box.verdict), box.note},
+                            4);
         return text + "</table>\n";
     }
 
@@ -194,15 +248,15 @@ namespace {
                            + (why.statistic > why.threshold ? " nat above" : " nat below") + " the threshold</summary>\n";
         std::vector<std::string> names{"t (s)"};
         for (const Axis &axis : axes)
-            names.push_back(axis.name + " (" + axis.unit + ")");
+            names.push_back(heading(axis));
         names.insert(names.end(), {"ln likelihood ratio", "ln P(transition)", "ln K", "Sum (nat)"});
-        text += "<table class=\"numbers\">\n" + cells(names, "th");
+        text += "<table class=\"numbers\">\n" + numbers(names, names.size(), "th");
         const std::size_t first = why.steps.size() > mostRungs ? why.steps.size() - mostRungs : 0;
         if (first > 0) {
             std::vector<std::string> row{std::to_string(first) + " frames before"};
             row.resize(names.size() - 1);
             row.push_back(fixed(why.steps[first - 1].score, 4));
-            text += cells(row);
+            text += numbers(row, row.size());
         }
         for (std::size_t i = first; i < why.steps.size(); ++i) {
             const PathStep &step = why.steps[i];
@@ -211,7 +265,7 @@ namespace {
             for (std::size_t axis = 0; axis < axes.size(); ++axis)
                 row.push_back(fixed(axes[axis].value(static_cast<double>(at[axis])), 3));
             row.insert(row.end(), {fixed(step.logLikelihoodRatio, 4), fixed(step.lnTransition, 4), fixed(step.lnK, 4), fixed(step.score, 4)});
-            text += cells(row);
+            text += numbers(row, row.size());
         }
         text += "</table>\n";
         if (why.offset != 0.0)
@@ -222,7 +276,7 @@ namespace {
     const char *const style = "body{font:15px/1.5 system-ui,sans-serif;color:#1c2127;background:#fff;max-width:72em;margin:2em auto;padding:0 1.5em}"
                               "h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #dde1e6}"
                               "table{border-collapse:collapse;margin:.5em 0}td,th{padding:.2em 1em .2em 0;text-align:left;vertical-align:top;border-bottom:1px solid #edf0f3}"
-                              ".numbers td{font-variant-numeric:tabular-nums}tr.rejected td{color:#8a939d;text-decoration:line-through}"
+                              ".numbers td{font-variant-numeric:tabular-nums}.n{text-align:right}tr.rejected td{color:#8a939d;text-decoration:line-through}"
                               ".pictures{display:flex;flex-wrap:wrap;gap:1em;align-items:flex-end}figure{margin:0;flex:0 1 auto;min-width:18em;max-width:48%}img{max-width:100%;height:auto;border:1px solid #dde1e6}figcaption{color:#59636e}"
                               "pre{background:#f4f6f8;padding:1em;white-space:pre-wrap;overflow-wrap:anywhere}summary{cursor:pointer}"
                               "@media print{body{margin:0;max-width:none}figure,tr{break-inside:avoid}}";

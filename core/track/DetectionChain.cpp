@@ -314,27 +314,6 @@ std::vector<PathStep> DetectionChain::detectorPathInto(Index state, std::size_t 
     return tracePath(m_models[model], m_grid, record(model), m_firstSeen + std::ssize(m_seen) - 1, state, scoreOf(state, model));
 }
 
-DetectionChain::PathInto DetectionChain::pathInto(Index cell) const
-{
-    PathInto path;
-    const std::size_t model = m_detector->winnerAt(cell);
-    Index state = bestState(cell);
-    double best = scoreOf(state, model);
-    const HmmTracker *following = nullptr;
-    for (const HmmTracker &tracker : m_trackers) {
-        Index candidate = 0;
-        if (const double score = tracker.scoreAt(cell, &candidate); score > best) {
-            best = score;
-            state = candidate;
-            following = &tracker;
-        }
-    }
-    path.isTracked = following != nullptr;
-    path.model = following ? following->track().model : model;
-    path.steps = following ? following->explain(state) : detectorPathInto(state, model);
-    return path;
-}
-
 struct DetectionChain::Snapshot {
     std::shared_ptr<const Detector::Remembrance> detector;
     std::vector<HmmTracker> trackers;

@@ -63,14 +63,6 @@ public:
     const std::vector<HmmTracker> &trackers() const { return m_trackers; }
     const Detector &detector() const { return *m_detector; }
 
-    /// The best path into a cell in the newest frame, by the tracker that follows the cell or by the detector.
-    struct PathInto {
-        std::vector<PathStep> steps; ///< under a tracker: from the frame it was seeded in
-        bool isTracked = false;
-        std::size_t model = 0; ///< of a bank, the one whose path it is
-    };
-    PathInto pathInto(Index cell) const;
-
     /// The detector's best path into a state of the newest frame, by one of its models.
     std::vector<PathStep> detectorPathInto(Index state, std::size_t model = 0) const;
 

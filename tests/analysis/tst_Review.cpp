@@ -1,5 +1,7 @@
 #include "analysis/Review.h"
 
+#include "analysis/judgeByBoxes.h"
+
 #include <QtTest>
 
 using namespace faintline;
@@ -18,6 +20,7 @@ private slots:
     void mergeAndSeparate();
     void asJsonAndBack();
     void hostileJson();
+    void boxesJudgeTheEventsInThem();
 };
 
 namespace {
@@ -58,6 +61,37 @@ namespace {
     }
 
 } // namespace
+
+void tst_Review::boxesJudgeTheEventsInThem()
+{
+    // One climbs from 100 to 139 Hz in 10 … 49 s, one stays at 300 Hz for 5 … 24 s.
+    const Analysis analysis = analysisOf({{5, line(300, 0, 20)}, {10, line(100, 1, 40)}});
+    const std::vector<Event> all = events(analysis);
+    QCOMPARE(all.size(), std::size_t(2));
+    const auto judge = [&](const Annotation &box) { return judgeByBoxes({}, analysis, all, {box}); };
+    const auto box = [](double from, double to, double low, double high, Verdict verdict, const char *note = "") {
+        return Annotation{from, to, low, high, "", note, verdict};
+    };
+    const JudgedByBoxes one = judge(box(10, 49, 100, 139, Verdict::Rejected, "mains"));
+    QCOMPARE(one.judged, 1);
+    QVERIFY(one.others.empty());
+    QCOMPARE(verdicts(analysis, one.reviews), (std::vector{Verdict::None, Verdict::Rejected}));
+    QCOMPARE(one.reviews.front().note, std::string("mains"));
+    // Half of the shorter one's time is enough, less is not; the same of its points and the band.
+    QCOMPARE(judge(box(30, 49, 100, 139, Verdict::Accepted)).judged, 1);
+    QCOMPARE(judge(box(45, 80, 100, 139, Verdict::Accepted)).judged, 0);
+    QCOMPARE(judge(box(10, 49, 122, 160, Verdict::Accepted)).judged, 1);
+    QCOMPARE(judge(box(10, 49, 126, 160, Verdict::Accepted)).judged, 0);
+    // Over all frequencies: all that is there in its time.
+    QCOMPARE(judge(Annotation{0, 60, {}, {}, "", "", Verdict::Accepted}).judged, 2);
+    // A note alone says something, a label alone does not; of several boxes the first counts.
+    QCOMPARE(judge(box(5, 24, 299, 301, Verdict::None, "a fan")).reviews.size(), std::size_t(1));
+    QCOMPARE(judge(Annotation{5, 24, 299.0, 301.0, "a fan", "", Verdict::None}).others.size(), std::size_t(1));
+    const JudgedByBoxes two = judgeByBoxes(one.reviews, analysis, all, {box(5, 24, 290, 310, Verdict::Accepted), box(0, 30, 290, 310, Verdict::Rejected)});
+    QCOMPARE(verdicts(analysis, two.reviews), (std::vector{Verdict::Accepted, Verdict::Rejected}));
+    QCOMPARE(two.judged, 1);
+    QVERIFY(two.others.empty());
+}
 
 void tst_Review::verdictStaysWithTheSignal()
 {

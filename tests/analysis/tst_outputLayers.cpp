@@ -2,6 +2,7 @@
 
 #include "analysis/explain.h"
 #include "base/Random.h"
+#include "spectrum/SimulatedPings.h"
 
 #include <QTest>
 
@@ -36,6 +37,36 @@ const std::shared_ptr<const Analysis> &analysed()
 {
     static const auto result = lineInNoise(SmdSettings::Reset::Fixed);
     return result;
+}
+
+/// A target that recedes by a cell a ping and turns, on 40 × 6 cells, bearings all round.
+std::shared_ptr<const Analysis> targetInPings(Motion motion)
+{
+    PingScene scene;
+    scene.pings = 18;
+    scene.rangeCells = 40;
+    scene.beams = 6;
+    scene.targets.push_back({});
+    scene.targets[0].snrDb = 12.0;
+    scene.targets[0].rangeMetres = 3100.0;
+    scene.targets[0].bearingDegrees = 300.0;
+    scene.targets[0].appearPing = 3;
+    scene.targets[0].legs.push_back({});
+    scene.targets[0].legs[0].rangeCellsPerPing = 1.0;
+    // No calibration is needed: K is Parsons' and the threshold given.
+    auto analysis = std::make_shared<Analysis>();
+    analysis->settings = preset("sonar").settings;
+    analysis->settings.model.motion = motion;
+    analysis->settings.model.lowestSlope = -1;
+    analysis->settings.model.highestSlope = 1;
+    analysis->frames = std::make_shared<SimulatedPings>(scene);
+    analysis->calibration = std::make_shared<Calibration>();
+    analysis->threshold = 22.0;
+    const std::vector<MarkovModel> models = makeModels(analysis->settings.model, analysis->grid());
+    analysis->model = models.front();
+    for (std::size_t i = 0; i < models.size() && models.size() > 1; ++i)
+        analysis->bank.push_back({models[i], analysis->calibration, i == 0 ? 0.0 : -1.0});
+    return analysis;
 }
 
 } // namespace
@@ -77,6 +108,85 @@ private slots:
         }
         QVERIFY(tracked > 5);
         QVERIFY(longPaths > 5);
+    }
+
+    void pingsAreThoseOfTheTracedPath_data()
+    {
+        QTest::addColumn<int>("motion");
+        QTest::newRow("one model") << static_cast<int>(Motion::Slopes);
+        QTest::newRow("bank") << static_cast<int>(Motion::Bank);
+    }
+
+    void pingsAreThoseOfTheTracedPath()
+    {
+        QFETCH(int, motion);
+        const auto analysis = targetInPings(static_cast<Motion>(motion));
+        const Grid &grid = analysis->grid();
+        LayerReplay replay(analysis);
+        int tracked = 0;
+        int longPaths = 0;
+        int turning = 0;
+        int models[2] = {0, 0};
+        for (const Index ping : {0, 1, 4, 17, 12}) { // backwards, too
+            const CellLayers &layers = replay.at(ping);
+            for (Index cell = 1 + ping % 2; cell < grid.size(); cell += ping == 17 ? 7 : 31) {
+                const std::vector<Index> c = grid.coordinates(cell);
+                const Explanation why = explain(*analysis, analysis->time().value(static_cast<double>(ping)),
+                                                {grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))});
+                const QByteArray where = QByteArray::number(ping) + " " + QByteArray::number(cell);
+                const auto i = static_cast<std::size_t>(cell);
+                const StateSpace &space = analysis->bank.empty() ? analysis->model.space : analysis->bank[why.model].model.space;
+                QVERIFY2(static_cast<double>(layers.statistic[i]) == why.displayed, where);
+                QVERIFY2(std::abs(why.statistic - why.displayed) < 1e-3, where);
+                QVERIFY2(layers.model[i] == why.model, where);
+                QVERIFY2(layers.age[i] + 1 == std::ssize(why.steps), where);
+                QVERIFY2(layers.plane[i] == space.planeOf(why.steps.back().state), where);
+                QVERIFY2(layers.isInhibited[i] || !why.inhibitedFor, where); // a new track's box counts from the next ping on
+                QVERIFY2(layers.resetFraction[i] >= 0.0f && layers.resetFraction[i] <= 1.0f, where);
+                tracked += why.isTracked ? 1 : 0;
+                longPaths += layers.age[i] > 5 ? 1 : 0;
+                turning += space.ratesOfPlane(layers.plane[i])[1] != 0 ? 1 : 0;
+                ++models[why.model];
+            }
+        }
+        QVERIFY(tracked > 3);
+        QVERIFY(longPaths > 5);
+        QVERIFY(turning > 5);
+        QVERIFY2(analysis->bank.empty() || (models[0] > 2 && models[1] > 2), qPrintable(QString("%1 %2").arg(models[0]).arg(models[1])));
+    }
+
+    void aPingsPicture()
+    {
+        const auto analysis = targetInPings(Motion::Slopes);
+        LayerReplay replay(analysis);
+        const LayerPicture picture = layerPictureOf(replay, 15, {0, 40, 0, 6, 1000, 1000});
+        QCOMPARE(picture.rows, Index(40));
+        QCOMPARE(picture.columns, Index(6));
+        const CellLayers &layers = replay.at(15);
+        for (Index cell = 0; cell < 240; ++cell) {
+            const CellReading reading = readCell(*analysis, layers, cell);
+            const CellReading pixel = readPixel(picture, picture.pixelAt(cell / 6, cell % 6));
+            QVERIFY(std::abs(pixel.ratePerSecond - reading.ratePerSecond) < 1e-5);
+            QVERIFY(std::abs(pixel.secondRatePerSecond - reading.secondRatePerSecond) < 1e-5);
+            QVERIFY(std::abs(pixel.ageSeconds - reading.ageSeconds) < 1e-4);
+            QCOMPARE(pixel.isInhibited, reading.isInhibited);
+        }
+        // The target: a cell, 10 m, a ping, since ping 3 or so, and kept from the detector as its track has it.
+        const std::size_t target = (10 + 15 - 3) * 6 + 5;
+        QVERIFY(layers.age[target] >= 10);
+        QVERIFY(picture.inhibited[target] > 0.0f);
+        QVERIFY(std::abs(static_cast<double>(picture.rate[target]) - 10.0 / analysis->time().step) < 1e-5);
+        QVERIFY(std::abs(largestRate(*analysis, 0) - 10.0 / analysis->time().step) < 1e-9);
+        // Coarser, by 4 × 3: the cell of the largest D speaks for all.
+        const LayerPicture coarse = layerPictureOf(replay, 15, {0, 40, 0, 6, 10, 2});
+        QCOMPARE(coarse.rows * coarse.columns, Index(20));
+        QCOMPARE(coarse.age[static_cast<std::size_t>(coarse.pixelAt(22, 5))], picture.age[target]);
+        QCOMPARE(coarse.pixelAt(40, 0), Index(-1));
+        // What is seen of a part begins on a whole pixel.
+        const LayerPicture part = layerPictureOf(replay, 15, {21, 30, 4, 6, 5, 2});
+        QCOMPARE(part.perRow, Index(2));
+        QCOMPARE(part.firstRow, Index(10));
+        QCOMPARE(part.age[static_cast<std::size_t>(part.pixelAt(22, 5))], picture.age[target]);
     }
 
     void backwardsIsTheSame()
@@ -121,8 +231,8 @@ private slots:
         QCOMPARE(fine.rows, frameCount);
         QCOMPARE(fine.columns, cellCount);
         const LayerPicture coarse = layerPicture(replay, {0, frameCount, 0, cellCount, 12, 8});
-        QCOMPARE(coarse.framesPerRow, Index(10));
-        QCOMPARE(coarse.cellsPerColumn, Index(8));
+        QCOMPARE(coarse.perRow, Index(10));
+        QCOMPARE(coarse.perColumn, Index(8));
         QCOMPARE(coarse.rows, Index(12));
         QCOMPARE(coarse.columns, Index(8));
         for (Index row = 0; row < coarse.rows; ++row)
@@ -155,8 +265,8 @@ private slots:
         LayerReplay replay(analysed());
         const LayerPicture whole = layerPicture(replay, {0, frameCount, 0, cellCount, 60, 32}); // by 2 × 2
         const LayerPicture part = layerPicture(replay, {41, 60, 11, 30, 10, 10});
-        QCOMPARE(part.framesPerRow, Index(2));
-        QCOMPARE(part.cellsPerColumn, Index(2));
+        QCOMPARE(part.perRow, Index(2));
+        QCOMPARE(part.perColumn, Index(2));
         QCOMPARE(part.firstRow, Index(20));
         QCOMPARE(part.firstColumn, Index(5));
         for (Index row = 0; row < part.rows; ++row)

@@ -12,6 +12,7 @@
 #include "widgets/ChartPlot.h"
 
 #include <QFile>
+#include <QProcess>
 #include <QSignalSpy>
 #include <QTableWidget>
 #include <QTemporaryDir>
@@ -174,6 +175,13 @@ void tst_Evaluation::curvesComeBackFromFiles()
     const Chart before = m_window->evaluation().pd().chart();
     list.exportTo(id, m_folder.filePath("curve.csv"));
     list.exportTo(id, m_folder.filePath("runs.jsonl"));
+    // The command line makes the same curve from what stands beside it.
+    QProcess replay;
+    replay.setWorkingDirectory(m_folder.path());
+    replay.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline-cli"), {"replay", "curve.csv"});
+    QVERIFY(replay.waitForFinished(patience));
+    QCOMPARE(replay.readAllStandardError(), QByteArray());
+    QCOMPARE(replay.readAllStandardOutput(), QByteArray("curve.csv: the same bytes\n"));
     m_window->evaluation().show(list.importFile(m_folder.filePath("runs.jsonl")));
     QCOMPARE(m_window->evaluation().pd().chart().curves.size(), before.curves.size());
     QVERIFY(shown().campaign->outcomes == m_window->experiments().entry(id)->campaign->outcomes);

@@ -12,7 +12,9 @@
 #include <QApplication>
 #include <QFile>
 #include <QInputDialog>
+#include <QImageReader>
 #include <QLineEdit>
+#include <QProcess>
 #include <QSignalSpy>
 #include <QTableView>
 #include <QTemporaryDir>
@@ -177,7 +179,15 @@ private slots:
         const auto boxes = readAnnotations(file.toStdString(), document().recording()->info());
         QCOMPARE(boxes.size(), events);
         m_window->reviews().importFrom(file);
-        QVERIFY(document().annotations().boxes == boxes);
+        // What is judged in it judges here, the rest are boxes.
+        QCOMPARE(document().annotations().boxes.size(), events - 1);
+        QCOMPARE(verdicts().front(), Verdict::Rejected);
+        document().undoStack().undo();
+        QCOMPARE(document().annotations().boxes.size(), std::size_t(0));
+        document().undoStack().undo(); // what was judged by hand
+        QCOMPARE(verdicts().front(), Verdict::None);
+        m_window->reviews().importFrom(file);
+        QCOMPARE(verdicts().front(), Verdict::Rejected);
         document().undoStack().undo();
         QVERIFY(document().annotations().boxes.empty());
         QFile bad(m_folder.filePath("bad.txt"));
@@ -185,6 +195,42 @@ private slots:
         bad.write("no table");
         bad.close();
         QVERIFY_EXCEPTION_THROWN(m_window->reviews().importFrom(bad.fileName()), Error);
+    }
+
+    void anExportIsMadeAgainWithoutTheWindow()
+    {
+        choose({1});
+        m_window->reviews().judge(Verdict::Rejected);
+        m_window->reviews().setNote(1, "a fan");
+        document().viewport().setSelection({{10.0, 20.0}, {100.0, 200.0}});
+        m_window->reviews().annotateSelection("pump");
+        m_window->controller().edit("decide.falseAlarmsPerHour", FieldValue(3.0), "Change");
+        QVERIFY(settle());
+        const auto replay = [&](const QString &name, QByteArray *error = nullptr) {
+            QProcess process;
+            process.setWorkingDirectory(m_folder.path());
+            process.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline-cli"), {"replay", name});
+            if (!process.waitForFinished(patience))
+                return QByteArray("did not end");
+            if (error)
+                *error = process.readAllStandardError();
+            return process.readAllStandardOutput();
+        };
+        for (const QString &name : {QString("r.csv"), QString("r.json"), QString("r.selections.txt"), QString("r.txt"), QString("r.sigmf-meta")}) {
+            m_window->reviews().exportTo(m_folder.filePath(name));
+            QCOMPARE(replay(name), name.toUtf8() + ": the same bytes\n");
+        }
+        // One digit of another makes a difference.
+        QFile file(m_folder.filePath("r.csv"));
+        QVERIFY(file.open(QIODevice::Append));
+        file.write("0");
+        file.close();
+        QByteArray error;
+        QCOMPARE(replay("r.csv", &error), QByteArray("r.csv: differs\n"));
+        QVERIFY2(error.startsWith("error: ") && error.count('\n') == 1, error.constData());
+        // A picture tells of its making, but another program makes it.
+        QVERIFY(replay("shot.png", &error).isEmpty());
+        QVERIFY2(error.contains("faintline replay") && error.count('\n') == 1, error.constData());
     }
 
     void survivesAnotherThresholdAndTheSession()

@@ -3,6 +3,7 @@
 #include "app/MainWindow.h"
 #include "app/LatencyPanel.h"
 #include "app/LawPanel.h"
+#include "app/OutputLayers.h"
 #include "app/PingBench.h"
 #include "app/StateSlicePanel.h"
 #include "app/WelcomePage.h"
@@ -14,15 +15,22 @@
 #include "widgets/ChartPlot.h"
 #include "widgets/EventTable.h"
 #include "widgets/LawPlot.h"
+#include "widgets/LayerItem.h"
 #include "widgets/PingMap.h"
+#include "widgets/PolarView.h"
 
 #include <qwt_plot_canvas.h>
+#include <qwt_text.h>
 
 #include <QCheckBox>
+#include <QMenu>
 #include <QMenuBar>
 #include <QSignalSpy>
+#include <QSettings>
 #include <QSlider>
+#include <QSplitter>
 #include <QTabBar>
+#include <QTableView>
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
@@ -64,6 +72,12 @@ bool openAndSettle(MainWindow &window, const QString &path, bool isAdjusted = tr
     return settled.wait(patience);
 }
 
+bool settleLayers(OutputLayers &layers)
+{
+    QSignalSpy settled(&layers, &OutputLayers::settled);
+    return !layers.isBusy() || settled.wait(patience);
+}
+
 } // namespace
 
 class tst_PingBench : public QObject
@@ -74,9 +88,10 @@ class tst_PingBench : public QObject
 
     QString path(const QString &name) const { return m_folder.filePath(name); }
 
-    std::unique_ptr<MainWindow> window() const
+    std::unique_ptr<MainWindow> window(bool remembers = false) const
     {
-        auto result = std::make_unique<MainWindow>();
+        auto result = std::make_unique<MainWindow>(
+            remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
         result->setAsking(false);
         result->resize(1400, 900);
         result->show();
@@ -392,6 +407,167 @@ private slots:
         QVERIFY(openAndSettle(*w, path("bad.json")));
         QCOMPARE(failures.size(), 1);
         QVERIFY2(failures.first().contains("moons"), qPrintable(failures.first()));
+    }
+
+    void layersAreOfThePingShown()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        PingBench &bench = w->pingBench();
+        OutputLayers &layers = w->workbench().layers();
+        bench.showPing(15);
+        QVERIFY(!bench.reading().contains("path age")); // nothing is computed unasked
+        const QImage statistic = bench.output()->grab().toImage();
+        QTest::keyClick(bench.output()->plane(), Qt::Key_V);
+        QCOMPARE(layers.layer(), OutputLayer::Rate);
+        QVERIFY(settleLayers(layers));
+        QVERIFY(bench.output()->plane()->title().text().contains("range rate"));
+        QVERIFY(bench.output()->grab().toImage() != statistic);
+        // The picture and the read-out are the replay's own.
+        const auto analysis = w->document().analysis();
+        LayerReplay replay(analysis);
+        const CellLayers &exact = replay.at(15);
+        QVERIFY(layers.item().picture());
+        QCOMPARE(layers.item().picture()->rows, Index(120));
+        for (Index cell = 0; cell < 960; ++cell) {
+            const CellReading there = readPixel(*layers.item().picture(), layers.item().picture()->pixelAt(cell / 8, cell % 8));
+            const CellReading expected = readCell(*analysis, exact, cell);
+            QVERIFY(std::abs(there.ratePerSecond - expected.ratePerSecond) < 1e-5);
+            QVERIFY(std::abs(there.ageSeconds - expected.ageSeconds) < 1e-3);
+        }
+        QVERIFY(bench.reading().contains("path age"));
+        // The next one is of bearings, which lines have not; from above, too.
+        QTest::keyClick(bench.output()->plane(), Qt::Key_V);
+        QCOMPARE(layers.layer(), OutputLayer::SecondRate);
+        QTest::keyClick(bench.output()->plane(), Qt::Key_V);
+        QCOMPARE(layers.layer(), OutputLayer::Age);
+        QVERIFY(settleLayers(layers));
+        bench.setPolar(true);
+        QVERIFY(settleLayers(layers));
+        const QImage age = bench.output()->grab().toImage();
+        QTest::keyClick(bench.output()->polar(), Qt::Key_V, Qt::ShiftModifier);
+        QVERIFY(layers.isOverlay());
+        QVERIFY(bench.output()->grab().toImage() != age);
+        // Another ping's layer is not this one's: it goes at once and comes anew.
+        bench.stepFrames(1);
+        QVERIFY(!layers.item().picture());
+        QVERIFY(settleLayers(layers));
+        QVERIFY(layers.item().picture());
+        layers.setLayer(OutputLayer::SecondRate);
+        QVERIFY(settleLayers(layers));
+        QFile file(path("line.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"kind": "lines", "sampleRateHz": 500, "durationSeconds": 10, "lines": []})");
+        file.close();
+        QVERIFY(openAndSettle(*w, path("line.json"), false));
+        QCOMPARE(layers.layer(), OutputLayer::Rate);
+    }
+
+    void aChangedDetectorIsSeenAtOnceOnThePingShown()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        PingBench &bench = w->pingBench();
+        bench.showPing(20);
+        const auto before = w->document().analysis();
+        const auto shownBefore = bench.output()->plane()->picture();
+        QSignalSpy settled(&w->controller(), &AnalysisController::settled);
+        QStringList order;
+        connect(&w->document(), &Document::provisionalChanged, this, [&] {
+            if (!w->document().provisional())
+                return;
+            order << "provisional";
+            QCOMPARE(w->document().analysis(), before);
+            QCOMPARE(before->time().nearest(w->document().provisional()->time().first), Index(20));
+            QVERIFY(bench.output()->plane()->title().text().contains("provisional"));
+            QVERIFY(bench.output()->plane()->picture() != shownBefore);
+            bench.stepFrames(-1); // it is of that ping only
+            QVERIFY(!bench.output()->plane()->title().text().contains("provisional"));
+            bench.stepFrames(1);
+            QVERIFY(bench.output()->plane()->title().text().contains("provisional"));
+        });
+        connect(&w->document(), &Document::analysisChanged, this, [&] { order << "analysis"; });
+        w->controller().edit("model.snr", FieldValue(before->settings.model.snr * 1.3), "Change");
+        QVERIFY(settled.wait(patience));
+        QCOMPARE(order, (QStringList{"provisional", "analysis"}));
+        QVERIFY(!bench.output()->plane()->title().text().contains("provisional"));
+        QVERIFY(w->document().isCurrent());
+    }
+
+    void rejectedTracksAreFaintOnTheMaps()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        PingBench &bench = w->pingBench();
+        const Track &track = w->document().analysis()->tracks.front();
+        bench.showPing(track.detectFrame + 3);
+        const Grid &grid = w->document().analysis()->grid();
+        const auto point = std::find_if(track.points.begin(), track.points.end(), [&](const TrackPoint &p) { return p.frame == bench.ping(); });
+        QVERIFY(point != track.points.end());
+        const std::vector<Index> c = grid.coordinates(point->cell);
+        const PingMarks::Place place{grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))};
+        for (const bool isPolar : {false, true}) {
+            bench.setPolar(isPolar);
+            QCOMPARE(bench.output()->trackAt(place), track.id);
+            QCOMPARE(bench.output()->trackAt({place.range + 300.0, place.bearing + 90.0}), 0);
+        }
+        bench.setPolar(false);
+        // A right click on it says whom the keys are about.
+        QMenu menu;
+        emit bench.output()->plane()->contextMenuRequested(&menu, place.range, place.bearing);
+        const QList<QAction *> offered = menu.actions();
+        QVERIFY(std::any_of(offered.begin(), offered.end(), [](const QAction *action) { return action->shortcut() == Qt::Key_X; }));
+        QCOMPARE(w->eventTable().selectedEvent(), track.id);
+        bench.input()->setSelectedTrack(0);
+        bench.output()->setSelectedTrack(0);
+        const QImage before = bench.output()->grab().toImage();
+        bench.output()->plane()->setFocus();
+        QTest::keyClick(bench.output()->plane(), Qt::Key_X);
+        QCOMPARE(w->document().annotations().reviews.size(), std::size_t(1));
+        QCOMPARE(w->document().annotations().reviews.front().verdict, Verdict::Rejected);
+        QVERIFY(bench.output()->grab().toImage() != before);
+        QTest::keyClick(bench.output()->plane(), Qt::Key_U);
+        QVERIFY(bench.output()->grab().toImage() == before);
+        QMenu nothing;
+        emit bench.output()->plane()->contextMenuRequested(&nothing, place.range + 300.0, place.bearing + 90.0);
+        QVERIFY(nothing.isEmpty());
+    }
+
+    void splittersAreRemembered()
+    {
+        QList<QList<int>> shares;
+        const auto splitters = [](const MainWindow &w) { return w.findChildren<QSplitter *>(); };
+        const auto sharesOf = [&](MainWindow &w) {
+            QList<QList<int>> result;
+            for (const QSplitter *splitter : splitters(w))
+                if (w.pingBench().isAncestorOf(splitter))
+                    result << splitter->sizes();
+            return result;
+        };
+        {
+            const auto w = window(true);
+            QVERIFY(openAndSettle(*w, path("pings.json")));
+            const QList<QList<int>> asBuilt = sharesOf(*w);
+            QCOMPARE(asBuilt.size(), 3);
+            for (QSplitter *splitter : splitters(*w))
+                if (w->pingBench().isAncestorOf(splitter)) {
+                    QList<int> sizes = splitter->sizes();
+                    sizes.front() -= 40;
+                    sizes.back() += 40;
+                    splitter->setSizes(sizes);
+                }
+            shares = sharesOf(*w);
+            QVERIFY(shares != asBuilt);
+            w->close();
+        }
+        {
+            const auto w = window(true); // lines only: what is not seen stays remembered
+            QVERIFY(openAndSettle(*w, path("line.json"), false));
+            w->close();
+        }
+        const auto w = window(true);
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QCOMPARE(sharesOf(*w), shares);
     }
 };
 

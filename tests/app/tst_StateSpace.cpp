@@ -258,19 +258,19 @@ private slots:
         OutputLayers &layers = m_window->workbench().layers();
         layers.setLayer(OutputLayer::Age);
         QVERIFY(settleLayers(*m_window));
-        const Index whole = layers.item().picture()->rows * layers.item().picture()->framesPerRow;
+        const Index whole = layers.item().picture()->rows * layers.item().picture()->perRow;
         QVERIFY(whole >= m_window->document().analysis()->time().count);
         m_window->document().viewport().zoomTo({10.0, 14.0}, {190.0, 230.0});
         QVERIFY(settleLayers(*m_window));
         const LayerPicture &picture = *layers.item().picture();
-        QCOMPARE(picture.framesPerRow, Index(1));
-        QCOMPARE(picture.cellsPerColumn, Index(1));
+        QCOMPARE(picture.perRow, Index(1));
+        QCOMPARE(picture.perColumn, Index(1));
         QVERIFY(picture.rows < 25);
         QCOMPARE(picture.firstRow, m_window->document().analysis()->time().nearest(10.0));
         // The read-out's figures are the cell's own.
         m_window->document().viewport().setCursor({13.0, 206.5});
         QVERIFY(settleLayers(*m_window));
-        const auto reading = layers.readingAt({13.0, 206.5});
+        const auto reading = layers.readingAt(Viewport::Point{13.0, 206.5});
         QVERIFY(reading);
         LayerReplay replay(m_window->document().analysis());
         const Analysis &analysis = *m_window->document().analysis();
@@ -285,10 +285,10 @@ private slots:
         OutputLayers &layers = m_window->workbench().layers();
         m_window->document().viewport().setCursor({20.0, 210.0});
         QVERIFY(!layers.isBusy());
-        QVERIFY(!layers.readingAt({20.0, 210.0}));
+        QVERIFY(!layers.readingAt(Viewport::Point{20.0, 210.0}));
         m_window->showStates();
         QVERIFY(settleLayers(*m_window));
-        QVERIFY(layers.readingAt({20.0, 210.0})); // watched with the states
+        QVERIFY(layers.readingAt(Viewport::Point{20.0, 210.0})); // watched with the states
     }
 };
 

@@ -256,6 +256,18 @@ void tst_cli::resultsAreMadeAgain()
     QCOMPARE(replayed.code, 1);
     QVERIFY2(replayed.err.contains("again.csv"), replayed.err.constData());
 
+    // What somebody judged elsewhere stands beside the events.
+    QCOMPARE(run(m_folder, QStringList{"detect", "line.wav", "--events", "plain.csv"} + settings).code, 0);
+    QVERIFY(!content("plain.csv").contains("review"));
+    writeBytes(pathOf("judged.txt"), "8\t22\t[rejected] mains\n\\\t205\t218\n");
+    QCOMPARE(run(m_folder, QStringList{"detect", "line.wav", "--annotations", "judged.txt", "--events", "judged.csv"} + settings).err, QByteArray());
+    QVERIFY2(content("judged.csv").contains("rejected") && content("judged.csv").contains("mains"), content("judged.csv").constData());
+    QCOMPARE(run(m_folder, {"replay", "judged.csv"}).out, QByteArray("judged.csv: the same bytes\n"));
+    QCOMPARE(run(m_folder, QStringList{"detect", "line.wav", "--annotations", "judged.txt", "--summary"} + settings).code, 2);
+    const Outcome missing = run(m_folder, QStringList{"detect", "line.wav", "--annotations", "none.txt", "--events", "e.csv"} + settings);
+    QCOMPARE(missing.code, 2);
+    QCOMPARE(missing.err.count('\n'), 1);
+
     // So is an input that is another one by now, and a file of which nothing is known.
     QCOMPARE(run(m_folder, {"simulate", "scene.json", "--out", "input.wav", "--seed", "5"}).code, 0);
     QCOMPARE(run(m_folder, QStringList{"detect", "input.wav", "--events", "input.csv"} + settings).code, 0);

@@ -73,7 +73,7 @@ void tst_writeReport::wellFormedAndTheSameAgain()
     QVERIFY(page.find("base64," + QByteArray("\x89PNG\0x", 6).toBase64().toStdString() + "\"") != std::string::npos);
     QVERIFY(page.find("base64,YWI=\"") != std::string::npos);
     QVERIFY(page.find("base64,YWJj\"") != std::string::npos);
-    QVERIFY(page.find("<tr class=\"rejected\"><td>1</td>") != std::string::npos);
+    QVERIFY(page.find("<tr class=\"rejected\"><td class=\"n\">1</td>") != std::string::npos);
     QVERIFY(page.find("href") == std::string::npos); // needs nothing else
     QVERIFY(page.find("http") == std::string::npos);
     QCOMPARE(reportHtml(analysis, material), page);

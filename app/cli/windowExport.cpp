@@ -1,0 +1,122 @@
+#include "app/cli/windowExport.h"
+
+#include "analysis/Review.h"
+#include "analysis/analyse.h"
+#include "exchange/CampaignFile.h"
+#include "exchange/ModelFile.h"
+#include "exchange/writeReviewed.h"
+#include "recording/InjectedRecording.h"
+#include "recording/SimulatedRecording.h"
+#include "recording/openRecording.h"
+#include "spectrum/SimulatedPings.h"
+
+#include <filesystem>
+#include <numeric>
+
+namespace faintline::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+    /// The one of the two that is there.
+    struct Opened {
+        RecordingPointer recording;
+        NormalisedFramesPointer frames;
+    };
+
+    /// The file that the provenance tells of by name and hash.
+    std::string find(const Json &source, const std::string &result, const std::string &recording)
+    {
+        const std::string name = fs::path(source.at("path").get<std::string>()).filename().string();
+        const std::string path = recording.empty() ? (fs::absolute(result).parent_path() / name).string() : recording;
+        if (!fs::exists(path))
+            throw Error(path, "is what " + result + " was made from, and is not there; --recording says where it is");
+        if (recordingHash(path) != source.at("sha256").get<std::string>())
+            throw Error(path, "is not what " + result + " was made from");
+        return path;
+    }
+
+    RecordingPointer withInjections(RecordingPointer base, const Json &injections)
+    {
+        for (const Json &one : injections) {
+            InjectedLine line;
+            readFields(one.at("line"), LineSettings::fields(), line.line, "recording.injected");
+            line.amplitude = one.at("amplitude");
+            base = std::make_shared<InjectedRecording>(base, std::vector{line}, one.value("channel", 0), one.value("seed", std::uint64_t(1)));
+        }
+        return base;
+    }
+
+    Opened open(const Json &source, const std::string &result, const std::string &recording)
+    {
+        if (source.contains("scenario") && isPingScene(source["scenario"]))
+            return {nullptr, std::make_shared<SimulatedPings>(pingSceneFromJson(source["scenario"]))};
+        const Json injections = source.value("injected", Json::array());
+        if (source.contains("scenario"))
+            return {withInjections(std::make_shared<SimulatedRecording>(lineSceneFromJson(source["scenario"])), injections), nullptr};
+        const std::string path = find(source, result, recording);
+        if (path.ends_with(".npy")) {
+            const std::string grid = path.substr(0, path.size() - 4) + ".grid.json";
+            return {nullptr, readFrames(path, fs::exists(grid) ? grid : std::string())};
+        }
+        OpenOptions options;
+        options.iq = source.value("iq", false);
+        options.rawType = source.value("rawType", std::string());
+        options.rawRateHz = source.value("rawRateHz", 0.0);
+        options.rawChannels = source.value("rawChannels", 1);
+        options.rawHeaderBytes = source.value("rawHeaderBytes", Index(0));
+        return {withInjections(openRecording(path, options), injections), nullptr};
+    }
+
+    void remakeEvents(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,
+                      const RunContext &context)
+    {
+        checkReviewedPath(out);
+        const Opened opened = open(provenance.at("recording"), result, recording);
+        const AnalysisSettings settings = settingsFromJson(provenance.at("settings").dump(), "settings");
+        const auto analysis = opened.frames ? analyse(opened.frames, settings, context) : analyse(opened.recording, settings, context);
+        const Annotations annotations =
+            provenance.contains("annotations") ? annotationsFromJson(provenance["annotations"], "annotations") : Annotations();
+        std::vector<Event> shown = events(*analysis);
+        if (provenance.contains("shownThreshold")) // it was being dragged
+            std::erase_if(shown, [least = provenance["shownThreshold"].get<double>()](const Event &event) { return event.statistic < least; });
+        writeReviewed(*analysis, shown, annotations, out);
+    }
+
+    void remakeCurve(const Json &provenance, const std::string &out, const RunContext &context)
+    {
+        const Experiment experiment = experimentFromJson(provenance.at("experiment"), "experiment");
+        std::vector<int> runs(static_cast<std::size_t>(runCount(experiment)));
+        std::iota(runs.begin(), runs.end(), 0);
+        if (provenance.contains("runs")) // it was stopped
+            runs = provenance["runs"].get<std::vector<int>>();
+        Campaign campaign = begin(experiment, context.part(0.0, 0.1));
+        carryOut(campaign, runs, context.part(0.1, 1.0));
+        writeCurve(campaign, out);
+    }
+
+} // namespace
+
+bool isOfWindow(const Json &provenance)
+{
+    return provenance.is_object() && !provenance.contains("arguments") && provenance.contains("version");
+}
+
+void remakeWindowExport(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,
+                        const RunContext &context)
+{
+    try {
+        if (provenance.contains("sequential"))
+            throw Error(result, "is a chart of a sequential test, which only the window makes: open its source and start the test again");
+        if (provenance.contains("experiment"))
+            return remakeCurve(provenance, out, context);
+        if (provenance.contains("recording"))
+            return remakeEvents(provenance, result, recording, out, context);
+    } catch (const Json::exception &error) {
+        throw Error(result, std::string("has a provenance that is broken: ") + error.what());
+    }
+    throw Error(result, "has a provenance that tells neither of a recording nor of an experiment");
+}
+
+} // namespace faintline::cli
