@@ -23,6 +23,7 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QScopedValueRollback>
 #include <QScrollArea>
 
 #include <algorithm>
@@ -547,8 +548,12 @@ bool ChartPlot::eventFilter(QObject *watched, QEvent *event)
 {
     if (watched != m_plot->canvas())
         return QWidget::eventFilter(watched, event);
-    if (event->type() == QEvent::Resize)
+    // Labels take room by the ticks there are, and there are ticks for the room: where the two never agree, the third try stands.
+    constexpr int mostTries = 3;
+    if (event->type() == QEvent::Resize && m_resizing < mostTries) {
+        const QScopedValueRollback nested(m_resizing, m_resizing + 1);
         layAxes();
+    }
     if (event->type() == QEvent::MouseMove) {
         const auto place = nearest(static_cast<QMouseEvent *>(event)->position());
         if (place != m_place)

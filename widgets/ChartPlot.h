@@ -95,6 +95,7 @@ private:
     Chart m_chart;
     QSet<QString> m_hidden; ///< by name
     std::optional<Place> m_place;
+    int m_resizing = 0; ///< how deep in resizing of the canvas by what resizing it changed
     QString m_invitation;
 
     QwtPlot *m_plot;

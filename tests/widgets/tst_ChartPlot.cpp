@@ -32,6 +32,7 @@ private slots:
     void logarithmicAxesPlaceDecadesEvenly();
     void growsWithoutLosingItsKey();
     void emptySaysWhatToDo();
+    void anyWidthSettles();
 
 private:
     static Chart chart(bool isLogarithmicX = false)
@@ -168,6 +169,17 @@ void tst_ChartPlot::emptySaysWhatToDo()
     QCOMPARE(m_view->findChildren<QCheckBox *>().size(), 0);
     hover({10, 10});
     QTest::keyClick(m_view.get(), Qt::Key_Right);
+}
+
+/// Fewer ticks have narrower labels, which leave room for more ticks, which …
+void tst_ChartPlot::anyWidthSettles()
+{
+    m_view->setChart({"Where both disagree", "x", "y", false, false, {{"one", Curve::Kind::Measured, {{-99, 0.2, {}}, {99, 13, {}}}}}});
+    for (int width = 300; width < 360; ++width) {
+        m_view->resize(width, 300);
+        QCoreApplication::processEvents();
+        QVERIFY(m_view->plot()->canvas()->width() > width / 2);
+    }
 }
 
 QTEST_MAIN(tst_ChartPlot)
