@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace faintline {
 
@@ -14,12 +15,35 @@ namespace {
 
     constexpr int blockSize = 32; ///< of transposition
 
+    /// To 40 binary digits: what scrolls keeps the width of its pixels whatever the rounding of its ends.
+    double steadied(double step)
+    {
+        int exponent = 0;
+        const double mantissa = std::frexp(step, &exponent);
+        return std::ldexp(std::round(std::ldexp(mantissa, 40)), exponent - 40);
+    }
+
     /// Pixels over an axis, on a grid that starts with the axis.
     PixelRow pixelRow(const Span &span, int count, const Axis &axis)
     {
-        const double step = span.width() / count / axis.step;
+        const double step = steadied(span.width() / count / axis.step);
         const double first = axis.position(span.low) + 0.5;
         return {std::round(first / step) * step, step, count};
+    }
+
+    /// By how many pixels a row has moved; nothing where it has become another one.
+    std::optional<int> shiftOf(const PixelRow &from, const PixelRow &to)
+    {
+        if (from.step != to.step || from.count != to.count)
+            return {};
+        const double shift = std::round(to.first / to.step) - std::round(from.first / from.step);
+        return std::abs(shift) < to.count ? std::optional(static_cast<int>(shift)) : std::nullopt;
+    }
+
+    /// `count` pixels of a row from its pixel `begin` on.
+    PixelRow part(const PixelRow &row, int begin, int count)
+    {
+        return {(std::round(row.first / row.step) + begin) * row.step, row.step, count};
     }
 
     /// Rows ↔ columns, by blocks that stay in the cache.
@@ -89,10 +113,44 @@ void RasterItem::updateBytes(const PixelRow &time, const PixelRow &cells) const
     const BytesKey key{m_picture.get(), time, cells};
     if (key == m_bytesKey)
         return;
-    m_bytes.resize(static_cast<std::size_t>(time.count) * static_cast<std::size_t>(cells.count));
-    rasterise(*m_picture, time, cells, m_bytes);
+    const auto down = shiftOf(m_bytesKey.time, time);
+    const auto right = shiftOf(m_bytesKey.cells, cells);
+    if (key.picture == m_bytesKey.picture && down && right) {
+        scroll(time, cells, *down, *right);
+    } else {
+        m_bytes.resize(static_cast<std::size_t>(time.count) * static_cast<std::size_t>(cells.count));
+        rasterise(*m_picture, time, cells, m_bytes);
+    }
     m_bytesKey = key;
     m_imageKey.reset();
+}
+
+/// What was in sight before moves, what has come into sight is drawn: whole lines, then the sides of the others.
+void RasterItem::scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const
+{
+    const int level = levelToRead(*m_picture, time, cells);
+    const auto line = [&](int row) { return m_bytes.data() + static_cast<std::ptrdiff_t>(row) * cells.count; };
+    const int firstKept = std::max(-down, 0);
+    const int endKept = time.count - std::max(down, 0);
+    const int width = cells.count - std::abs(right);
+    for (int i = firstKept; i < endKept; ++i) {
+        const int row = down >= 0 ? i : firstKept + endKept - 1 - i; // what is still to be moved is not written over
+        std::memmove(line(row) + std::max(-right, 0), line(row + down) + std::max(right, 0), static_cast<std::size_t>(width));
+    }
+    if (down != 0) {
+        const int first = down > 0 ? endKept : 0;
+        rasterise(*m_picture, level, part(time, first, std::abs(down)), cells,
+                  std::span(m_bytes).subspan(static_cast<std::size_t>(first) * static_cast<std::size_t>(cells.count),
+                                             static_cast<std::size_t>(std::abs(down)) * static_cast<std::size_t>(cells.count)));
+    }
+    if (right != 0) {
+        const int first = right > 0 ? width : 0;
+        const int rows = endKept - firstKept;
+        std::vector<std::uint8_t> side(static_cast<std::size_t>(rows) * static_cast<std::size_t>(std::abs(right)));
+        rasterise(*m_picture, level, part(time, firstKept, rows), part(cells, first, std::abs(right)), side);
+        for (int i = 0; i < rows; ++i)
+            std::copy_n(side.data() + static_cast<std::ptrdiff_t>(i) * std::abs(right), std::abs(right), line(firstKept + i) + first);
+    }
 }
 
 void RasterItem::paint(const ImageKey &key, const QSize &size) const

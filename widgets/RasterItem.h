@@ -20,8 +20,8 @@ namespace faintline {
 ///
 /// Two caches, each kept as long as its key holds: the bytes of the pixels (picture, axes, size) and the image made
 /// from them (colours, range, threshold). Dragging a range or a threshold so costs a table look-up per pixel. Pixels
-/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker; it is placed to the
-/// nearest half pixel.
+/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker, and only what comes into sight is
+/// drawn; it is placed to the nearest half pixel.
 class RasterItem : public QwtPlotItem
 {
 public:
@@ -57,6 +57,7 @@ private:
     };
 
     void updateBytes(const PixelRow &time, const PixelRow &cells) const;
+    void scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const;
     void paint(const ImageKey &key, const QSize &size) const;
     std::vector<QRgb> colourTable() const;
 
