@@ -118,6 +118,8 @@ void WaterfallView::setViewport(Viewport *viewport)
 void WaterfallView::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
 {
     const bool isOtherKind = picture && m_picture && picture->scale().kind() != m_picture->scale().kind();
+    const bool hasSameAxes = picture && m_picture && frequency == m_frequency && picture->time().name == m_picture->time().name
+                             && picture->time().unit == m_picture->time().unit;
     m_picture = std::move(picture);
     m_frequency = frequency;
     m_raster->setPicture(m_picture, frequency);
@@ -128,7 +130,7 @@ void WaterfallView::setPicture(std::shared_ptr<const PeakPyramid> picture, const
     }
     if (isOtherKind)
         m_isRangeAutomatic = true;
-    layAxes();
+    hasSameAxes ? countHistogram() : layAxes();
     updateMarks();
 }
 
