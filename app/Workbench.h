@@ -11,6 +11,7 @@ class QSplitter;
 
 namespace faintline {
 
+class Closeup;
 class OutputLayers;
 class StripPlot;
 
@@ -27,6 +28,7 @@ public:
     QWidget *inputPane() const { return m_inputPane; } ///< with its colour bar
     QWidget *outputPane() const { return m_outputPane; }
     OutputLayers &layers() { return *m_layers; }
+    Closeup &closeup() { return *m_closeup; }
     StripPlot *statisticPlot() const { return m_statistic; }
     StripPlot *regulationPlot() const { return m_regulation; }
 
@@ -70,6 +72,7 @@ private:
     WaterfallView *m_input;
     WaterfallView *m_output;
     OutputLayers *m_layers;
+    Closeup *m_closeup;
     QWidget *m_inputPane;
     QWidget *m_outputPane;
     StripPlot *m_statistic;

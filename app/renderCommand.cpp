@@ -1,5 +1,6 @@
 #include "app/renderCommand.h"
 
+#include "app/Closeup.h"
 #include "app/ComparePanel.h"
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
@@ -221,6 +222,17 @@ namespace {
             loop.exec();
     }
 
+    void settleCloseup(MainWindow &window)
+    {
+        QEventLoop loop;
+        QObject::connect(&window.workbench().closeup(), &Closeup::settled, &loop, [&] {
+            if (!window.workbench().closeup().isBusy())
+                loop.quit();
+        });
+        if (window.workbench().closeup().isBusy())
+            loop.exec();
+    }
+
     void showLayer(MainWindow &window, const RenderOptions &options)
     {
         const auto found = std::find(outputLayerNames.begin(), outputLayerNames.end(), options.layer);
@@ -404,8 +416,9 @@ void render(const RenderOptions &options)
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         QWidget &widget = *window.view(QString::fromStdString(view));
-        pictureOf(widget, options.size); // at that size a layer may have more pixels to fill
+        pictureOf(widget, options.size); // at that size a layer may have more pixels to fill, and a picture smaller ones
         settleLayers(window);
+        settleCloseup(window);
         write(pictureOf(widget, options.size), fileName(options, view));
     }
 }

@@ -82,9 +82,22 @@ RasterItem::RasterItem() : m_map(&ColourMap::named(ColourMap::defaultName()))
 
 void RasterItem::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
 {
+    const Axis time = picture ? picture->time() : Axis();
+    setPicture(std::move(picture), frequency, time);
+}
+
+void RasterItem::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time)
+{
     m_picture = std::move(picture);
     m_frequency = frequency;
+    m_time = time;
     m_bytesKey = {};
+}
+
+void RasterItem::draw(const PixelRow &time, const PixelRow &cells, int level, std::span<std::uint8_t> out) const
+{
+    const auto first = static_cast<Index>(std::lround(m_time.position(m_picture->time().first)));
+    rasterise(*m_picture, level, time, cells, out, {first, m_time.count});
 }
 
 void RasterItem::setColours(const ColourMap &map, const Span &range)
@@ -119,7 +132,7 @@ void RasterItem::updateBytes(const PixelRow &time, const PixelRow &cells) const
         scroll(time, cells, *down, *right);
     } else {
         m_bytes.resize(static_cast<std::size_t>(time.count) * static_cast<std::size_t>(cells.count));
-        rasterise(*m_picture, time, cells, m_bytes);
+        draw(time, cells, levelToRead(*m_picture, time, cells), m_bytes);
     }
     m_bytesKey = key;
     m_imageKey.reset();
@@ -139,15 +152,15 @@ void RasterItem::scroll(const PixelRow &time, const PixelRow &cells, int down, i
     }
     if (down != 0) {
         const int first = down > 0 ? endKept : 0;
-        rasterise(*m_picture, level, part(time, first, std::abs(down)), cells,
-                  std::span(m_bytes).subspan(static_cast<std::size_t>(first) * static_cast<std::size_t>(cells.count),
-                                             static_cast<std::size_t>(std::abs(down)) * static_cast<std::size_t>(cells.count)));
+        draw(part(time, first, std::abs(down)), cells, level,
+             std::span(m_bytes).subspan(static_cast<std::size_t>(first) * static_cast<std::size_t>(cells.count),
+                                        static_cast<std::size_t>(std::abs(down)) * static_cast<std::size_t>(cells.count)));
     }
     if (right != 0) {
         const int first = right > 0 ? width : 0;
         const int rows = endKept - firstKept;
         std::vector<std::uint8_t> side(static_cast<std::size_t>(rows) * static_cast<std::size_t>(std::abs(right)));
-        rasterise(*m_picture, level, part(time, firstKept, rows), part(cells, first, std::abs(right)), side);
+        draw(part(time, firstKept, rows), part(cells, first, std::abs(right)), level, side);
         for (int i = 0; i < rows; ++i)
             std::copy_n(side.data() + static_cast<std::ptrdiff_t>(i) * std::abs(right), std::abs(right), line(firstKept + i) + first);
     }
@@ -194,7 +207,7 @@ QImage RasterItem::image(const Span &x, const Span &y, bool isUpward, const QSiz
         return {};
     const Span &time = m_isTimeVertical ? y : x;
     const Span &frequency = m_isTimeVertical ? x : y;
-    updateBytes(pixelRow(time, m_isTimeVertical ? size.height() : size.width(), m_picture->time()),
+    updateBytes(pixelRow(time, m_isTimeVertical ? size.height() : size.width(), m_time),
                 pixelRow(frequency, m_isTimeVertical ? size.width() : size.height(), m_frequency));
     const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
     paint({isUpward, m_isTimeVertical, m_map, m_range, contourByte, m_contourColour}, size);

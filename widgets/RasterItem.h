@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace faintline {
@@ -28,6 +29,8 @@ public:
     RasterItem();
 
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
+    /// A part of the frames of that time axis: drawn on the same pixels as a picture of all of them.
+    void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time);
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
     void setColours(const ColourMap &map, const Span &range);
     /// Pixels around those at or above this value are drawn in the contour's colour.
@@ -57,12 +60,14 @@ private:
     };
 
     void updateBytes(const PixelRow &time, const PixelRow &cells) const;
+    void draw(const PixelRow &time, const PixelRow &cells, int level, std::span<std::uint8_t> out) const;
     void scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const;
     void paint(const ImageKey &key, const QSize &size) const;
     std::vector<QRgb> colourTable() const;
 
     std::shared_ptr<const PeakPyramid> m_picture;
     Axis m_frequency;
+    Axis m_time;
     bool m_isTimeVertical = true;
     const ColourMap *m_map;
     Span m_range{-6.0, 14.0};

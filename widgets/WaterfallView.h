@@ -71,6 +71,13 @@ public:
     const std::shared_ptr<const PeakPyramid> &picture() const { return m_picture; }
     const Axis &frequencyAxis() const { return m_frequency; }
 
+    /// A stretch of the picture in rows of fewer frames: shown in its place wherever it holds all that can be seen and pixels are
+    /// smaller than the picture's own rows. Another picture drops it.
+    void setCloseup(std::shared_ptr<const PeakPyramid> closeup);
+    /// The picture, or its close-up where that is what can be seen.
+    const std::shared_ptr<const PeakPyramid> &shownPicture() const { return m_shown; }
+    double framesPerPixel() const; ///< as visible
+
     /// The box all cells of a picture fill: half a cell beyond the outermost frames and bins.
     static Viewport::Box extents(const Axis &time, const Axis &frequency);
 
@@ -84,7 +91,7 @@ public:
     bool isRangeAutomatic() const { return m_isRangeAutomatic; }
     /// The range the picture's values suggest at this zoom: noise dark, what stands out of it bright.
     Span automaticRange() const;
-    /// Number of pixels per byte of the picture's scale, for the whole picture at this zoom.
+    /// Number of pixels per byte of the picture's scale, for the whole picture, or its close-up, at this zoom.
     const std::vector<double> &histogram() const { return m_histogram; }
     QString valueUnit() const; ///< "dB", or the statistic's
     /// What a statistic is measured in, "nat" unless said otherwise, and the heading that says so.
@@ -140,6 +147,7 @@ signals:
     void colourMapChanged(const QString &name);
     void rangeChanged(double low, double high);
     void histogramChanged();
+    void shownPictureChanged();
     void thresholdChanged(double nats); ///< NaN: none
     void layersChanged();
     void measuringChanged(bool isOn);
@@ -170,6 +178,8 @@ private:
     void layAxes();
     void followSpan();
     void followCursor();
+    void choosePicture();
+    const PeakPyramid &pictureOf(const Span &time) const;
     void countHistogram();
     void applyRange(const Span &range);
     bool hasTime() const;
@@ -191,6 +201,8 @@ private:
     QString m_statisticUnit = QStringLiteral("nat");
     QPointer<Viewport> m_viewport;
     std::shared_ptr<const PeakPyramid> m_picture;
+    std::shared_ptr<const PeakPyramid> m_closeup;
+    std::shared_ptr<const PeakPyramid> m_shown; ///< one of them
     Axis m_frequency;
     RasterItem *m_raster;
     OverlayItem *m_overlay;

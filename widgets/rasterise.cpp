@@ -130,7 +130,8 @@ void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow 
     rasterise(picture, levelToRead(picture, time, cells), time, cells, out);
 }
 
-void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out)
+void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out,
+               const FramesWithin &frames)
 {
     const Index rowCount = picture.rowCount(level);
     if (rowCount == 0 || picture.cells() == 0) {
@@ -139,8 +140,11 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
     }
     // Of a picture that is still being made, rows to come are empty.
     const Index perRow = picture.framesPerRow(level);
-    const Index wholeCount = std::max(rowCount, (picture.time().count + perRow - 1) / perRow);
-    const auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(perRow), wholeCount);
+    const Index firstRow = frames.first / perRow;
+    const Index wholeCount = std::max(firstRow + rowCount, (std::max(frames.all, picture.time().count) + perRow - 1) / perRow);
+    auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(perRow), wholeCount);
+    for (Range &rows : rowsOfPixel)
+        rows = {rows.end > firstRow ? std::max<Index>(rows.begin - firstRow, 0) : -1, rows.end - firstRow};
     const auto cellsOfPixel = itemsOfPixels(cells, 1.0, picture.cells());
     const auto lowest = static_cast<std::size_t>(cellsOfPixel.front().begin);
     const auto width = static_cast<std::size_t>(cellsOfPixel.back().end) - lowest;
@@ -157,7 +161,7 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
                 continue;
             }
             done = rows;
-            if (rows.begin >= rowCount) {
+            if (rows.begin < 0 || rows.begin >= rowCount) {
                 std::fill_n(line, cellsOfPixel.size(), std::uint8_t(0));
                 continue;
             }

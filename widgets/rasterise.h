@@ -30,8 +30,16 @@ struct PixelRow {
 /// Where `first` is a whole number of steps, a pixel depends on that number, the step and the level alone, so that a part of a picture
 /// can be drawn by itself. Large pictures are shared among threads; the bytes do not depend on that.
 void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out);
+
+/// Where a picture's frames lie among those that the pixels are laid over; `first` is that of a row.
+struct FramesWithin {
+    Index first = 0;
+    Index all = 0;
+};
+
 /// The same from rows of that level …
-void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out);
+void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out,
+               const FramesWithin &frames = {});
 /// … which is this one for a whole picture.
 int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells);
 

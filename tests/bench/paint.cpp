@@ -1,10 +1,11 @@
-// What a frame of the whole window costs the thread that paints while somebody pans and zooms: both pictures, the curves below them, the
-// overview and whatever else follows. An hour of lines in noise, or the recording named.
+// What a frame of the whole window costs the thread that paints while somebody pans, zooms or drags the threshold: both pictures, the
+// curves below them, the overview, the list of events and whatever else follows. An hour of lines in noise, or the recording named.
 //
 //     QT_QPA_PLATFORM=offscreen faintline-bench-paint [recording [width height]]
 
 #include "app/MainWindow.h"
 #include "app/Workbench.h"
+#include "widgets/ExceedancePlot.h"
 #include "widgets/Theme.h"
 
 #include <QApplication>
@@ -65,7 +66,7 @@ QString hourOfLines(const QTemporaryDir &folder)
 
 void report(const char *gesture, double zoom, const Cost &cost)
 {
-    std::printf("%-16s %6.0f x   processor: median %5.1f ms, 95 %% %5.1f ms   clock: median %5.1f ms, 95 %% %5.1f ms\n", gesture, zoom,
+    std::printf("%-16s %6.4g x   processor: median %5.1f ms, 95 %% %5.1f ms   clock: median %5.1f ms, 95 %% %5.1f ms\n", gesture, zoom,
                 quantile(cost.processor, 0.5), quantile(cost.processor, 0.95), quantile(cost.clock, 0.5), quantile(cost.clock, 0.95));
     std::fflush(stdout);
 }
@@ -75,13 +76,15 @@ class Hand
 public:
     explicit Hand(MainWindow &window) : m_window(window), m_canvas(window.workbench().output()->canvas()) {}
 
-    void mouse(QEvent::Type type, const QPointF &at)
+    void mouse(QEvent::Type type, const QPointF &at) { mouse(m_canvas, type, at); }
+
+    static void mouse(QWidget *canvas, QEvent::Type type, const QPointF &at)
     {
         const bool isMove = type == QEvent::MouseMove;
         const bool isUp = type == QEvent::MouseButtonRelease;
-        QMouseEvent event(type, at, m_canvas->mapToGlobal(at), isMove ? Qt::NoButton : Qt::LeftButton,
+        QMouseEvent event(type, at, canvas->mapToGlobal(at), isMove ? Qt::NoButton : Qt::LeftButton,
                           isUp ? Qt::NoButton : Qt::LeftButton, Qt::NoModifier);
-        QCoreApplication::sendEvent(m_canvas, &event);
+        QCoreApplication::sendEvent(canvas, &event);
     }
 
     void zoom(double notches)
@@ -131,6 +134,21 @@ public:
         return cost;
     }
 
+    /// Drags the threshold over the statistics of the events there are, and lets go where it was.
+    Cost threshold(int frames)
+    {
+        Cost cost;
+        QwtPlot *plot = m_window.findChild<ExceedancePlot *>();
+        QWidget *canvas = plot->canvas();
+        const double before = m_window.document().shownThreshold();
+        const auto at = [&](double nats) { return QPointF(plot->transform(QwtAxis::XBottom, nats), 0.5 * canvas->height()); };
+        mouse(canvas, QEvent::MouseButtonPress, at(before));
+        for (int i = 0; i < frames; ++i)
+            frame(cost, [&] { mouse(canvas, QEvent::MouseMove, at(before + 30.0 * (0.5 - std::abs(0.5 - static_cast<double>(i) / frames)))); });
+        mouse(canvas, QEvent::MouseMove, at(before));
+        return cost;
+    }
+
 private:
     MainWindow &m_window;
     QWidget *m_canvas;
@@ -170,6 +188,12 @@ int main(int argc, char **argv)
         QTest::qWait(300);
         report("dragged", zoom, hand.pan(240));
         report("wheel and Ctrl", zoom, hand.wheel(240));
+    }
+    for (const double zoom : {1.0, 8.0}) {
+        const Span &all = viewport.full().time;
+        viewport.zoomTo({all.low, all.low + all.width() / zoom}, viewport.full().frequency);
+        QTest::qWait(300);
+        report("threshold", zoom, hand.threshold(120));
     }
     return 0;
 }
