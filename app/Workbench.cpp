@@ -1,6 +1,7 @@
 #include "app/Workbench.h"
 
 #include "app/BoxMeter.h"
+#include "app/Closeup.h"
 #include "app/OutputLayers.h"
 #include "app/statisticUnit.h"
 #include "widgets/ColourBar.h"
@@ -133,6 +134,8 @@ Workbench::Workbench(Document &document, QWidget *parent)
     connect(&document, &Document::provisionalChanged, this, &Workbench::showStatistic);
     connect(&document, &Document::shownThresholdChanged, this, &Workbench::showThreshold);
     connect(&document, &Document::shownEventsChanged, this, &Workbench::showEvents);
+    m_closeup = new Closeup(document, *m_input, *m_output, this); // follows what these follow, after them
+    connect(m_closeup, &Closeup::settled, this, &Workbench::readCursor);
     m_player.setInterval(playerInterval);
     connect(&m_player, &QTimer::timeout, this, &Workbench::play);
 }
@@ -156,6 +159,10 @@ void Workbench::linkViews()
         connect(view, &WaterfallView::hovered, this, [this](double seconds, double hz) { read({seconds, hz}); });
         connect(view, &WaterfallView::hoverEnded, this, &Workbench::readCursor);
     }
+    connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
+        if (m_document.analysis() && !m_document.hasPings())
+            m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), m_output->frequencyAxis());
+    });
     connect(viewport, &Viewport::cursorChanged, this, &Workbench::readCursor);
     connect(m_layers, &OutputLayers::readingChanged, this, &Workbench::readCursor);
     connect(m_layers, &OutputLayers::layerChanged, this, &Workbench::showHeading);
@@ -242,7 +249,7 @@ void Workbench::showStatistic()
     const auto &picture = m_document.provisional() ? m_document.provisional() : m_document.analysis()->statistic;
     const Axis &frequency = m_document.analysis()->grid().axes.back();
     m_output->setPicture(picture, frequency);
-    m_statistic->setProfile(tr("D at the cursor"), picture, frequency);
+    m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), frequency);
 }
 
 void Workbench::showThreshold()

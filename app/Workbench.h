@@ -12,6 +12,7 @@ class QSplitter;
 namespace faintline {
 
 class BoxMeter;
+class Closeup;
 class OutputLayers;
 class StripPlot;
 
@@ -28,6 +29,7 @@ public:
     QWidget *inputPane() const { return m_inputPane; } ///< with its colour bar
     QWidget *outputPane() const { return m_outputPane; }
     OutputLayers &layers() { return *m_layers; }
+    Closeup &closeup() { return *m_closeup; }
     StripPlot *statisticPlot() const { return m_statistic; }
     StripPlot *regulationPlot() const { return m_regulation; }
 
@@ -71,6 +73,7 @@ private:
     WaterfallView *m_output;
     OutputLayers *m_layers;
     BoxMeter *m_boxMeter;
+    Closeup *m_closeup;
     QWidget *m_inputPane;
     QWidget *m_outputPane;
     StripPlot *m_statistic;

@@ -1,5 +1,6 @@
 #include "app/renderCommand.h"
 
+#include "app/Closeup.h"
 #include "app/ComparePanel.h"
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
@@ -226,6 +227,17 @@ namespace {
         QEventLoop loop;
         QObject::connect(&window.workbench().layers(), &OutputLayers::settled, &loop, &QEventLoop::quit);
         if (window.workbench().layers().isBusy())
+            loop.exec();
+    }
+
+    void settleCloseup(MainWindow &window)
+    {
+        QEventLoop loop;
+        QObject::connect(&window.workbench().closeup(), &Closeup::settled, &loop, [&] {
+            if (!window.workbench().closeup().isBusy())
+                loop.quit();
+        });
+        if (window.workbench().closeup().isBusy())
             loop.exec();
     }
 
@@ -477,8 +489,9 @@ void render(const RenderOptions &options)
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         QWidget &widget = *window.view(QString::fromStdString(view));
-        pictureOf(widget, options.size); // at that size a layer may have more pixels to fill
+        pictureOf(widget, options.size); // at that size a layer may have more pixels to fill, and a picture smaller ones
         settleLayers(window);
+        settleCloseup(window);
         provenance["render"] = toJson(options, view);
         write(pictureOf(widget, options.size), fileName(options, view), provenance);
     }
@@ -487,8 +500,9 @@ void render(const RenderOptions &options)
 double scaleOf(const std::string &picture)
 {
     const Json provenance = Json::parse(QImageReader(QString::fromStdString(picture)).text(pictureProvenanceKey()).toStdString(), nullptr, false);
-    const double scale = provenance.value(Json::json_pointer("/render/scale"), 1.0);
-    return scale >= 1.0 && scale <= 4.0 ? scale : 1.0;
+    const Json::json_pointer place("/render/scale");
+    const bool tells = provenance.is_object() && provenance.contains(place) && provenance[place].is_number();
+    return tells ? std::clamp(provenance[place].get<double>(), 1.0, 4.0) : 1.0;
 }
 
 void replayPicture(const ReplayOptions &options)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace faintline {
 
@@ -147,18 +148,20 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<TruthLine>
 std::vector<OverlayItem::Mark> OverlayItem::marksOf(const std::vector<Event> &events, const std::vector<Line> &lines,
                                                     double frameSeconds, double binHz)
 {
+    std::unordered_map<int, const Line *> lineOf;
+    for (const Line &line : lines)
+        lineOf.try_emplace(line.id, &line);
     std::vector<Mark> marks;
     for (const Event &event : events) {
         if (event.position.empty())
             continue;
-        const auto track =
-            std::find_if(lines.begin(), lines.end(), [&](const Line &line) { return line.id == event.id; });
+        const auto track = lineOf.find(event.id);
         const auto hzAt = [&](double seconds) {
             return event.position.back() + event.driftPerSecond * (seconds - event.detectSeconds);
         };
         QPolygonF points{{event.onsetSeconds, hzAt(event.onsetSeconds)}, {event.endSeconds, hzAt(event.endSeconds)}};
-        if (track != lines.end() && !track->points.isEmpty())
-            points = track->points;
+        if (track != lineOf.end() && !track->second->points.isEmpty())
+            points = track->second->points;
         Mark mark{
             event.id, {{event.onsetSeconds, event.endSeconds}, {points[0].y(), points[0].y()}}, event.isConfirmed};
         for (const QPointF &point : points) {

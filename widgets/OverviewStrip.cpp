@@ -55,6 +55,8 @@ void OverviewStrip::setViewport(Viewport *viewport)
 
 void OverviewStrip::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
 {
+    if (picture && picture == m_picture && frequency == m_frequency)
+        return;
     m_picture = std::move(picture);
     m_frequency = frequency;
     render();

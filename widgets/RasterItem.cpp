@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace faintline {
 
@@ -16,12 +17,35 @@ namespace {
 
     constexpr int blockSize = 32; ///< of transposition
 
+    /// To 40 binary digits: what scrolls keeps the width of its pixels whatever the rounding of its ends.
+    double steadied(double step)
+    {
+        int exponent = 0;
+        const double mantissa = std::frexp(step, &exponent);
+        return std::ldexp(std::round(std::ldexp(mantissa, 40)), exponent - 40);
+    }
+
     /// Pixels over an axis, on a grid that starts with the axis.
     PixelRow pixelRow(const Span &span, int count, const Axis &axis)
     {
-        const double step = span.width() / count / axis.step;
+        const double step = steadied(span.width() / count / axis.step);
         const double first = axis.position(span.low) + 0.5;
         return {std::round(first / step) * step, step, count};
+    }
+
+    /// By how many pixels a row has moved; nothing where it has become another one.
+    std::optional<int> shiftOf(const PixelRow &from, const PixelRow &to)
+    {
+        if (from.step != to.step || from.count != to.count)
+            return {};
+        const double shift = std::round(to.first / to.step) - std::round(from.first / from.step);
+        return std::abs(shift) < to.count ? std::optional(static_cast<int>(shift)) : std::nullopt;
+    }
+
+    /// `count` pixels of a row from its pixel `begin` on.
+    PixelRow part(const PixelRow &row, int begin, int count)
+    {
+        return {(std::round(row.first / row.step) + begin) * row.step, row.step, count};
     }
 
     /// Rows ↔ columns, by blocks that stay in the cache.
@@ -60,9 +84,22 @@ RasterItem::RasterItem() : m_map(&ColourMap::named(ColourMap::defaultName()))
 
 void RasterItem::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
 {
+    const Axis time = picture ? picture->time() : Axis();
+    setPicture(std::move(picture), frequency, time);
+}
+
+void RasterItem::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time)
+{
     m_picture = std::move(picture);
     m_frequency = frequency;
+    m_time = time;
     m_bytesKey = {};
+}
+
+void RasterItem::draw(const PixelRow &time, const PixelRow &cells, int level, std::span<std::uint8_t> out) const
+{
+    const auto first = static_cast<Index>(std::lround(m_time.position(m_picture->time().first)));
+    rasterise(*m_picture, level, time, cells, out, {first, m_time.count});
 }
 
 void RasterItem::setColours(const ColourMap &map, const Span &range)
@@ -91,10 +128,44 @@ void RasterItem::updateBytes(const PixelRow &time, const PixelRow &cells) const
     const BytesKey key{m_picture.get(), time, cells};
     if (key == m_bytesKey)
         return;
-    m_bytes.resize(static_cast<std::size_t>(time.count) * static_cast<std::size_t>(cells.count));
-    rasterise(*m_picture, time, cells, m_bytes);
+    const auto down = shiftOf(m_bytesKey.time, time);
+    const auto right = shiftOf(m_bytesKey.cells, cells);
+    if (key.picture == m_bytesKey.picture && down && right) {
+        scroll(time, cells, *down, *right);
+    } else {
+        m_bytes.resize(static_cast<std::size_t>(time.count) * static_cast<std::size_t>(cells.count));
+        draw(time, cells, levelToRead(*m_picture, time, cells), m_bytes);
+    }
     m_bytesKey = key;
     m_imageKey.reset();
+}
+
+/// What was in sight before moves, what has come into sight is drawn: whole lines, then the sides of the others.
+void RasterItem::scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const
+{
+    const int level = levelToRead(*m_picture, time, cells);
+    const auto line = [&](int row) { return m_bytes.data() + static_cast<std::ptrdiff_t>(row) * cells.count; };
+    const int firstKept = std::max(-down, 0);
+    const int endKept = time.count - std::max(down, 0);
+    const int width = cells.count - std::abs(right);
+    for (int i = firstKept; i < endKept; ++i) {
+        const int row = down >= 0 ? i : firstKept + endKept - 1 - i; // what is still to be moved is not written over
+        std::memmove(line(row) + std::max(-right, 0), line(row + down) + std::max(right, 0), static_cast<std::size_t>(width));
+    }
+    if (down != 0) {
+        const int first = down > 0 ? endKept : 0;
+        draw(part(time, first, std::abs(down)), cells, level,
+             std::span(m_bytes).subspan(static_cast<std::size_t>(first) * static_cast<std::size_t>(cells.count),
+                                        static_cast<std::size_t>(std::abs(down)) * static_cast<std::size_t>(cells.count)));
+    }
+    if (right != 0) {
+        const int first = right > 0 ? width : 0;
+        const int rows = endKept - firstKept;
+        std::vector<std::uint8_t> side(static_cast<std::size_t>(rows) * static_cast<std::size_t>(std::abs(right)));
+        draw(part(time, firstKept, rows), part(cells, first, std::abs(right)), level, side);
+        for (int i = 0; i < rows; ++i)
+            std::copy_n(side.data() + static_cast<std::ptrdiff_t>(i) * std::abs(right), std::abs(right), line(firstKept + i) + first);
+    }
 }
 
 void RasterItem::paint(const ImageKey &key, const QSize &size) const
@@ -138,7 +209,7 @@ QImage RasterItem::image(const Span &x, const Span &y, bool isUpward, const QSiz
         return {};
     const Span &time = m_isTimeVertical ? y : x;
     const Span &frequency = m_isTimeVertical ? x : y;
-    updateBytes(pixelRow(time, m_isTimeVertical ? size.height() : size.width(), m_picture->time()),
+    updateBytes(pixelRow(time, m_isTimeVertical ? size.height() : size.width(), m_time),
                 pixelRow(frequency, m_isTimeVertical ? size.width() : size.height(), m_frequency));
     const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
     paint({isUpward, m_isTimeVertical, m_map, m_range, contourByte, m_contourColour}, size);

@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace faintline {
@@ -20,14 +21,16 @@ namespace faintline {
 ///
 /// Two caches, each kept as long as its key holds: the bytes of the pixels (picture, axes, size) and the image made
 /// from them (colours, range, threshold). Dragging a range or a threshold so costs a table look-up per pixel. Pixels
-/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker; it is placed to the
-/// nearest half pixel.
+/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker, and only what comes into sight is
+/// drawn; it is placed to the nearest half pixel.
 class RasterItem : public QwtPlotItem
 {
 public:
     RasterItem();
 
     void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
+    /// A part of the frames of that time axis: drawn on the same pixels as a picture of all of them.
+    void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time);
     void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
     void setColours(const ColourMap &map, const Span &range);
     /// Pixels around those at or above this value are drawn in the contour's colour.
@@ -57,11 +60,14 @@ private:
     };
 
     void updateBytes(const PixelRow &time, const PixelRow &cells) const;
+    void draw(const PixelRow &time, const PixelRow &cells, int level, std::span<std::uint8_t> out) const;
+    void scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const;
     void paint(const ImageKey &key, const QSize &size) const;
     std::vector<QRgb> colourTable() const;
 
     std::shared_ptr<const PeakPyramid> m_picture;
     Axis m_frequency;
+    Axis m_time;
     bool m_isTimeVertical = true;
     const ColourMap *m_map;
     Span m_range{-6.0, 14.0};

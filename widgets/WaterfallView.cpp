@@ -124,9 +124,14 @@ void WaterfallView::setViewport(Viewport *viewport)
 void WaterfallView::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
 {
     const bool isOtherKind = picture && m_picture && picture->scale().kind() != m_picture->scale().kind();
+    const bool hasSameAxes = picture && m_picture && frequency == m_frequency && picture->time().name == m_picture->time().name
+                             && picture->time().unit == m_picture->time().unit;
+    if (picture != m_picture)
+        m_closeup.reset();
     m_picture = std::move(picture);
     m_frequency = frequency;
-    m_raster->setPicture(m_picture, frequency);
+    choosePicture();
+    m_raster->setPicture(m_shown, frequency, m_picture ? m_picture->time() : Axis());
     m_histogramKey = {-1, 0};
     if (!m_picture) {
         m_histogram.clear();
@@ -134,7 +139,7 @@ void WaterfallView::setPicture(std::shared_ptr<const PeakPyramid> picture, const
     }
     if (isOtherKind)
         m_isRangeAutomatic = true;
-    layAxes();
+    hasSameAxes ? countHistogram() : layAxes();
     updateMarks();
 }
 
@@ -143,13 +148,52 @@ void WaterfallView::setNextPicture(std::shared_ptr<const PeakPyramid> picture)
     const bool isFirst = !m_picture || !picture || !(picture->time() == m_picture->time());
     if (isFirst)
         return setPicture(std::move(picture), m_frequency);
+    m_closeup.reset();
     m_picture = std::move(picture);
-    m_raster->setPicture(m_picture, m_frequency);
-    m_histogramKey = {-1, 0};
+    choosePicture();
     const bool wasAutomatic = std::exchange(m_isRangeAutomatic, false);
     countHistogram();
     m_isRangeAutomatic = wasAutomatic;
     followCursor();
+}
+
+void WaterfallView::setCloseup(std::shared_ptr<const PeakPyramid> closeup)
+{
+    m_closeup = std::move(closeup);
+    followSpan();
+}
+
+double WaterfallView::framesPerPixel() const
+{
+    const QSize size = canvas()->contentsRect().size();
+    return m_picture ? visible().time.width() / m_picture->time().step / std::max(isTimeVertical() ? size.height() : size.width(), 1) : 1.0;
+}
+
+void WaterfallView::choosePicture()
+{
+    const auto shows = [this](const PeakPyramid &closeup) {
+        const Span time = extents(closeup.time(), m_frequency).time;
+        const double slack = 1e-6 * closeup.time().step;
+        return framesPerPixel() < static_cast<double>(m_picture->framesPerRow(0)) && visible().time.low > time.low - slack
+               && visible().time.high < time.high + slack;
+    };
+    const auto &shown = m_picture && m_closeup && shows(*m_closeup) ? m_closeup : m_picture;
+    if (shown == m_shown)
+        return;
+    m_shown = shown;
+    m_raster->setPicture(m_shown, m_frequency, m_picture ? m_picture->time() : Axis());
+    m_histogramKey = {-1, 0};
+    emit shownPictureChanged();
+}
+
+/// Which tells most of that time.
+const PeakPyramid &WaterfallView::pictureOf(const Span &time) const
+{
+    const auto holds = [&](const PeakPyramid &picture) {
+        const Span all = extents(picture.time(), m_frequency).time;
+        return all.contains(time.low) && all.contains(time.high);
+    };
+    return m_closeup && holds(*m_closeup) ? *m_closeup : *m_picture;
 }
 
 bool WaterfallView::hasTime() const
@@ -191,12 +235,12 @@ std::optional<double> WaterfallView::valueAt(double seconds, double hz) const
     const Viewport::Box box = extents(m_picture->time(), m_frequency);
     if (!box.time.contains(seconds) || !box.frequency.contains(hz))
         return {};
-    const double frame = std::floor(m_picture->time().position(seconds) + 0.5);
-    if (frame > static_cast<double>(m_picture->frameCount()))
+    const PeakPyramid &picture = pictureOf({seconds, seconds});
+    const double frame = std::floor(picture.time().position(seconds) + 0.5);
+    if (frame > static_cast<double>(picture.frameCount()))
         return {}; // still to come
-    const Index row =
-        std::clamp<Index>(static_cast<Index>(frame) / m_picture->framesPerRow(0), 0, m_picture->rowCount(0) - 1);
-    return m_picture->scale().value(m_picture->row(0, row)[static_cast<std::size_t>(m_frequency.nearest(hz))]);
+    const Index row = std::clamp<Index>(static_cast<Index>(frame) / picture.framesPerRow(0), 0, picture.rowCount(0) - 1);
+    return picture.scale().value(picture.row(0, row)[static_cast<std::size_t>(m_frequency.nearest(hz))]);
 }
 
 Viewport::Box WaterfallView::full() const
@@ -264,6 +308,7 @@ void WaterfallView::layAxes()
 
 void WaterfallView::followSpan()
 {
+    choosePicture();
     const auto [time, hz] = visible();
     const QSize size = canvas()->contentsRect().size();
     const int along = isTimeVertical() ? size.height() : size.width();
@@ -293,16 +338,16 @@ void WaterfallView::countHistogram()
     const QSize size = canvas()->contentsRect().size();
     if (!m_picture || size.isEmpty() || m_frequency.count == 0)
         return;
-    const auto [time, hz] = visible();
-    const double frames = time.width() / m_picture->time().step / (isTimeVertical() ? size.height() : size.width());
+    const Span hz = visible().frequency;
+    const double frames = framesPerPixel();
     const double cells = hz.width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
     // By powers of two in frequency and of four in time: while one zooms, colours change now and then, not all along.
     const auto group = static_cast<Index>(std::exp2(std::round(std::log2(std::max(cells, 1.0)))));
-    const std::pair key{m_picture->levelFor(std::max(frames, 1.0)), group};
+    const std::pair key{m_shown->levelFor(std::max(frames, 1.0)), group};
     if (key == m_histogramKey)
         return;
     m_histogramKey = key;
-    m_histogram = countPixels(*m_picture, frames, static_cast<double>(group));
+    m_histogram = countPixels(*m_shown, frames, static_cast<double>(group));
     emit histogramChanged();
     if (m_isRangeAutomatic)
         applyRange(automaticRange());
@@ -602,9 +647,10 @@ QString WaterfallView::selectionText() const
         return std::pair(clamped(axis.position(span.low)), clamped(axis.position(span.high)) + 1);
     };
     if (m_picture && m_picture->frameCount() > 0 && m_frequency.count > 0) {
-        const auto [firstFrame, endFrame] = cellsOf(m_picture->time(), m_picture->frameCount(), box.time);
+        const PeakPyramid &picture = pictureOf(box.time);
+        const auto [firstFrame, endFrame] = cellsOf(picture.time(), picture.frameCount(), box.time);
         const auto [firstCell, endCell] = cellsOf(m_frequency, m_frequency.count, box.frequency);
-        const BoxValues values = boxValues(*m_picture, firstFrame, endFrame, firstCell, endCell);
+        const BoxValues values = boxValues(picture, firstFrame, endFrame, firstCell, endCell);
         words << tr("peak %1 %2").arg(numberText(values.peak, 1), valueUnit());
         if (values.mean)
             words << tr("mean %1 dB").arg(numberText(*values.mean, 1));

@@ -74,6 +74,13 @@ public:
     const std::shared_ptr<const PeakPyramid> &picture() const { return m_picture; }
     const Axis &frequencyAxis() const { return m_frequency; }
 
+    /// A stretch of the picture in rows of fewer frames: shown in its place wherever it holds all that can be seen and pixels are
+    /// smaller than the picture's own rows. Another picture drops it.
+    void setCloseup(std::shared_ptr<const PeakPyramid> closeup);
+    /// The picture, or its close-up where that is what can be seen.
+    const std::shared_ptr<const PeakPyramid> &shownPicture() const { return m_shown; }
+    double framesPerPixel() const; ///< as visible
+
     /// The box all cells of a picture fill: half a cell beyond the outermost frames and bins.
     static Viewport::Box extents(const Axis &time, const Axis &frequency);
 
@@ -87,7 +94,7 @@ public:
     bool isRangeAutomatic() const { return m_isRangeAutomatic; }
     /// The range the picture's values suggest at this zoom: noise dark, what stands out of it bright.
     Span automaticRange() const;
-    /// Number of pixels per byte of the picture's scale, for the whole picture at this zoom.
+    /// Number of pixels per byte of the picture's scale, for the whole picture, or its close-up, at this zoom.
     const std::vector<double> &histogram() const { return m_histogram; }
     QString valueUnit() const; ///< "dB", or the statistic's
     /// What a statistic is measured in, "nat" unless said otherwise, and the heading that says so.
@@ -153,6 +160,7 @@ signals:
     void colourMapChanged(const QString &name);
     void rangeChanged(double low, double high);
     void histogramChanged();
+    void shownPictureChanged();
     void thresholdChanged(double nats); ///< NaN: none
     void layersChanged();
     void measuringChanged(bool isOn);
@@ -184,6 +192,8 @@ private:
     void layAxes();
     void followSpan();
     void followCursor();
+    void choosePicture();
+    const PeakPyramid &pictureOf(const Span &time) const;
     void countHistogram();
     void applyRange(const Span &range);
     bool hasTime() const;
@@ -209,6 +219,8 @@ private:
     QString m_statisticUnit = QStringLiteral("nat");
     QPointer<Viewport> m_viewport;
     std::shared_ptr<const PeakPyramid> m_picture;
+    std::shared_ptr<const PeakPyramid> m_closeup;
+    std::shared_ptr<const PeakPyramid> m_shown; ///< one of them
     Axis m_frequency;
     RasterItem *m_raster;
     OverlayItem *m_overlay;

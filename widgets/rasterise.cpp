@@ -1,10 +1,13 @@
 #include "widgets/rasterise.h"
 
 #include "base/logmath.h"
+#include "base/multiversion.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <thread>
 
 namespace faintline {
 
@@ -21,8 +24,12 @@ namespace {
         std::vector<Range> ranges(static_cast<std::size_t>(pixels.count));
         const double step = pixels.step / size;
         const auto perPixel = static_cast<Index>(std::ceil(step - 1e-6));
+        // On a grid that starts with the axis a pixel's cells depend on nothing but its number on the grid.
+        double number = pixels.first / pixels.step;
+        if (std::abs(number - std::round(number)) < 1e-6)
+            number = std::round(number);
         for (int p = 0; p < pixels.count; ++p) {
-            const double low = pixels.first / size + p * step;
+            const double low = (number + p) * step;
             const double begin = step > 1.0 ? std::ceil(low - 0.5 - 1e-6) : std::floor(low + 0.5 * step);
             Range &range = ranges[static_cast<std::size_t>(p)];
             range.begin = std::clamp<Index>(static_cast<Index>(begin), 0, std::max<Index>(itemCount - perPixel, 0));
@@ -31,18 +38,18 @@ namespace {
         return ranges;
     }
 
-    /// Reading twice as many rows draws a sharper picture, but takes its time on a hundred thousand cells.
-    int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells)
-    {
-        constexpr double affordableBytes = 48e6;
-        const bool isAffordable = 8.0 * time.count * cells.step * cells.count < affordableBytes;
-        return picture.levelFor(std::max(isAffordable ? 0.5 * time.step : time.step, 1.0));
-    }
-
+    FAINTLINE_MULTIVERSION
     void raise(std::uint8_t *to, const std::uint8_t *from, std::size_t count)
     {
         for (std::size_t i = 0; i < count; ++i)
             to[i] = std::max(to[i], from[i]);
+    }
+
+    FAINTLINE_MULTIVERSION
+    void higherOf(const std::uint8_t *a, const std::uint8_t *b, std::uint8_t *to, std::size_t count)
+    {
+        for (std::size_t i = 0; i < count; ++i)
+            to[i] = std::max(a[i], b[i]);
     }
 
     std::uint8_t highest(const std::uint8_t *from, Index count)
@@ -52,6 +59,33 @@ namespace {
             high = std::max(high, from[i]);
         return high;
     }
+
+    /// The highest of each pixel's cells, of which all have as many: maxima over 2, 4, 8 … cells of the whole line, then of the largest
+    /// such stretches at either end of the pixel.
+    class LineMaxima
+    {
+    public:
+        explicit LineMaxima(std::size_t width) : m_one(width), m_other(width) {}
+
+        void draw(const std::uint8_t *values, std::size_t lowest, const std::vector<Range> &cellsOfPixel, std::uint8_t *line)
+        {
+            const auto cells = static_cast<std::size_t>(cellsOfPixel.front().end - cellsOfPixel.front().begin);
+            std::size_t stretch = 1;
+            for (; 2 * stretch <= cells; stretch *= 2) {
+                higherOf(values, values + stretch, m_one.data(), m_one.size() - 2 * stretch + 1);
+                values = m_one.data();
+                std::swap(m_one, m_other);
+            }
+            for (std::size_t i = 0; i < cellsOfPixel.size(); ++i) {
+                const std::size_t begin = static_cast<std::size_t>(cellsOfPixel[i].begin) - lowest;
+                line[i] = std::max(values[begin], values[begin + cells - stretch]);
+            }
+        }
+
+    private:
+        std::vector<std::uint8_t> m_one;
+        std::vector<std::uint8_t> m_other;
+    };
 
     double quantile(const ByteScale &scale, const std::vector<double> &counts, double share)
     {
@@ -83,9 +117,22 @@ namespace {
 
 } // namespace
 
+int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells)
+{
+    // Reading twice as many rows draws a sharper picture, but takes its time on a hundred thousand cells.
+    constexpr double affordableBytes = 48e6;
+    const bool isAffordable = 8.0 * time.count * cells.step * cells.count < affordableBytes;
+    return picture.levelFor(std::max(isAffordable ? 0.5 * time.step : time.step, 1.0));
+}
+
 void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out)
 {
-    const int level = levelToRead(picture, time, cells);
+    rasterise(picture, levelToRead(picture, time, cells), time, cells, out);
+}
+
+void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out,
+               const FramesWithin &frames)
+{
     const Index rowCount = picture.rowCount(level);
     if (rowCount == 0 || picture.cells() == 0) {
         std::fill(out.begin(), out.end(), std::uint8_t(0));
@@ -93,38 +140,52 @@ void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow 
     }
     // Of a picture that is still being made, rows to come are empty.
     const Index perRow = picture.framesPerRow(level);
-    const Index wholeCount = std::max(rowCount, (picture.time().count + perRow - 1) / perRow);
-    const auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(perRow), wholeCount);
+    const Index firstRow = frames.first / perRow;
+    const Index wholeCount = std::max(firstRow + rowCount, (std::max(frames.all, picture.time().count) + perRow - 1) / perRow);
+    auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(perRow), wholeCount);
+    for (Range &rows : rowsOfPixel)
+        rows = {rows.end > firstRow ? std::max<Index>(rows.begin - firstRow, 0) : -1, rows.end - firstRow};
     const auto cellsOfPixel = itemsOfPixels(cells, 1.0, picture.cells());
     const auto lowest = static_cast<std::size_t>(cellsOfPixel.front().begin);
     const auto width = static_cast<std::size_t>(cellsOfPixel.back().end) - lowest;
 
-    std::vector<std::uint8_t> merged(width);
-    Range done;
-    for (int p = 0; p < time.count; ++p) {
-        std::uint8_t *line = out.data() + static_cast<std::size_t>(p) * cellsOfPixel.size();
-        const Range rows = rowsOfPixel[static_cast<std::size_t>(p)];
-        if (p > 0 && rows.begin == done.begin && rows.end == done.end) {
-            std::copy_n(line - cellsOfPixel.size(), cellsOfPixel.size(), line);
-            continue;
+    const auto drawLines = [&](Index begin, Index end) {
+        std::vector<std::uint8_t> merged(width);
+        LineMaxima maxima(width);
+        Range done;
+        for (Index p = begin; p < end; ++p) {
+            std::uint8_t *line = out.data() + static_cast<std::size_t>(p) * cellsOfPixel.size();
+            const Range rows = rowsOfPixel[static_cast<std::size_t>(p)];
+            if (p > begin && rows.begin == done.begin && rows.end == done.end) {
+                std::copy_n(line - cellsOfPixel.size(), cellsOfPixel.size(), line);
+                continue;
+            }
+            done = rows;
+            if (rows.begin < 0 || rows.begin >= rowCount) {
+                std::fill_n(line, cellsOfPixel.size(), std::uint8_t(0));
+                continue;
+            }
+            const std::uint8_t *values = picture.row(level, rows.begin).data() + lowest;
+            if (rows.end - rows.begin > 1) {
+                std::copy_n(values, width, merged.data());
+                for (Index r = rows.begin + 1; r < std::min(rows.end, rowCount); ++r)
+                    raise(merged.data(), picture.row(level, r).data() + lowest, width);
+                values = merged.data();
+            }
+            maxima.draw(values, lowest, cellsOfPixel, line);
         }
-        done = rows;
-        if (rows.begin >= rowCount) {
-            std::fill_n(line, cellsOfPixel.size(), std::uint8_t(0));
-            continue;
-        }
-        const std::uint8_t *values = picture.row(level, rows.begin).data() + lowest;
-        if (rows.end - rows.begin > 1) {
-            std::copy_n(values, width, merged.data());
-            for (Index r = rows.begin + 1; r < std::min(rows.end, rowCount); ++r)
-                raise(merged.data(), picture.row(level, r).data() + lowest, width);
-            values = merged.data();
-        }
-        for (std::size_t i = 0; i < cellsOfPixel.size(); ++i) {
-            const Range range = cellsOfPixel[i];
-            line[i] = highest(values + (static_cast<std::size_t>(range.begin) - lowest), range.end - range.begin);
-        }
-    }
+    };
+
+    constexpr double bytesWorthAThread = 2e6;
+    const double bytes = std::max(time.step / static_cast<double>(perRow), 1.0) * time.count * static_cast<double>(width);
+    RunContext context;
+    context.threads = static_cast<int>(std::min({bytes / bytesWorthAThread, static_cast<double>(std::thread::hardware_concurrency()), 8.0}));
+    if (context.threads < 2)
+        return drawLines(0, time.count);
+    const Index bands = 4 * context.threads;
+    parallelFor(bands, context, {}, [&] {
+        return [&](Index band) { drawLines(band * time.count / bands, (band + 1) * time.count / bands); };
+    });
 }
 
 std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel)

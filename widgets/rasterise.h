@@ -27,7 +27,21 @@ struct PixelRow {
 /// so that every pixel is the maximum of as many cells, which gives noise an even grain, and no maximum is lost, though
 /// one near a pixel's edge may show in two. Zoomed in, every cell is a plain rectangle. In time the cells are rows of
 /// the coarsest level that has at least one row, and where that is fast enough two, per pixel.
+/// Where `first` is a whole number of steps, a pixel depends on that number, the step and the level alone, so that a part of a picture
+/// can be drawn by itself. Large pictures are shared among threads; the bytes do not depend on that.
 void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out);
+
+/// Where a picture's frames lie among those that the pixels are laid over; `first` is that of a row.
+struct FramesWithin {
+    Index first = 0;
+    Index all = 0;
+};
+
+/// The same from rows of that level …
+void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out,
+               const FramesWithin &frames = {});
+/// … which is this one for a whole picture.
+int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells);
 
 /// How many pixels bear each byte where a pixel covers so many frames and cells: from a sample of rows of the whole
 /// picture, so it does not depend on where one looks. 256 counts.

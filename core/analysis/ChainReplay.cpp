@@ -10,21 +10,13 @@ namespace {
 
     constexpr Index shortestInterval = 8;
 
-    std::size_t bytesOfStates(const Analysis &analysis)
-    {
-        Index states = analysis.bank.empty() ? analysis.model.space.stateCount() : 0;
-        for (const BankMember &member : analysis.bank)
-            states += member.model.space.stateCount();
-        return sizeof(float) * static_cast<std::size_t>(states);
-    }
-
 } // namespace
 
 ChainReplay::ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
     : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)), m_y(static_cast<std::size_t>(m_analysis->grid().size())),
       m_statistic(m_y.size())
 {
-    const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / bytesOfStates(*m_analysis)));
+    const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / (sizeof(float) * static_cast<std::size_t>(stateCount(*m_analysis)))));
     m_interval = std::max(shortestInterval, (m_analysis->time().count + most - 1) / most);
 }
 

@@ -1,6 +1,7 @@
 #include "analysis/analyse.h"
 
 #include "analysis/chain.h"
+#include "analysis/knownCalibration.h"
 #include "analysis/regulation.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/glance.h"
@@ -17,6 +18,8 @@ namespace {
 
     constexpr std::size_t blockBytes = std::size_t(1) << 20;
     constexpr std::size_t pictureBytes = std::size_t(64) << 20; ///< of each of two: an hour at 48 kHz then takes less than 300 MiB
+    constexpr std::size_t checkpointBytes = std::size_t(32) << 20;
+    constexpr Index shortestInterval = 64; ///< of checkpoints, in frames
 
     /// Reads blocks of frames one ahead of their use, on another thread if there is one to spare.
     class FrameStream
@@ -80,15 +83,15 @@ namespace {
         return result;
     }
 
-    /// Shows pictures of a recording that takes long, and not so often that it takes longer.
+    /// Shows pictures of a recording that takes long, or has to wait for a calibration, and not so often that it takes longer.
     class Showing
     {
     public:
         Showing() = default;
-        Showing(const PictureSink &sink, const Axis &time, const Axis &frequency) : m_sink(sink)
+        Showing(const PictureSink &sink, const Axis &time, const Axis &frequency, const AnalysisSettings &settings) : m_sink(sink)
         {
             constexpr double manyCells = 3e7;
-            m_isWanted = sink && static_cast<double>(time.count) * static_cast<double>(frequency.count) > manyCells;
+            m_isWanted = sink && (static_cast<double>(time.count) * static_cast<double>(frequency.count) > manyCells || !knownCalibration(settings));
             m_pictures.time = time;
             m_pictures.frequency = frequency;
         }
@@ -121,6 +124,14 @@ namespace {
         std::chrono::steady_clock::time_point m_last{};
     };
 
+    /// Frames between two checkpoints.
+    Index checkpointInterval(const Analysis &analysis)
+    {
+        const auto most = static_cast<Index>(checkpointBytes / (sizeof(float) * static_cast<std::size_t>(stateCount(analysis))));
+        const Index frames = analysis.time().count;
+        return most > 0 ? std::max(shortestInterval, (frames + most - 1) / most) : std::max<Index>(frames, 1);
+    }
+
     /// Streams the frames through the chain and fills in the rest of the analysis.
     void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink, Showing &showing)
     {
@@ -139,6 +150,7 @@ namespace {
         const auto statistic =
             std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
         analysis.statisticCounts.assign(256, 0.0);
+        const Index interval = checkpointInterval(analysis);
         std::vector<float> scores;
         FrameStream stream(frames, context.threads > 1);
         for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
@@ -148,6 +160,9 @@ namespace {
             scores.resize(block.size());
             for (Index i = 0; i < count; ++i) {
                 const auto offset = static_cast<std::size_t>(i * cells);
+                if (first + i > 0 && (first + i) % interval == 0)
+                    if (auto state = chain->snapshot())
+                        analysis.checkpoints.push_back({first + i, std::move(state)});
                 chain->update(first + i, std::span(block).subspan(offset, static_cast<std::size_t>(cells)),
                              std::span(scores).subspan(offset, static_cast<std::size_t>(cells)));
                 analysis.lnK.push_back(static_cast<float>(chain->detector().regulation().lnK));
@@ -258,15 +273,14 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
 
     const bool sameRecording = previous && previous->recording == recording;
     const Stage stale = sameRecording ? firstStale(previous->settings, settings) : Stage::Spectrogram;
-    Showing showing;
+    Showing showing; // of what is computed anew: nobody takes away a picture for a part of the next one
     if (stale >= Stage::Detector) {
-        showing = Showing(pictures, previous->time(), previous->grid().axes.front());
         analysis->frames = previous->frames;
         analysis->background = previous->background;
         analysis->input = previous->input;
     } else {
         const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
-        showing = Showing(pictures, spectrogram->time(), spectrogram->frequency());
+        showing = Showing(pictures, spectrogram->time(), spectrogram->frequency(), settings);
         showing.showGlance(spectrogram, settings.noise, context.part(0.0, 0.01));
         analysis->background = estimateBackground(*spectrogram, settings.noise, context.part(0.01, 0.2));
         analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);

@@ -25,6 +25,12 @@ struct BankMember {
     double offset = 0.0; ///< taken off its statistic, nat: equal false-alarm probability at the threshold
 };
 
+/// Where the chain can go on from: its state before that frame.
+struct ChainCheckpoint {
+    Index frame = 0;
+    std::shared_ptr<const DetectionChain::Snapshot> state;
+};
+
 /// What a run of the chain leaves behind. Immutable; parts that a change of settings leaves valid are shared.
 struct Analysis {
     AnalysisSettings settings;
@@ -48,6 +54,8 @@ struct Analysis {
     NoiseBand lnKBand;                    ///< where it stays on noise, under a law that regulates it (regulation.h)
     std::vector<float> continuedFraction; ///< per frame
     std::vector<double> statisticCounts;  ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: the data's own histogram
+
+    std::vector<ChainCheckpoint> checkpoints; ///< evenly spaced, ≤ 32 MiB; none of detectors that cannot tell their state
 
     const Axis &time() const { return frames->time(); }
     const Grid &grid() const { return frames->grid(); }

@@ -84,6 +84,14 @@ namespace {
 
 } // namespace
 
+Index stateCount(const Analysis &analysis)
+{
+    Index states = analysis.bank.empty() ? analysis.model.space.stateCount() : 0;
+    for (const BankMember &member : analysis.bank)
+        states += member.model.space.stateCount();
+    return states;
+}
+
 std::unique_ptr<Detector> makeDetector(const Analysis &analysis)
 {
     const AnalysisSettings &settings = analysis.settings;

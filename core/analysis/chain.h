@@ -7,6 +7,9 @@
 
 namespace faintline {
 
+/// States of its model, or of all models of its bank.
+Index stateCount(const Analysis &analysis);
+
 /// The detection chain that an analysis's settings, model, calibration and threshold describe, at its first frame.
 std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis);
 /// The same that does not trace tracks back to their onset: for who only wants its scores.

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "analysis/analyse.h"
+
+namespace faintline {
+
+/// Frames begin … end-1.
+struct FrameStretch {
+    Index begin = 0;
+    Index end = 0;
+
+    bool isEmpty() const { return begin >= end; }
+    bool contains(const FrameStretch &other) const { return begin <= other.begin && other.end <= end; }
+    bool operator==(const FrameStretch &) const = default;
+};
+
+/// The frames to look at closely where some of a picture, `visible`, are to be seen: these, and as many beside them as there is room for.
+///
+/// Empty where a close-up would show no more: the picture's rows are single frames or smaller than a pixel, or so much of it is visible
+/// that the byte budget would have rows of the close-up merged as far. Begins with a row of the picture's finest level.
+FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visible, double framesPerPixel, std::size_t byteBudget);
+
+/// A stretch of an analysis's input and of its statistic, with the rows that an analysis of the whole with memory enough would have: the
+/// frames are read again, and the chain goes on from the checkpoint before them. Time axes begin with the stretch's first frame.
+///
+/// Cost: of the input, reading; of the statistic, also the chain over the stretch and up to an interval of checkpoints, over all frames
+/// before it where the detector cannot tell its state. Throws Cancelled. Oracle: the analysis's own pictures where they are not merged.
+std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const FrameStretch &stretch, std::size_t byteBudget,
+                                                const RunContext &context = {});
+std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, const FrameStretch &stretch, std::size_t byteBudget,
+                                                    const RunContext &context = {});
+
+} // namespace faintline
