@@ -679,8 +679,12 @@ void MainWindow::exportPicture(const QString &name)
 {
     const QString path = QFileDialog::getSaveFileName(this, tr("Export picture"), name + QStringLiteral(".png"),
                                                       tr("Picture (*.png);;Drawing (*.svg);;Document (*.pdf)"));
-    if (path.isEmpty())
-        return;
+    if (!path.isEmpty())
+        saveViewTo(name, path);
+}
+
+void MainWindow::saveViewTo(const QString &name, const QString &path)
+{
     m_reviews->provenance().with([this, name, path](const std::string &provenance) {
         try {
             saveView(*view(name), {}, path, withView(name, provenance));

@@ -38,14 +38,14 @@ struct RenderOptions {
 /// run to run. Needs a QApplication. Throws Error.
 void render(const RenderOptions &options);
 
-/// A picture to be made again from what it tells of itself.
+/// A picture to be made again from what it tells of itself, or the numbers of a sequential test's chart from what stands beside them.
 struct ReplayOptions {
-    std::string picture;   ///< PNG that `render` wrote, or the window with what suffices for it
+    std::string picture;   ///< PNG that `render` wrote, or the window with what suffices for it; or .csv
     std::string recording; ///< where the recording is; empty: beside the picture
 };
 
-/// Compares the pixels; prints whether they are the same. Throws Error where they are not, or where it cannot be made again.
-void replayPicture(const ReplayOptions &options);
+/// Compares pixels, or bytes; prints whether they are the same. Throws Error where they are not, or where it cannot be made again.
+void replay(const ReplayOptions &options);
 
 /// The same for a report as one HTML page: the same bytes from run to run.
 void report(const RenderOptions &options);

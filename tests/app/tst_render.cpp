@@ -81,13 +81,14 @@ private slots:
     void aPictureIsMadeAgain()
     {
         const QString out = path("again.png");
-        QCOMPARE(run({"render", path("scene.json"), "--out", out, "--size", "900x600", "--view", "output,threshold", "--theme", "dark", "--layer", "age",
-                      "--time", "20", "--frequency", "220", "--set", "decide.falseAlarmsPerHour=3"})
+        QCOMPARE(run({"render", path("scene.json"), "--out", out, "--size", "900x600", "--view", "output,threshold", "--theme", "dark",
+                      "--layer", "age", "--time", "20", "--frequency", "220", "--set", "decide.falseAlarmsPerHour=3"})
                      .error,
                  QByteArray());
         for (const QString &name : {QString("again-output.png"), QString("again-threshold.png")}) {
             const QString told = QImageReader(path(name)).text("provenance");
-            QVERIFY2(told.contains("scenario") && told.contains("\"decide.falseAlarmsPerHour\":3.0") && !told.contains(m_folder.path()), qPrintable(told));
+            QVERIFY2(told.contains("scenario") && told.contains("\"decide.falseAlarmsPerHour\":3.0") && !told.contains(m_folder.path()),
+                     qPrintable(told));
             const Outcome outcome = run({"replay", path(name)});
             QCOMPARE(outcome.error, QByteArray());
             QCOMPARE(outcome.out, name.toUtf8() + ": the same pixels\n");
