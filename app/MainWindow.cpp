@@ -707,7 +707,8 @@ std::string MainWindow::withView(const QString &name, const std::string &provena
                       {"size", {shown.width(), shown.height()}},
                       {"theme", Theme::nameOf(Theme::kind(palette())).toStdString()},
                       {"layer", std::string(outputLayerNames[static_cast<std::size_t>(layers.layer())])},
-                      {"overlay", layers.isOverlay()}};
+                      {"overlay", layers.isOverlay()},
+                      {"focused", shown.isAncestorOf(QApplication::focusWidget()) || &shown == QApplication::focusWidget()}};
     return json.dump(2) + "\n";
 }
 

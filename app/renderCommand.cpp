@@ -389,6 +389,7 @@ namespace {
         take("bearing", options.bearing);
         options.layer = json.value("layer", options.layer);
         options.isLayerOver = json.value("overlay", false);
+        options.isFocused = json.value("focused", true);
         options.presetA = json.value("presetA", std::string());
         options.settings = json.value("set", std::vector<std::string>());
         options.settingsA = json.value("setA", std::vector<std::string>());
@@ -428,7 +429,7 @@ namespace {
         return std::to_string(size.width()) + "x" + std::to_string(size.height());
     }
 
-    QImage pictureOf(QWidget &view, QSize size)
+    QImage pictureOf(QWidget &view, QSize size, bool isFocused)
     {
         if (!view.isWindow())
             view.setParent(nullptr);
@@ -438,6 +439,8 @@ namespace {
             throw Error("--size " + sizeText(size), "is too small for this view; it needs " + sizeText(view.size()));
         QCoreApplication::sendPostedEvents();
         QCoreApplication::processEvents();
+        if (QWidget *focused = QApplication::focusWidget(); focused && !isFocused)
+            focused->clearFocus();
         return view.grab().toImage().convertToFormat(QImage::Format_RGB32);
     }
 
@@ -475,10 +478,10 @@ void render(const RenderOptions &options)
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         QWidget &widget = *window.view(QString::fromStdString(view));
-        pictureOf(widget, options.size); // at that size a layer may have more pixels to fill
+        pictureOf(widget, options.size, options.isFocused); // at that size a layer may have more pixels to fill
         settleLayers(window);
         provenance["render"] = toJson(options, view);
-        write(pictureOf(widget, options.size), fileName(options, view), provenance);
+        write(pictureOf(widget, options.size, options.isFocused), fileName(options, view), provenance);
     }
 }
 

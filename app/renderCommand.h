@@ -32,6 +32,7 @@ struct RenderOptions {
     OpenOptions opening;
     std::optional<int> channel;
     std::optional<int> step;   ///< of a lesson, counted from 1
+    bool isFocused = true;     ///< the keys are the view's, which has a frame then
 };
 
 /// Opens the source (a lesson: at a step) in a window nobody sees, waits until it has settled, and writes the pictures: the same bytes from
