@@ -558,6 +558,8 @@ void replay(const ReplayOptions &options)
         session.erase("render");
         session.erase("version");
         RenderOptions again = optionsFromJson(provenance["render"]);
+        if (again.size != kept.size())
+            throw Error(options.picture, "tells of another size than it has");
         again.source = folder.filePath(QStringLiteral("picture.faintline")).toStdString();
         again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
         writeTextFile(again.source, session.dump(2) + "\n");

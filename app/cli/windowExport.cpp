@@ -102,7 +102,7 @@ namespace {
 
 bool isOfWindow(const Json &provenance)
 {
-    return provenance.is_object() && !provenance.contains("arguments") && provenance.contains("version");
+    return provenance.is_object() && !provenance.contains("arguments") && provenance.contains("version") && provenance["version"].is_string();
 }
 
 void remakeWindowExport(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,

@@ -100,6 +100,12 @@ private slots:
         Outcome outcome = run({"replay", path("changed.png")});
         QCOMPARE(outcome.exitCode, 1);
         QCOMPARE(outcome.out, QByteArray("changed.png: differs\n"));
+        changed = QImage(path("again-output.png")).scaled(450, 300);
+        changed.setText("provenance", QImageReader(path("again-output.png")).text("provenance"));
+        QVERIFY(changed.save(path("small.png")));
+        outcome = run({"replay", path("small.png")});
+        QCOMPARE(outcome.exitCode, 2);
+        QVERIFY2(outcome.error.contains("another size"), outcome.error.constData());
         changed.setText("provenance", "{\"recording\": 7}");
         QVERIFY(changed.save(path("broken.png")));
         for (const QString &name : {QString("broken.png"), QString("text.wav"), QString("none.png")}) {
