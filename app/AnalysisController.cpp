@@ -143,7 +143,8 @@ void AnalysisController::startAnalysis()
     const Span visible = m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
     m_runner.start([this, opened = m_document.openedSource(), settings = m_document.settings(), previous = m_document.analysis(), visible,
                     kept = m_kept](const RunContext &context) -> JobRunner::Delivery {
-        if (const bool isSame = previous && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
+        if (const bool isSame =
+                previous && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
             isSame && isWorthAPreview(*previous, settings)) {
             const Axis &time = previous->time();
             const FrameRange range = previewRange(*previous->frames, time.nearest(visible.low), time.nearest(visible.high));

@@ -679,8 +679,12 @@ void MainWindow::exportPicture(const QString &name)
 {
     const QString path = QFileDialog::getSaveFileName(this, tr("Export picture"), name + QStringLiteral(".png"),
                                                       tr("Picture (*.png);;Drawing (*.svg);;Document (*.pdf)"));
-    if (path.isEmpty())
-        return;
+    if (!path.isEmpty())
+        saveViewTo(name, path);
+}
+
+void MainWindow::saveViewTo(const QString &name, const QString &path)
+{
     m_reviews->provenance().with([this, name, path](const std::string &provenance) {
         try {
             saveView(*view(name), {}, path, withView(name, provenance));
@@ -703,7 +707,8 @@ std::string MainWindow::withView(const QString &name, const std::string &provena
                       {"size", {shown.width(), shown.height()}},
                       {"theme", Theme::nameOf(Theme::kind(palette())).toStdString()},
                       {"layer", std::string(outputLayerNames[static_cast<std::size_t>(layers.layer())])},
-                      {"overlay", layers.isOverlay()}};
+                      {"overlay", layers.isOverlay()},
+                      {"focused", shown.isAncestorOf(QApplication::focusWidget()) || &shown == QApplication::focusWidget()}};
     return json.dump(2) + "\n";
 }
 

@@ -105,6 +105,8 @@ public:
     /// "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors".
     static const QStringList &viewNames();
     QWidget *view(const QString &name);
+    /// One of them as it is seen now, by the path's extension, with what it was made from.
+    void saveViewTo(const QString &name, const QString &path);
 
     void showNoiseFit();
     void showWhy();

@@ -194,7 +194,9 @@ LayerWindow OutputLayers::windowOfPing() const
 {
     const std::vector<Axis> &axes = m_document.analysis()->grid().axes;
     const Viewport &viewport = m_pings->map();
-    const auto span = [](const Axis &axis, const Span &visible) { return std::pair(axis.nearest(visible.low), axis.nearest(visible.high) + 1); };
+    const auto span = [](const Axis &axis, const Span &visible) {
+        return std::pair(axis.nearest(visible.low), axis.nearest(visible.high) + 1);
+    };
     const auto [firstRange, endRange] = span(axes[0], viewport.time());
     // On a cyclic axis the ends of a view all round are neighbours.
     const bool isAllRound = viewport.frequency().width() > axes[1].step * static_cast<double>(axes[1].count - 1);
@@ -328,7 +330,8 @@ void OutputLayers::show()
         if (isOfPing)
             item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (pings)"), analysis->time().step);
         else
-            item.setLayer(m_layer, {0.0, longest}, isLong ? tr("Path age since reset (h)") : tr("Path age since reset (s)"), isLong ? 3600.0 : 1.0);
+            item.setLayer(m_layer, {0.0, longest}, isLong ? tr("Path age since reset (h)") : tr("Path age since reset (s)"),
+                          isLong ? 3600.0 : 1.0);
         break;
     }
     case OutputLayer::Reset:
@@ -348,7 +351,9 @@ void OutputLayers::showRates(LayerItem &item, std::size_t axis)
     const double largest = largestRate(*m_document.analysis(), axis);
     const QString name = QString::fromStdString(m_document.analysis()->grid().axes[axis].unit);
     const FrequencyUnit unit = name == QLatin1String("Hz") ? rateUnit(largest) : FrequencyUnit{name + "/s", 1.0};
-    const QString title = !m_document.hasPings() ? tr("Winning slope (%1)") : axis == 0 ? tr("Winning range rate (%1)") : tr("Winning bearing rate (%1)");
+    const QString title = !m_document.hasPings() ? tr("Winning slope (%1)")
+                          : axis == 0            ? tr("Winning range rate (%1)")
+                                                 : tr("Winning bearing rate (%1)");
     item.setLayer(m_layer, {-largest, largest}, title.arg(unit.name), unit.hz);
 }
 

@@ -394,8 +394,9 @@ void PingBench::followPlace()
 const PeakPyramid *PingBench::provisional() const
 {
     const auto &statistic = m_document.provisional();
-    return statistic && m_document.analysis() && m_shownPing == m_document.analysis()->time().nearest(statistic->time().first) ? statistic.get()
-                                                                                                                                : nullptr;
+    return statistic && m_document.analysis() && m_shownPing == m_document.analysis()->time().nearest(statistic->time().first)
+               ? statistic.get()
+               : nullptr;
 }
 
 void PingBench::showStatistic()

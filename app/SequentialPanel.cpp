@@ -719,9 +719,13 @@ void SequentialPanel::keyPressEvent(QKeyEvent *event)
     QWidget::keyPressEvent(event);
 }
 
-std::string SequentialPanel::provenance() const
+std::string SequentialPanel::provenance(const View &view) const
 {
-    Json json = {{"version", FAINTLINE_VERSION}};
+    Json json = {{"version", FAINTLINE_VERSION},
+                 {"chart", view.title.toStdString()},
+                 {"walk", m_tests.selected()},
+                 {"stage", m_tests.stage()},
+                 {"axis", m_axis->currentIndex()}};
     json["sequential"] = m_tests.isOfScans() ? writeFields(m_tests.test(), ScanTest::fields()) : writeFields(m_tests.test().sprt, SprtSettings::fields());
     if (!m_tests.isOfScans()) {
         const SequentialTests::Selection &selection = m_tests.selection();
@@ -742,10 +746,21 @@ void SequentialPanel::save(const View &view)
     if (path.isEmpty())
         return;
     try {
-        saveView(*view.widget, view.csv(), path, provenance());
+        saveTo(view, path);
     } catch (const Error &error) {
         emit failed(error);
     }
+}
+
+void SequentialPanel::saveTo(const View &view, const QString &path) const
+{
+    saveView(*view.widget, view.csv(), path, provenance(view));
+}
+
+void SequentialPanel::showAxis(int axis)
+{
+    m_axis->setCurrentIndex(axis);
+    showInspection();
 }
 
 } // namespace faintline

@@ -66,6 +66,10 @@ public:
         std::function<std::string()> csv;
     };
     const std::vector<View> &views() const { return m_views; }
+    /// As it is shown; numbers (.csv) with what makes them again beside them. Throws Error.
+    void saveTo(const View &view, const QString &path) const;
+    /// The axis of the posterior that is shown.
+    void showAxis(int axis);
 
     QSize sizeHint() const override { return {1000, 340}; }
 
@@ -101,7 +105,7 @@ private:
     void selectStoppedAt(int stage);
     void followDocument();
     void save(const View &view);
-    std::string provenance() const;
+    std::string provenance(const View &view) const;
     const PosteriorPicture *shownPosterior() const;
     Axis cellAxis(const PosteriorPicture &picture) const;
     QString trajectorySentence() const;

@@ -44,9 +44,9 @@ WindowMemory::Layout WindowMemory::layout() const
 {
     if (!m_store)
         return {};
-    return {m_store->value(geometryKey).toByteArray(), m_store->value(panelsKey).toByteArray(),
-            m_store->value(splittersKey).toByteArray(), m_store->value(pingSplittersKey).toByteArray(), m_store->value(colourMapKey).toString(),
-            m_store->value(orientationKey).toString()};
+    return {m_store->value(geometryKey).toByteArray(),  m_store->value(panelsKey).toByteArray(),
+            m_store->value(splittersKey).toByteArray(), m_store->value(pingSplittersKey).toByteArray(),
+            m_store->value(colourMapKey).toString(),    m_store->value(orientationKey).toString()};
 }
 
 void WindowMemory::setLayout(const Layout &layout)

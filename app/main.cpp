@@ -73,7 +73,8 @@ namespace {
         command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
         command->add_option("--range", options.range, "Where the cursor goes in pings, in the range axis's unit");
         command->add_option("--bearing", options.bearing, "Where the cursor goes in pings, degrees");
-        command->add_option("--layer", options.layer, "Of the output: statistic, rate, bearing-rate (of pings), age, reset or inhibited")->capture_default_str();
+        command->add_option("--layer", options.layer, "Of the output: statistic, rate, bearing-rate (of pings), age, reset or inhibited")
+            ->capture_default_str();
         command->add_flag("--overlay", options.isLayerOver, "The layer over the statistic instead of in its place");
         command->add_option("--theme", options.theme, "light, dark or contrast")
             ->check(CLI::IsMember({"light", "dark", "contrast"}))
@@ -102,8 +103,13 @@ namespace {
 
     CLI::App *addReplay(CLI::App &program, ReplayOptions &options)
     {
-        CLI::App *command = program.add_subcommand("replay", "Make a picture again from what it tells of itself, and compare the pixels");
-        command->add_option("PICTURE", options.picture, "A PNG that render wrote (faintline-cli replay does tables)")->required();
+        CLI::App *command = program.add_subcommand(
+            "replay",
+            "Make a picture again from what it tells of itself, and compare the pixels; or the numbers of a sequential test's chart");
+        command
+            ->add_option("PICTURE", options.picture,
+                         "A PNG that render wrote, or a .csv of the sequential test on scans (faintline-cli replay does other tables)")
+            ->required();
         command->add_option("--recording", options.recording, "The recording, if it is not beside the picture");
         return command;
     }
@@ -145,6 +151,13 @@ namespace {
     {
         if (type == QtFatalMsg)
             std::fprintf(stderr, "error: Qt: %s\n", qPrintable(message));
+    }
+
+    /// Of a picture that is to be made again: its own size, as when it was made.
+    QSize screenFor(const std::string &picture)
+    {
+        const QSize size = QImageReader(QString::fromStdString(picture)).size();
+        return size.isValid() ? size : RenderOptions().size;
     }
 
     /// Draws in a window nobody sees, of at most that size.
@@ -210,8 +223,7 @@ namespace {
         if (reportCommand->parsed())
             return runRender(argc, argv, reporting, reporting.size, 1.0, report);
         if (replayCommand->parsed())
-            return runRender(argc, argv, replaying, QImageReader(QString::fromStdString(replaying.picture)).size(), scaleOf(replaying.picture),
-                             replayPicture);
+            return runRender(argc, argv, replaying, screenFor(replaying.picture), scaleOf(replaying.picture), replay);
         if (!renderCommand->parsed())
             return runWindow(argc, argv, files, opening);
         rendering.size = parseSize(size);

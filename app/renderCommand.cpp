@@ -29,6 +29,7 @@
 #include <QBuffer>
 #include <QEventLoop>
 #include <QDir>
+#include <QFile>
 #include <QFileInfo>
 #include <QImageReader>
 #include <QPixmap>
@@ -403,6 +404,7 @@ namespace {
         take("bearing", options.bearing);
         options.layer = json.value("layer", options.layer);
         options.isLayerOver = json.value("overlay", false);
+        options.isFocused = json.value("focused", true);
         options.presetA = json.value("presetA", std::string());
         options.settings = json.value("set", std::vector<std::string>());
         options.settingsA = json.value("setA", std::vector<std::string>());
@@ -442,7 +444,7 @@ namespace {
         return std::to_string(size.width()) + "x" + std::to_string(size.height());
     }
 
-    QImage pictureOf(QWidget &view, QSize size)
+    QImage pictureOf(QWidget &view, QSize size, bool isFocused)
     {
         if (!view.isWindow())
             view.setParent(nullptr);
@@ -452,6 +454,8 @@ namespace {
             throw Error("--size " + sizeText(size), "is too small for this view; it needs " + sizeText(view.size()));
         QCoreApplication::sendPostedEvents();
         QCoreApplication::processEvents();
+        if (QWidget *focused = QApplication::focusWidget(); focused && !isFocused)
+            focused->clearFocus();
         return view.grab().toImage().convertToFormat(QImage::Format_RGB32);
     }
 
@@ -489,11 +493,11 @@ void render(const RenderOptions &options)
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         QWidget &widget = *window.view(QString::fromStdString(view));
-        pictureOf(widget, options.size); // at that size a layer may have more pixels to fill, and a picture smaller ones
+        pictureOf(widget, options.size, options.isFocused); // at that size a layer may have more pixels to fill, and a picture smaller ones
         settleLayers(window);
         settleCloseup(window);
         provenance["render"] = toJson(options, view);
-        write(pictureOf(widget, options.size), fileName(options, view), provenance);
+        write(pictureOf(widget, options.size, options.isFocused), fileName(options, view), provenance);
     }
 }
 
@@ -505,9 +509,50 @@ double scaleOf(const std::string &picture)
     return tells ? std::clamp(provenance[place].get<double>(), 1.0, 4.0) : 1.0;
 }
 
-void replayPicture(const ReplayOptions &options)
+namespace {
+
+    /// A chart's numbers of a test on a radar's scans.
+    void replayChart(const ReplayOptions &options)
+    {
+        const Json provenance = readJsonFile(options.picture + ".provenance.json");
+        try {
+            if (!provenance.contains("chart") || provenance.contains("recording"))
+                throw Error(options.picture, "is no chart of a test on a radar's scans; faintline-cli replay makes other tables again");
+            ScanTest test;
+            readFields(provenance.at("sequential"), ScanTest::fields(), test, "sequential");
+            checkScanTest(test);
+            MainWindow window;
+            window.setAsking(false);
+            window.show();
+            testAndSettle(window, [&] { window.openScans(test); });
+            testAndSettle(window, [&] { window.sequentialTests().select(provenance.at("walk").get<int>()); });
+            testAndSettle(window, [&] { window.sequentialTests().setStage(provenance.at("stage").get<Index>()); });
+            window.sequential().showAxis(provenance.at("axis").get<int>());
+            const auto &views = window.sequential().views();
+            const auto view = std::find_if(views.begin(), views.end(), [name = provenance.at("chart").get<std::string>()](const auto &one) {
+                return one.title.toStdString() == name;
+            });
+            if (view == views.end())
+                throw Error(options.picture, "is of a chart that this version does not have");
+            QFile kept(QString::fromStdString(options.picture));
+            if (!kept.open(QIODevice::ReadOnly))
+                throw Error(options.picture, "cannot be read: " + kept.errorString().toStdString());
+            const bool isSame = kept.readAll().toStdString() == view->csv();
+            std::printf("%s: %s\n", qPrintable(QFileInfo(kept).fileName()), isSame ? "the same bytes" : "differs");
+            if (!isSame)
+                throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+        } catch (const Json::exception &error) {
+            throw Error(options.picture, std::string("has a provenance that is broken: ") + error.what());
+        }
+    }
+
+} // namespace
+
+void replay(const ReplayOptions &options)
 {
     const QString path = QString::fromStdString(options.picture);
+    if (path.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive))
+        return replayChart(options);
     QImageReader reader(path);
     const QImage kept = reader.read();
     if (kept.isNull())
@@ -518,7 +563,8 @@ void replayPicture(const ReplayOptions &options)
     const Json provenance = parseJson(text.toStdString(), options.picture);
     try {
         if (!provenance.contains("recording") || !provenance.contains("render") || provenance["render"].contains("step"))
-            throw Error(options.picture, "is of a radar's scans, of a lesson, or of an older version: what it tells does not suffice to make it again");
+            throw Error(options.picture,
+                        "is of the whole window, of a radar's scans, or of a lesson: what it tells does not suffice to make it again");
         const QTemporaryDir folder;
         Json session = provenance;
         Json &source = session["recording"];
@@ -527,7 +573,8 @@ void replayPicture(const ReplayOptions &options)
             const QString recording = options.recording.empty() ? beside.absoluteFilePath()
                                                                 : QFileInfo(QString::fromStdString(options.recording)).absoluteFilePath();
             if (!QFileInfo::exists(recording))
-                throw Error(recording.toStdString(), "is what " + options.picture + " was made from, and is not there; --recording says where it is");
+                throw Error(recording.toStdString(),
+                            "is what " + options.picture + " was made from, and is not there; --recording says where it is");
             if (recordingHash(recording.toStdString()) != source["sha256"].get<std::string>())
                 throw Error(recording.toStdString(), "is not what " + options.picture + " was made from");
             source["path"] = recording.toStdString();
@@ -535,6 +582,8 @@ void replayPicture(const ReplayOptions &options)
         session.erase("render");
         session.erase("version");
         RenderOptions again = optionsFromJson(provenance["render"]);
+        if (again.size != kept.size())
+            throw Error(options.picture, "tells of another size than it has");
         again.source = folder.filePath(QStringLiteral("picture.faintline")).toStdString();
         again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
         writeTextFile(again.source, session.dump(2) + "\n");

@@ -33,23 +33,24 @@ struct RenderOptions {
     OpenOptions opening;
     std::optional<int> channel;
     std::optional<int> step;   ///< of a lesson, counted from 1
+    bool isFocused = true;     ///< the keys are the view's, which has a frame then
 };
 
 /// Opens the source (a lesson: at a step) in a window nobody sees, waits until it has settled, and writes the pictures: the same bytes from
 /// run to run. Needs a QApplication. Throws Error.
 void render(const RenderOptions &options);
 
-/// A picture to be made again from what it tells of itself.
+/// A picture to be made again from what it tells of itself, or the numbers of a sequential test's chart from what stands beside them.
 struct ReplayOptions {
-    std::string picture;   ///< PNG that `render` wrote, or the window with what suffices for it
+    std::string picture;   ///< PNG that `render` wrote, or the window with what suffices for it; or .csv
     std::string recording; ///< where the recording is; empty: beside the picture
 };
 
 /// Device pixels per pixel that a picture says it was made with, else 1: Qt wants to know before its application begins.
 double scaleOf(const std::string &picture);
 
-/// Compares the pixels; prints whether they are the same. Throws Error where they are not, or where it cannot be made again.
-void replayPicture(const ReplayOptions &options);
+/// Compares pixels, or bytes; prints whether they are the same. Throws Error where they are not, or where it cannot be made again.
+void replay(const ReplayOptions &options);
 
 /// The same for a report as one HTML page: the same bytes from run to run.
 void report(const RenderOptions &options);

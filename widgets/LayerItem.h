@@ -14,7 +14,7 @@ class QPainter;
 
 namespace faintline {
 
-/// Draws a layer of the detector's output on a waterfall or on the map of a ping, instead of the statistic or over it, and its key in a corner.
+/// Draws a layer of the detector's output on a waterfall or the map of a ping, instead of the statistic or over it, and its key in a corner.
 ///
 /// Rates have a diverging map about 0, grey where every state was reset and none has won; ages and reset fractions one that grows,
 /// inhibited cells a colour of their own. Over the statistic a layer is as opaque as the statistic stands out of the noise, so that what

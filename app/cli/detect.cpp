@@ -194,7 +194,8 @@ namespace {
             writeEvents(conventionally(*analysis), options.conventional);
         if (writer)
             writer->finish();
-        writeProvenance(common, {options.analysis.file, options.frames, options.grid, options.model, options.analysis.session, options.annotations},
+        writeProvenance(common,
+                        {options.analysis.file, options.frames, options.grid, options.model, options.analysis.session, options.annotations},
                         {options.events, options.tracks, options.statistic, options.conventional});
         if (options.summary)
             printSummary(*analysis);
@@ -346,8 +347,9 @@ void addDetect(CLI::App &app, Common &common)
     command->add_option("--grid", options->grid, "JSON that names the frames' axes");
     command->add_option("--model", options->model, "JSON of a model for the frames");
     command->add_option("--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
-    command->add_option("--annotations", options->annotations,
-                        "Boxes with judgements (Raven, Audacity, SigMF, CSV, JSON): the events written gain review and note where they match");
+    command->add_option(
+        "--annotations", options->annotations,
+        "Boxes with judgements (Raven, Audacity, SigMF, CSV, JSON): the events written gain review and note where they match");
     command->add_option("--tracks", options->tracks, "Write the tracks: .csv or .json");
     command->add_option("--conventional", options->conventional,
                         "Of pings: write the events of the conventional detector beside it (one ping's threshold, then "

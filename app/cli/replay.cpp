@@ -113,7 +113,8 @@ namespace {
         const fs::path asked = fs::absolute(result);
         const fs::path path = fs::absolute(result.ends_with(suffix) ? result : result + suffix);
         if (!fs::exists(path) && isPicture(result))
-            throw Error(result, "is a picture, which the window's program makes: 'faintline replay' takes a PNG that 'faintline render' wrote");
+            throw Error(result,
+                        "is a picture, which the window's program makes: 'faintline replay' takes a PNG that 'faintline render' wrote");
         if (!fs::exists(path))
             throw Error(result, "has no provenance: there is no " + path.filename().string() + " beside it");
         if (const Json json = readJsonFile(path.string()); isOfWindow(json)) {
@@ -189,8 +190,10 @@ void addReplay(CLI::App &app, Common &common)
     const auto result = std::make_shared<std::string>();
     const auto recording = std::make_shared<std::string>();
     CLI::App *command = app.add_subcommand("replay", "Make a result again from its own provenance, and compare");
-    command->add_option("RESULT", *result, "A file written by detect, compare, simulate or inject, or a table exported from the window, with its "
-                                          ".provenance.json beside it")
+    command
+        ->add_option("RESULT", *result,
+                     "A file written by detect, compare, simulate or inject, or a table exported from the window, with its "
+                     ".provenance.json beside it")
         ->required();
     command->add_option("--recording", *recording, "Of a table exported from the window: the recording, if it is not beside it");
     command->callback([result, recording, &common] { replay(*result, *recording, common); });

@@ -43,7 +43,8 @@ namespace {
             InjectedLine line;
             readFields(one.at("line"), LineSettings::fields(), line.line, "recording.injected");
             line.amplitude = one.at("amplitude");
-            base = std::make_shared<InjectedRecording>(base, std::vector{line}, one.value("channel", 0), one.value("seed", std::uint64_t(1)));
+            base =
+                std::make_shared<InjectedRecording>(base, std::vector{line}, one.value("channel", 0), one.value("seed", std::uint64_t(1)));
         }
         return base;
     }
@@ -80,7 +81,8 @@ namespace {
             provenance.contains("annotations") ? annotationsFromJson(provenance["annotations"], "annotations") : Annotations();
         std::vector<Event> shown = events(*analysis);
         if (provenance.contains("shownThreshold")) // it was being dragged
-            std::erase_if(shown, [least = provenance["shownThreshold"].get<double>()](const Event &event) { return event.statistic < least; });
+            std::erase_if(shown,
+                          [least = provenance["shownThreshold"].get<double>()](const Event &event) { return event.statistic < least; });
         writeReviewed(*analysis, shown, annotations, out);
     }
 
@@ -100,7 +102,7 @@ namespace {
 
 bool isOfWindow(const Json &provenance)
 {
-    return provenance.is_object() && !provenance.contains("arguments") && provenance.contains("version");
+    return provenance.is_object() && !provenance.contains("arguments") && provenance.contains("version") && provenance["version"].is_string();
 }
 
 void remakeWindowExport(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,
@@ -108,7 +110,8 @@ void remakeWindowExport(const Json &provenance, const std::string &result, const
 {
     try {
         if (provenance.contains("sequential"))
-            throw Error(result, "is a chart of a sequential test, which only the window makes: open its source and start the test again");
+            throw Error(result, "is a chart of a sequential test, which the window's program makes: 'faintline replay' does where it was "
+                                "on a radar's scans");
         if (provenance.contains("experiment"))
             return remakeCurve(provenance, out, context);
         if (provenance.contains("recording"))

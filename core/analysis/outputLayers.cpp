@@ -136,7 +136,9 @@ void LayerReplay::move(const MarkovModel &model, std::size_t axis, const Paths &
     to.scores.assign(from.scores.size(), unreached);
     to.ages.assign(from.ages.size(), 0);
     const Index cells = model.space.cellCount();
-    const auto plane = [&](Index outer, Index rate, Index innermost) { return ((outer * own.rateCount + rate) * innerRates + innermost) * cells; };
+    const auto plane = [&](Index outer, Index rate, Index innermost) {
+        return ((outer * own.rateCount + rate) * innerRates + innermost) * cells;
+    };
     const auto take = [&](Index target, Index source, Index count, float ln) {
         const float *score = from.scores.data() + source;
         const std::int32_t *age = from.ages.data() + source;
@@ -283,8 +285,8 @@ namespace {
     {
     public:
         LayerPainter(const Analysis &analysis, const LayerWindow &window, Index rows, Index columns)
-            : m_rows(rows), m_columns(columns), m_frameSeconds(static_cast<float>(analysis.time().step)), m_rates(ratesOfPlanes(analysis, 0)),
-              m_secondRates(ratesOfPlanes(analysis, 1))
+            : m_rows(rows), m_columns(columns), m_frameSeconds(static_cast<float>(analysis.time().step)),
+              m_rates(ratesOfPlanes(analysis, 0)), m_secondRates(ratesOfPlanes(analysis, 1))
         {
             const Index endRow = std::min(window.endRow, rows);
             const Index endColumn = std::min(window.endColumn, columns);
@@ -383,7 +385,8 @@ CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index c
     const auto i = static_cast<std::size_t>(cell);
     const std::vector<int> rates = modelOf(analysis, layers.model[i]).space.ratesOfPlane(layers.plane[i]);
     return {rates[0] * rateUnit(analysis, 0), rates.size() > 1 ? rates[1] * rateUnit(analysis, 1) : 0.0,
-            static_cast<double>(layers.age[i]) * analysis.time().step, layers.isInhibited[i] != 0, static_cast<double>(layers.statistic[i])};
+            static_cast<double>(layers.age[i]) * analysis.time().step, layers.isInhibited[i] != 0,
+            static_cast<double>(layers.statistic[i])};
 }
 
 CellReading readPixel(const LayerPicture &picture, Index pixel)

@@ -230,7 +230,8 @@ namespace {
     {
         if (boxes.empty())
             return {};
-        std::string text = "<h2>Annotations</h2>\n<table class=\"numbers\">\n" + numbers({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, 4, "th");
+        std::string text = "<h2>Annotations</h2>\n<table class=\"numbers\">\n"
+                           + numbers({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, 4, "th");
         for (const Annotation &box : boxes)
             text += numbers({fixed(box.startSeconds, 2), fixed(box.endSeconds, 2), box.lowHz ? fixed(*box.lowHz, 2) : "",
                              box.highHz ? fixed(*box.highHz, 2) : "", box.label, nameOf(box.verdict), box.note},
@@ -273,13 +274,16 @@ namespace {
         return text + "</details>\n";
     }
 
-    const char *const style = "body{font:15px/1.5 system-ui,sans-serif;color:#1c2127;background:#fff;max-width:72em;margin:2em auto;padding:0 1.5em}"
-                              "h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #dde1e6}"
-                              "table{border-collapse:collapse;margin:.5em 0}td,th{padding:.2em 1em .2em 0;text-align:left;vertical-align:top;border-bottom:1px solid #edf0f3}"
-                              ".numbers td{font-variant-numeric:tabular-nums}.n{text-align:right}tr.rejected td{color:#8a939d;text-decoration:line-through}"
-                              ".pictures{display:flex;flex-wrap:wrap;gap:1em;align-items:flex-end}figure{margin:0;flex:0 1 auto;min-width:18em;max-width:48%}img{max-width:100%;height:auto;border:1px solid #dde1e6}figcaption{color:#59636e}"
-                              "pre{background:#f4f6f8;padding:1em;white-space:pre-wrap;overflow-wrap:anywhere}summary{cursor:pointer}"
-                              "@media print{body{margin:0;max-width:none}figure,tr{break-inside:avoid}}";
+    const char *const style =
+        "body{font:15px/1.5 system-ui,sans-serif;color:#1c2127;background:#fff;max-width:72em;margin:2em auto;padding:0 1.5em}"
+        "h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #dde1e6}"
+        "table{border-collapse:collapse;margin:.5em 0}td,th{padding:.2em 1em .2em 0;text-align:left;vertical-align:top;border-bottom:1px "
+        "solid #edf0f3}"
+        ".numbers td{font-variant-numeric:tabular-nums}.n{text-align:right}tr.rejected td{color:#8a939d;text-decoration:line-through}"
+        ".pictures{display:flex;flex-wrap:wrap;gap:1em;align-items:flex-end}figure{margin:0;flex:0 1 "
+        "auto;min-width:18em;max-width:48%}img{max-width:100%;height:auto;border:1px solid #dde1e6}figcaption{color:#59636e}"
+        "pre{background:#f4f6f8;padding:1em;white-space:pre-wrap;overflow-wrap:anywhere}summary{cursor:pointer}"
+        "@media print{body{margin:0;max-width:none}figure,tr{break-inside:avoid}}";
 
 } // namespace
 

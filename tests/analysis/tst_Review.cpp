@@ -87,7 +87,8 @@ void tst_Review::boxesJudgeTheEventsInThem()
     // A note alone says something, a label alone does not; of several boxes the first counts.
     QCOMPARE(judge(box(5, 24, 299, 301, Verdict::None, "a fan")).reviews.size(), std::size_t(1));
     QCOMPARE(judge(Annotation{5, 24, 299.0, 301.0, "a fan", "", Verdict::None}).others.size(), std::size_t(1));
-    const JudgedByBoxes two = judgeByBoxes(one.reviews, analysis, all, {box(5, 24, 290, 310, Verdict::Accepted), box(0, 30, 290, 310, Verdict::Rejected)});
+    const JudgedByBoxes two =
+        judgeByBoxes(one.reviews, analysis, all, {box(5, 24, 290, 310, Verdict::Accepted), box(0, 30, 290, 310, Verdict::Rejected)});
     QCOMPARE(verdicts(analysis, two.reviews), (std::vector{Verdict::Accepted, Verdict::Rejected}));
     QCOMPARE(two.judged, 1);
     QVERIFY(two.others.empty());

@@ -131,8 +131,9 @@ private slots:
             const CellLayers &layers = replay.at(ping);
             for (Index cell = 1 + ping % 2; cell < grid.size(); cell += ping == 17 ? 7 : 31) {
                 const std::vector<Index> c = grid.coordinates(cell);
-                const Explanation why = explain(*analysis, analysis->time().value(static_cast<double>(ping)),
-                                                {grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))});
+                const Explanation why =
+                    explain(*analysis, analysis->time().value(static_cast<double>(ping)),
+                            {grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))});
                 const QByteArray where = QByteArray::number(ping) + " " + QByteArray::number(cell);
                 const auto i = static_cast<std::size_t>(cell);
                 const StateSpace &space = analysis->bank.empty() ? analysis->model.space : analysis->bank[why.model].model.space;

@@ -1,6 +1,8 @@
 #include "analysis/previewStatistic.h"
+#include "detect/ModelBank.h"
 #include "recording/SimulatedRecording.h"
 #include "spectrum/NoiseNormaliser.h"
+#include "spectrum/SimulatedPings.h"
 
 #include <QtTest>
 
@@ -84,8 +86,10 @@ private slots:
         QVERIFY(previewRange(*large, 5000, 6000).isKeepable);
         QVERIFY(!previewRange(*large, 5000, 55000).isEmpty() && !previewRange(*large, 5000, 55000).isKeepable);
         const Grid plane{{{"range", "m", 0.0, 1.0, 10, false}, {"bearing", "°", 0.0, 1.0, 10, true}}};
-        const FrameArray pings(Axis{"time", "s", 0.0, 1.0, 10, false}, plane, {});
-        QVERIFY(previewRange(pings, 0, 9).isEmpty());
+        const FrameArray pings(Axis{"time", "s", 0.0, 1.0, 30, false}, plane, {});
+        QCOMPARE(previewRange(pings, 29, 29).readFirst, Index(13)); // 16 before
+        QCOMPARE(previewRange(pings, 4, 4).readFirst, Index(0));
+        QCOMPARE(previewRange(pings, 4, 4).end, Index(5));
     }
 
     void whatIsWorthIt()
@@ -123,6 +127,54 @@ private slots:
         const StatisticPreview streamed = previewStatistic(*before, settings, previewRange(*before->frames, 0, 10000), nullptr);
         QVERIFY(valuesOf(*streamed.statistic) == valuesOf(expected));
         QCOMPARE(preview.statistic->time().first, before->time().first);
+    }
+
+    void pingsAreTheRecursionFromSixteenBefore()
+    {
+        PingScene scene;
+        scene.pings = 24;
+        scene.rangeCells = 40;
+        scene.beams = 6;
+        Analysis before;
+        before.settings = preset("sonar").settings;
+        before.settings.model.motion = Motion::Bank;
+        before.settings.model.lowestSlope = -1;
+        before.settings.model.highestSlope = 1;
+        before.frames = std::make_shared<SimulatedPings>(scene);
+        before.calibration = std::make_shared<Calibration>();
+        const std::vector<MarkovModel> models = makeModels(before.settings.model, before.grid());
+        before.model = models.front();
+        std::vector<ModelBank::Member> members;
+        const auto &smd = std::get<SmdSettings>(before.settings.detector);
+        for (const MarkovModel &model : models) {
+            before.bank.push_back({model, before.calibration, before.bank.empty() ? 0.0 : 1.5});
+            members.push_back({model, resetRule(smd, 0.0), before.bank.back().offset});
+        }
+        QVERIFY(!isWorthAPreview(before, before.settings));
+        AnalysisSettings changed = before.settings;
+        changed.model.snr *= 1.5;
+        QVERIFY(isWorthAPreview(before, changed));
+        for (const bool isBank : {true, false}) {
+            changed.model.motion = isBank ? Motion::Bank : Motion::Slopes;
+            const StatisticPreview preview = previewed(before, changed, 20, 20, 2);
+            QCOMPARE(preview.statistic->rowCount(0), Index(1));
+            QCOMPARE(preview.statistic->time().first, before.time().value(20.0));
+            const std::vector<MarkovModel> now = makeModels(changed.model, before.grid());
+            std::vector<ModelBank::Member> parts = members;
+            parts.resize(now.size());
+            for (std::size_t i = 0; i < now.size(); ++i)
+                parts[i].model = now[i];
+            ModelBank bank(parts);
+            std::vector<float> y(static_cast<std::size_t>(before.grid().size())), statistic(y.size());
+            for (Index ping = 4; ping <= 20; ++ping) {
+                before.frames->read(ping, 1, y);
+                bank.update(y, statistic);
+            }
+            PeakPyramid expected(before.time(), before.grid().size(), ByteScale(ByteScale::Kind::ScoreNats));
+            expected.append(statistic);
+            expected.finish();
+            QVERIFY(valuesOf(*preview.statistic) == valuesOf(expected));
+        }
     }
 
     void findsNearlyTheCalibratedK()

@@ -216,7 +216,8 @@ private slots:
                 *error = process.readAllStandardError();
             return process.readAllStandardOutput();
         };
-        for (const QString &name : {QString("r.csv"), QString("r.json"), QString("r.selections.txt"), QString("r.txt"), QString("r.sigmf-meta")}) {
+        for (const QString &name :
+             {QString("r.csv"), QString("r.json"), QString("r.selections.txt"), QString("r.txt"), QString("r.sigmf-meta")}) {
             m_window->reviews().exportTo(m_folder.filePath(name));
             QCOMPARE(replay(name), name.toUtf8() + ": the same bytes\n");
         }

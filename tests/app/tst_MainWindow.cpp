@@ -19,6 +19,7 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
+#include <QProcess>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QStatusBar>
@@ -466,6 +467,29 @@ private slots:
         QCOMPARE(other->workbench().input()->colourMap().name(), "viridis");
         QCOMPARE(other->document().shownEvents().size(), window->document().shownEvents().size());
         QVERIFY(!other->isWindowModified());
+    }
+
+    void savedViewsAreMadeAgain()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        window->workbench().output()->setColourMap("cividis");
+        window->document().viewport().zoomTo({4.0, 16.0}, {100.0, 300.0});
+        for (const QString &name : {QString("input"), QString("output"), QString("threshold")}) {
+            const QString file = path(name + ".png");
+            window->saveViewTo(name, file);
+            QProcess replay;
+            replay.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), {"replay", file});
+            QVERIFY(replay.waitForFinished(patience));
+            QVERIFY2(replay.readAllStandardOutput() == name.toUtf8() + ".png: the same pixels\n",
+                     replay.readAllStandardError().constData());
+        }
+        window->saveViewTo("window", path("window.png")); // where its panels are, it does not tell
+        QProcess replay;
+        replay.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), {"replay", path("window.png")});
+        QVERIFY(replay.waitForFinished(patience));
+        const QByteArray error = replay.readAllStandardError();
+        QVERIFY2(error.startsWith("error: ") && error.contains("does not suffice") && error.count('\n') == 1, error.constData());
     }
 
     void remembersFilesAndLayout()

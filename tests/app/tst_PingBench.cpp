@@ -502,7 +502,8 @@ private slots:
         const Track &track = w->document().analysis()->tracks.front();
         bench.showPing(track.detectFrame + 3);
         const Grid &grid = w->document().analysis()->grid();
-        const auto point = std::find_if(track.points.begin(), track.points.end(), [&](const TrackPoint &p) { return p.frame == bench.ping(); });
+        const auto point =
+            std::find_if(track.points.begin(), track.points.end(), [&](const TrackPoint &p) { return p.frame == bench.ping(); });
         QVERIFY(point != track.points.end());
         const std::vector<Index> c = grid.coordinates(point->cell);
         const PingMarks::Place place{grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))};

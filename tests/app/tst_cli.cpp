@@ -260,7 +260,8 @@ void tst_cli::resultsAreMadeAgain()
     QCOMPARE(run(m_folder, QStringList{"detect", "line.wav", "--events", "plain.csv"} + settings).code, 0);
     QVERIFY(!content("plain.csv").contains("review"));
     writeBytes(pathOf("judged.txt"), "8\t22\t[rejected] mains\n\\\t205\t218\n");
-    QCOMPARE(run(m_folder, QStringList{"detect", "line.wav", "--annotations", "judged.txt", "--events", "judged.csv"} + settings).err, QByteArray());
+    QCOMPARE(run(m_folder, QStringList{"detect", "line.wav", "--annotations", "judged.txt", "--events", "judged.csv"} + settings).err,
+             QByteArray());
     QVERIFY2(content("judged.csv").contains("rejected") && content("judged.csv").contains("mains"), content("judged.csv").constData());
     QCOMPARE(run(m_folder, {"replay", "judged.csv"}).out, QByteArray("judged.csv: the same bytes\n"));
     QCOMPARE(run(m_folder, QStringList{"detect", "line.wav", "--annotations", "judged.txt", "--summary"} + settings).code, 2);

@@ -19,7 +19,8 @@ QString helpOf(const QString &program, const QStringList &command = {})
 QString pageOf(const QString &program)
 {
     QFile file(QStringLiteral(FAINTLINE_SOURCE_DIR "/resources/man/%1.1").arg(program));
-    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()).replace(QStringLiteral("\\-"), QStringLiteral("-")) : QString();
+    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()).replace(QStringLiteral("\\-"), QStringLiteral("-"))
+                                          : QString();
 }
 
 QStringList found(const QString &text, const QString &pattern)
@@ -43,7 +44,8 @@ QStringList optionsOf(const QString &help)
 /// As a whole word: --set is not --set-a.
 bool names(const QString &page, const QString &word)
 {
-    return QRegularExpression(QStringLiteral("(^|[^\\w-])%1($|[^\\w-])").arg(QRegularExpression::escape(word)), QRegularExpression::MultilineOption)
+    return QRegularExpression(QStringLiteral("(^|[^\\w-])%1($|[^\\w-])").arg(QRegularExpression::escape(word)),
+                              QRegularExpression::MultilineOption)
         .match(page)
         .hasMatch();
 }

@@ -107,13 +107,14 @@ private slots:
     void aPictureIsMadeAgain()
     {
         const QString out = path("again.png");
-        QCOMPARE(run({"render", path("scene.json"), "--out", out, "--size", "900x600", "--view", "output,threshold", "--theme", "dark", "--layer", "age",
-                      "--time", "20", "--frequency", "220", "--set", "decide.falseAlarmsPerHour=3"})
+        QCOMPARE(run({"render", path("scene.json"), "--out", out, "--size", "900x600", "--view", "output,threshold", "--theme", "dark",
+                      "--layer", "age", "--time", "20", "--frequency", "220", "--set", "decide.falseAlarmsPerHour=3"})
                      .error,
                  QByteArray());
         for (const QString &name : {QString("again-output.png"), QString("again-threshold.png")}) {
             const QString told = QImageReader(path(name)).text("provenance");
-            QVERIFY2(told.contains("scenario") && told.contains("\"decide.falseAlarmsPerHour\":3.0") && !told.contains(m_folder.path()), qPrintable(told));
+            QVERIFY2(told.contains("scenario") && told.contains("\"decide.falseAlarmsPerHour\":3.0") && !told.contains(m_folder.path()),
+                     qPrintable(told));
             const Outcome outcome = run({"replay", path(name)});
             QCOMPARE(outcome.error, QByteArray());
             QCOMPARE(outcome.out, name.toUtf8() + ": the same pixels\n");
@@ -127,6 +128,12 @@ private slots:
         Outcome outcome = run({"replay", path("changed.png")});
         QCOMPARE(outcome.exitCode, 1);
         QCOMPARE(outcome.out, QByteArray("changed.png: differs\n"));
+        changed = QImage(path("again-output.png")).scaled(450, 300);
+        changed.setText("provenance", QImageReader(path("again-output.png")).text("provenance"));
+        QVERIFY(changed.save(path("small.png")));
+        outcome = run({"replay", path("small.png")});
+        QCOMPARE(outcome.exitCode, 2);
+        QVERIFY2(outcome.error.contains("another size"), outcome.error.constData());
         changed.setText("provenance", "{\"recording\": 7}");
         QVERIFY(changed.save(path("broken.png")));
         for (const QString &name : {QString("broken.png"), QString("text.wav"), QString("none.png")}) {
