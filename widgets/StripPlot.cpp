@@ -436,6 +436,12 @@ void StripPlot::wheelEvent(QWheelEvent *event)
     event->accept();
 }
 
+/// High enough for the axis's title.
+QSize StripPlot::minimumSizeHint() const
+{
+    return {220, static_cast<int>(84.0 + 130.0 * (Theme::plotScale() - 1.0))};
+}
+
 void StripPlot::changeEvent(QEvent *event)
 {
     QwtPlot::changeEvent(event);
