@@ -249,6 +249,8 @@ void LessonGuide::present(bool isPresenting)
         for (const QString &name : now().show)
             reveal(widgetNamed(name));
         reveal(widgetNamed(now().point));
+        if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock")); below && below->isVisible())
+            m_window.resizeDocks({m_dock, below}, {5, 1}, Qt::Vertical);
         m_frame->follow();
     }
 }

@@ -23,7 +23,7 @@ namespace faintline {
 namespace {
 
     constexpr int plainSize = 14;
-    constexpr int largeSize = 28; ///< read from the last row
+    constexpr int largeSize = 26; ///< read from the last row
 
     /// A choice whose words wrap: a radio button would not wrap its own.
     QWidget *choiceRow(QRadioButton *button, QLabel *words)
@@ -98,7 +98,7 @@ void LessonPanel::setStep(const Lesson &lesson, int step)
 
 void LessonPanel::setLarge(bool isLarge)
 {
-    constexpr int largeWidth = 480; // some thirty letters a line
+    constexpr int largeWidth = 500; // some thirty letters a line
     setMinimumWidth(isLarge ? largeWidth : 0);
     if (std::exchange(m_isLarge, isLarge) == isLarge || m_step < 0)
         return;
@@ -134,7 +134,7 @@ void LessonPanel::fill()
     auto *page = new QWidget;
     auto *column = new QVBoxLayout(page);
     column->setContentsMargins(0, 4, 6, 4);
-    column->setSpacing(m_isLarge ? 14 : 9);
+    column->setSpacing(m_isLarge ? 12 : 9);
     column->addWidget(paragraph(step.title, true));
     column->addWidget(paragraph(step.text));
     if (step.question) {

@@ -190,6 +190,7 @@ void StripPlot::removeSeries(const QString &name)
 void StripPlot::setLeftTitle(const QString &title)
 {
     setAxisTitle(QwtAxis::YLeft, title);
+    updateGeometry();
     setAccessibleName(tr("%1 over time").arg(title));
     restyle();
 }
@@ -439,7 +440,10 @@ void StripPlot::wheelEvent(QWheelEvent *event)
 /// High enough for the axis's title.
 QSize StripPlot::minimumSizeHint() const
 {
-    return {220, static_cast<int>(84.0 + 130.0 * (Theme::plotScale() - 1.0))};
+    constexpr int least = 84;
+    const int titleLength = QFontMetrics(Theme::plotTitleFont()).horizontalAdvance(axisTitle(QwtAxis::YLeft).text());
+    const int timeAxis = static_cast<int>(std::lround(48.0 * Theme::plotScale()));
+    return {220, std::max(least, titleLength + timeAxis)};
 }
 
 void StripPlot::changeEvent(QEvent *event)

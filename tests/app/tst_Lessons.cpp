@@ -332,8 +332,8 @@ void tst_Lessons::presentedItIsLargerAndStays()
     QTest::keyClick(window.get(), Qt::Key_F5);
     QVERIFY(!window->menuBar()->isVisible());
     QVERIFY(guide.panel().isVisible());
-    QVERIFY(size() >= 28);
-    QVERIFY(guide.panel().width() >= 480);
+    QVERIFY(size() >= 26);
+    QVERIFY(guide.panel().width() >= 500);
     QVERIFY2(words() >= 16, qPrintable(QString::number(words())));
     guide.goTo(1);
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
