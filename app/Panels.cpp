@@ -96,7 +96,7 @@ void Panels::takeDefault()
         right->raise();
     }
     m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)}, Qt::Horizontal);
-    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{6, 5} : QList<int>{4, 5}, Qt::Vertical); // forms need height
+    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{1, 1} : QList<int>{4, 5}, Qt::Vertical);
 }
 
 void Panels::show(QWidget *panel)
