@@ -102,7 +102,10 @@ void LawPanel::show()
         if (!law.plot) {
             law.plot = new LawPlot;
             m_plots->addWidget(law.plot, 1);
-            connect(law.plot, &LawPlot::lawDragged, this, &LawPanel::sayWhatItMeans);
+            connect(law.plot, &LawPlot::lawDragged, this, [this] {
+                m_sentence->setFixedHeight(m_sentence->height()); // other words must not move the bar from under the pointer
+                sayWhatItMeans();
+            });
             connect(law.plot, &LawPlot::lawRequested, this, [this, i](const std::vector<double> &values) {
                 emit lawRequested(m_laws[i].field, values);
                 show(); // where nothing came of it, as it was
@@ -117,6 +120,8 @@ void LawPanel::show()
         law.plot->setLaw(law.values, law.mostChange);
     }
     m_laws = std::move(laws);
+    m_sentence->setMinimumHeight(0);
+    m_sentence->setMaximumHeight(QWIDGETSIZE_MAX);
     sayWhatItMeans();
 }
 

@@ -241,6 +241,20 @@ void LessonGuide::showPanel()
     m_window.resizeDocks({m_dock}, {m_window.width() * panelPercent / 100}, Qt::Horizontal);
 }
 
+/// In a presentation the words are larger, and of the panels only what the step needs is there.
+void LessonGuide::present(bool isPresenting)
+{
+    m_panel->setLarge(isPresenting);
+    if (isRunning() && isPresenting && m_isReady) {
+        for (const QString &name : now().show)
+            reveal(widgetNamed(name));
+        reveal(widgetNamed(now().point));
+        if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock")); below && below->isVisible())
+            m_window.resizeDocks({m_dock, below}, {5, 1}, Qt::Vertical);
+        m_frame->follow();
+    }
+}
+
 void LessonGuide::leave()
 {
     if (!isRunning())

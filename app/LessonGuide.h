@@ -39,6 +39,7 @@ public:
 
 public slots:
     void goTo(int step);
+    void present(bool isPresenting);
     void leave();
     void check(); ///< whether the task is done
 

@@ -23,7 +23,7 @@ namespace faintline {
 namespace {
 
     constexpr int plainSize = 14;
-    constexpr int largeSize = 20;
+    constexpr int largeSize = 26; ///< read from the last row
 
     /// A choice whose words wrap: a radio button would not wrap its own.
     QWidget *choiceRow(QRadioButton *button, QLabel *words)
@@ -98,6 +98,8 @@ void LessonPanel::setStep(const Lesson &lesson, int step)
 
 void LessonPanel::setLarge(bool isLarge)
 {
+    constexpr int largeWidth = 500; // some thirty letters a line
+    setMinimumWidth(isLarge ? largeWidth : 0);
     if (std::exchange(m_isLarge, isLarge) == isLarge || m_step < 0)
         return;
     const int chosen = choice();
@@ -119,7 +121,9 @@ void LessonPanel::fill()
     m_title->setText(m_lesson.title);
     m_title->setFont(Theme::boldFont(m_isLarge ? largeSize : plainSize));
     m_place->setText(tr("Step %1 of %2").arg(m_step + 1).arg(count));
-    m_place->setFont(Theme::font(m_isLarge ? plainSize : 12));
+    m_place->setFont(Theme::font(m_isLarge ? 20 : 12));
+    for (QPushButton *button : {m_back, m_next, m_leave})
+        button->setFont(Theme::font(m_isLarge ? 20 : 13));
     m_progress->setRange(0, count);
     m_progress->setValue(m_step + 1);
     m_next->setText(m_step + 1 == count ? tr("F&inish") : tr("Ne&xt"));
@@ -143,6 +147,7 @@ void LessonPanel::fill()
             words->setBuddy(button);
             button->setAccessibleName(step.question->choices[i]);
             button->setFont(font(false));
+            button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line
             m_choices->addButton(button, i);
             column->addWidget(choiceRow(button, words));
         }

@@ -319,7 +319,8 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_welcome->lessonList(), &LessonList::chosen, this,
             [this](int lesson) { m_lessons->start(lessons()[static_cast<std::size_t>(lesson)]); });
-    connect(m_presentAction, &QAction::toggled, &m_lessons->panel(), &LessonPanel::setLarge);
+    connect(m_presentAction, &QAction::toggled, this, [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
+    connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
 
     const auto goTo = [this](int id) {

@@ -21,6 +21,7 @@ namespace {
 
     constexpr int bandCount = 6;
     constexpr double rarest = 1e-4; ///< beyond it a ratio would rest on a handful of cells
+    constexpr std::int64_t mostCells = 20'000'000;
     constexpr double fewest = 10.0; ///< values beyond a quantile that is drawn
 
     QString bandText(const FittedBand &band, const Axis &axis)
@@ -33,6 +34,17 @@ namespace {
         const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
         return QObject::tr("%1 … %2 %3")
             .arg(numberText(band.low / unit.hz, decimals), numberText(band.high / unit.hz, decimals), unit.name);
+    }
+
+    /// Bins at 0 Hz and at half the rate which are no noise of that law, and are kept from the detector.
+    Index blindCells(const Analysis &analysis)
+    {
+        const SelectionSettings &selection = analysis.settings.selection;
+        if (!analysis.recording || analysis.recording->info().isComplex || selection.lowHz < selection.highHz)
+            return 0;
+        const std::vector<double> &cells = analysis.settings.decide.inhibitCells;
+        const double half = cells.empty() ? 0.0 : cells.back();
+        return static_cast<Index>(std::ceil(half * frameGeometry(analysis.settings.spectrogram).binsPerCell)) + 1;
     }
 
     Chart chartOf(const std::vector<FittedBand> &bands, const Axis &axis)
@@ -115,8 +127,9 @@ void NoiseFitPanel::measure()
         Fit fit{analysis, {}, {}};
         const FrameGeometry geometry =
             analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
-        fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4));
-        fit.pfa = misfitPfa(fit.bands, analysis->settings,
+        fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4), mostCells, blindCells(*analysis));
+        if (analysis->settings.model.motion == Motion::Slopes) // a sonar's targets move on two axes, these cells lie on one
+            fit.pfa = misfitPfa(fit.bands, analysis->settings,
                             std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
                             context.part(0.4, 1.0));
         return [this, fit = std::move(fit)] { show(fit); };
@@ -135,7 +148,8 @@ void NoiseFitPanel::show(const Fit &fit)
                                      .arg(numberText(band.law.distance(), 4),
                                           band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
                                           numberText(NoiseLaw::distanceLimit(band.independent), 4)),
-                                 QStringLiteral("× ") + powerText(fit.pfa[static_cast<std::size_t>(row)].ratio(), 3)};
+                                 fit.pfa.empty() ? QStringLiteral("–")
+                                                 : QStringLiteral("× ") + powerText(fit.pfa[static_cast<std::size_t>(row)].ratio(), 3)};
         fillRow(*m_table, row, texts, 1);
     }
     say(fit);
@@ -145,6 +159,10 @@ void NoiseFitPanel::say(const Fit &fit)
 {
     const auto misfits =
         std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
+    if (fit.pfa.empty())
+        return m_sentence->setText((misfits == 0 ? tr("All bands follow the law.")
+                                                 : tr("%1 of %2 bands depart from the law; targets in them do so too.").arg(misfits).arg(fit.bands.size()))
+                                   + QLatin1Char(' ') + tr("What misfits do to Pfa is reckoned for slope sets only."));
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
                                         [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
     const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());

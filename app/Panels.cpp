@@ -90,12 +90,13 @@ void Panels::takeDefault()
         bar->hide();
     const int width = m_window.width();
     QDockWidget *left = first(Place::Left), *right = first(Place::RightTop);
-    if (width < twoColumnsFrom) {
+    const bool isNarrow = width < twoColumnsFrom;
+    if (isNarrow) {
         m_window.tabifyDockWidget(right, left);
         right->raise();
     }
     m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)}, Qt::Horizontal);
-    m_window.resizeDocks({right, first(Place::RightBottom)}, {4, 5}, Qt::Vertical);
+    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{1, 1} : QList<int>{4, 5}, Qt::Vertical);
 }
 
 void Panels::show(QWidget *panel)

@@ -147,7 +147,9 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_sentence->setText(tr("Click in a picture: here stands why there is a detection, or none."));
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
     makeReadingTable(*m_ladder, 20);
-    m_ladder->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+    m_ladder->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    m_ladder->horizontalHeader()->setResizeContentsPrecision(0); // of what is in sight
+    m_ladder->horizontalHeader()->setStretchLastSection(true);
     m_ladder->setAccessibleName(tr("The best path, newest step first"));
     auto *splitter = new QSplitter(Qt::Vertical);
     splitter->addWidget(m_plot);

@@ -1,5 +1,7 @@
 #include "app/readingTable.h"
 
+#include "widgets/Theme.h"
+
 #include <QHeaderView>
 #include <QTableWidget>
 
@@ -10,6 +12,9 @@ void makeReadingTable(QTableWidget &table, int rowHeight)
     table.verticalHeader()->hide();
     table.verticalHeader()->setDefaultSectionSize(rowHeight);
     table.horizontalHeader()->setHighlightSections(false);
+    table.setFont(Theme::font(12));
+    table.horizontalHeader()->setFont(Theme::font(12));
+    table.horizontalHeader()->setMinimumSectionSize(24);
     table.setSelectionBehavior(QAbstractItemView::SelectRows);
     table.setEditTriggers(QAbstractItemView::NoEditTriggers);
     table.setShowGrid(false);

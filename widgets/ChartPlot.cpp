@@ -415,8 +415,9 @@ void ChartPlot::placeKey()
     int widest = 0;
     for (const QCheckBox *box : m_boxes)
         widest = std::max(widest, box->sizeHint().width() + 26);
-    constexpr int heightBelow = 76;
-    const bool isBelow = 3 * widest > width() && height() > 4 * heightBelow;
+    const int heightBelow = std::min(76, 8 + 24 * static_cast<int>(m_boxes.size()));
+    const bool isNarrow = 3 * widest > width(), isVeryNarrow = 2 * widest > width();
+    const bool isBelow = (isNarrow && height() > 4 * 76) || (isVeryNarrow && height() > 90 + 2 * heightBelow);
     m_row->setDirection(isBelow ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     m_keyArea->setMinimumSize(isBelow ? 0 : widest, isBelow ? heightBelow : 0);
     m_keyArea->setMaximumSize(isBelow ? QWIDGETSIZE_MAX : widest, isBelow ? heightBelow : QWIDGETSIZE_MAX);

@@ -112,6 +112,12 @@ void ColourBar::chooseScale()
     m_scale = {std::max(all.low, m_range.low - room) - edge, std::min(all.high, m_range.high + room) + edge};
 }
 
+/// The bar, its histogram, and the numbers beside it.
+int ColourBar::usualWidth()
+{
+    return 45 + static_cast<int>(std::lround(33.0 * Theme::plotScale()));
+}
+
 QRectF ColourBar::barRect() const
 {
     double top = topMargin, bottom = height() - bottomMargin;
@@ -327,7 +333,9 @@ bool ColourBar::eventFilter(QObject *watched, QEvent *event)
 void ColourBar::changeEvent(QEvent *event)
 {
     QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange)
+    if (event->type() == QEvent::StyleChange)
+        updateGeometry();
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
         update();
 }
 

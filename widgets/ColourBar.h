@@ -36,8 +36,8 @@ public:
 
     const Span &range() const { return m_range; }
 
-    QSize sizeHint() const override { return {78, 240}; }
-    QSize minimumSizeHint() const override { return {78, 120}; }
+    QSize sizeHint() const override { return {usualWidth(), 240}; }
+    QSize minimumSizeHint() const override { return {usualWidth(), 120}; }
 
 signals:
     void rangeRequested(double low, double high);
@@ -57,6 +57,7 @@ protected:
 private:
     enum class Grip { None, Low, High, Both };
 
+    static int usualWidth();
     QRectF barRect() const;
     double yOf(double value) const;
     double valueAt(double y) const;

@@ -40,7 +40,7 @@ public:
     {
         const Theme::Colours &colours = Theme::colours(m_owner);
         painter->save();
-        painter->setFont(Theme::font(11));
+        painter->setFont(Theme::plotFont());
         const QFontMetricsF metrics(painter->font());
         const double place = xMap.transform(1.0) - xMap.transform(0.0);
         for (int change = -m_owner.reach(); change <= m_owner.reach(); ++change) {

@@ -142,7 +142,7 @@ std::unique_ptr<QwtPlotItem> LayerItem::makeKey() const
 void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
 {
     painter->save();
-    painter->setFont(Theme::font(12));
+    painter->setFont(Theme::plotTitleFont());
     const QFontMetricsF metrics(painter->font());
     const bool isFlag = m_layer == OutputLayer::Inhibited;
     const double width = std::max(140.0, metrics.horizontalAdvance(m_title)) + 16.0;

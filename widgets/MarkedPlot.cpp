@@ -27,7 +27,7 @@ public:
     {
         const Theme::Colours &colours = Theme::colours(m_owner);
         painter->save();
-        painter->setFont(Theme::font(12));
+        painter->setFont(Theme::plotTitleFont());
         double row = canvas.top() + m_owner.marksTop(); // words of upright lines, each a row lower, so that near ones do not meet
         for (const Mark &mark : m_owner.marks()) {
             painter->setPen(QPen(mark.isUpright ? colours.text : colours.threshold, 1.2, mark.isUpright ? Qt::DashLine : Qt::SolidLine));

@@ -80,7 +80,7 @@ struct OverlayItem::Canvas {
 
     /// Small text of one or more lines on a dark plate, kept on the canvas.
     void label(const QPointF &corner, const QString &text, const QColor &colour,
-               const QColor &plate = QColor(0, 0, 0, 165), const QFont &font = Theme::font(11)) const
+               const QColor &plate = QColor(0, 0, 0, 165), const QFont &font = Theme::plotFont()) const
     {
         painter.setFont(font);
         const QFontMetricsF metrics(painter.font());
@@ -330,7 +330,7 @@ void OverlayItem::drawSidebands(const Canvas &canvas) const
         if (isNamed)
             canvas.label(line.p1() + QPointF(4.0, 4.0), name, colours.cursor);
     }
-    canvas.label(canvas.rect.bottomLeft() + QPointF(6.0, -6.0), sidebandText, colours.cursor, QColor(0, 0, 0, 190), Theme::monoFont(11));
+    canvas.label(canvas.rect.bottomLeft() + QPointF(6.0, -6.0), sidebandText, colours.cursor, QColor(0, 0, 0, 190), Theme::monoFont(Theme::plotFont().pixelSize()));
 }
 
 void OverlayItem::drawCursor(const Canvas &canvas) const

@@ -37,7 +37,7 @@ struct PingOverlayItem::Canvas {
     /// Small text on a dark plate beside a point, kept on the canvas.
     void label(const QPointF &beside, const QString &text, const QColor &colour) const
     {
-        painter.setFont(Theme::font(11));
+        painter.setFont(Theme::plotFont());
         const QFontMetricsF metrics(painter.font());
         QRectF box(beside + QPointF(7.0, -7.0 - metrics.height()),
                    QSizeF(std::ceil(metrics.horizontalAdvance(text)) + 8.0, std::ceil(metrics.height()) + 1.0));

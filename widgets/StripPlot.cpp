@@ -190,6 +190,7 @@ void StripPlot::removeSeries(const QString &name)
 void StripPlot::setLeftTitle(const QString &title)
 {
     setAxisTitle(QwtAxis::YLeft, title);
+    updateGeometry();
     setAccessibleName(tr("%1 over time").arg(title));
     restyle();
 }
@@ -434,6 +435,15 @@ void StripPlot::wheelEvent(QWheelEvent *event)
     else
         m_viewport->pan(-0.1 * notches * m_viewport->time().width(), 0.0);
     event->accept();
+}
+
+/// High enough for the axis's title.
+QSize StripPlot::minimumSizeHint() const
+{
+    constexpr int least = 84;
+    const int titleLength = QFontMetrics(Theme::plotTitleFont()).horizontalAdvance(axisTitle(QwtAxis::YLeft).text());
+    const int timeAxis = static_cast<int>(std::lround(48.0 * Theme::plotScale()));
+    return {220, std::max(least, titleLength + timeAxis)};
 }
 
 void StripPlot::changeEvent(QEvent *event)

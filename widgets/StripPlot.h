@@ -61,7 +61,7 @@ public:
     void setEmptySentence(const QString &sentence);
 
     QSize sizeHint() const override { return {520, 110}; }
-    QSize minimumSizeHint() const override { return {220, 84}; }
+    QSize minimumSizeHint() const override;
 
 signals:
     void hovered(double seconds, double value);

@@ -14,6 +14,9 @@
 #include <QProxyStyle>
 #include <QToolTip>
 
+#include <cmath>
+#include <utility>
+
 namespace faintline {
 
 namespace {
@@ -60,6 +63,13 @@ namespace {
         font.setStyleStrategy(static_cast<QFont::StyleStrategy>(QFont::PreferAntialias | QFont::NoSubpixelAntialias
                                                                 | QFont::NoFontMerging));
         return font;
+    }
+
+    double wordScale = 1.0; ///< of plots
+
+    int scaled(int pixelSize)
+    {
+        return static_cast<int>(std::lround(wordScale * pixelSize));
     }
 
     void loadFonts()
@@ -279,12 +289,32 @@ QFont Theme::monoFont(int pixelSize)
 
 QFont Theme::plotFont()
 {
-    return font(11);
+    return font(scaled(11));
 }
 
 QFont Theme::plotTitleFont()
 {
-    return font(12);
+    return font(scaled(12));
+}
+
+QFont Theme::plotHeadingFont()
+{
+    return boldFont(scaled(13));
+}
+
+void Theme::setPlotScale(double scale)
+{
+    if (std::exchange(wordScale, scale) == scale)
+        return;
+    QEvent change(QEvent::StyleChange);
+    for (QWidget *widget : QApplication::allWidgets())
+        if (widget->inherits("QwtPlot") || widget->inherits("faintline::ChartPlot") || widget->inherits("faintline::ColourBar"))
+            QApplication::sendEvent(widget, &change);
+}
+
+double Theme::plotScale()
+{
+    return wordScale;
 }
 
 void Theme::frame(QwtPlot &plot)

@@ -64,6 +64,10 @@ public:
     static QFont monoFont(int pixelSize = 13); ///< figures that must stay in their columns
     static QFont plotFont();                   ///< tick labels
     static QFont plotTitleFont();              ///< axis titles
+    static QFont plotHeadingFont();
+    /// How much larger all plots' words are than usual, for those who sit far away.
+    static void setPlotScale(double scale);
+    static double plotScale();
 
     /// The thin frame of a plot's canvas, in the accent's colour while the plot has the focus.
     static void frame(QwtPlot &plot);

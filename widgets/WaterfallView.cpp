@@ -290,7 +290,7 @@ void WaterfallView::layAxes()
         setAxisVisible(axis, !isEmpty);
 
     QwtText title(m_heading);
-    title.setFont(Theme::boldFont(13));
+    title.setFont(Theme::plotHeadingFont());
     title.setRenderFlags(Qt::AlignLeft | Qt::AlignVCenter);
     title.setColor(Theme::colours(*this).text);
     setTitle(title);

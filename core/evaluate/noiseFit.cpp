@@ -80,14 +80,16 @@ double NoiseLaw::distanceLimit(double independent)
 // ---- of frames ------------------------------------------------------------------------------------------------------
 
 std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry,
-                                 const RunContext &context, std::int64_t cells)
+                                 const RunContext &context, std::int64_t cells, Index leftOut)
 {
     const Axis &axis = frames.grid().axes.back();
     const Index size = frames.grid().size();
     const Index frameCount = frames.time().count;
-    const Index wanted = std::clamp<Index>(bands, 1, axis.count);
+    const Index beyond = std::clamp<Index>(leftOut, 0, (axis.count - 1) / 2);
+    const Index looked = axis.count - 2 * beyond;
+    const Index wanted = std::clamp<Index>(bands, 1, looked);
     std::vector<FittedBand> result(static_cast<std::size_t>(wanted));
-    const auto edge = [&](Index band) { return band * axis.count / wanted; };
+    const auto edge = [&](Index band) { return beyond + band * looked / wanted; };
     for (Index band = 0; band < wanted; ++band) {
         result[static_cast<std::size_t>(band)].low = axis.value(static_cast<double>(edge(band)));
         result[static_cast<std::size_t>(band)].high = axis.value(static_cast<double>(edge(band + 1)));

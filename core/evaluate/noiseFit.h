@@ -49,7 +49,7 @@ private:
 
 /// One band's law, and what it does to false alarms.
 struct FittedBand {
-    double low = 0.0; ///< position on the frames' last axis, Hz
+    double low = 0.0; ///< position on the frames' last axis, in its unit
     double high = 0.0;
     NoiseLaw law;
     double independent = 0.0; ///< values that overlap leaves independent: cells over k_t·k_f
@@ -58,9 +58,10 @@ struct FittedBand {
 };
 
 /// Counts frames' values in `bands` bands of equal width. Looks at no more than about `cells` values, in frames spread evenly.
-/// `geometry`: how far overlap makes neighbours dependent. Throws Cancelled.
+/// `geometry`: how far overlap makes neighbours dependent. `leftOut`: cells at either end of the axis that are kept from the detector, too (where
+/// a real recording's spectrum overlaps with its mirror image). Throws Cancelled.
 std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {},
-                                 const RunContext &context = {}, std::int64_t cells = 20'000'000);
+                                 const RunContext &context = {}, std::int64_t cells = 20'000'000, Index leftOut = 0);
 
 /// Of one detector's statistic at a threshold, per cell: as the exponential law has it, and as a band's own law has it.
 struct MisfitPfa {

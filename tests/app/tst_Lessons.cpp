@@ -14,6 +14,7 @@
 #include "app/lessonMeasures.h"
 #include "widgets/PingMap.h"
 #include "widgets/SettingsForm.h"
+#include "widgets/WaterfallView.h"
 #include "widgets/WalkPlot.h"
 
 #include <QButtonGroup>
@@ -25,6 +26,8 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QTest>
+
+#include <qwt_scale_widget.h>
 
 #include <functional>
 #include <memory>
@@ -161,6 +164,7 @@ private slots:
     void backGoesBackAndUndoUndoes();
     void openingSomethingElseLeaves();
     void presentedItIsLargerAndStays();
+    void presentedTheStepKeepsItsPanel();
     void menuPaletteAndWelcomePageOfferThem();
 };
 
@@ -323,10 +327,14 @@ void tst_Lessons::presentedItIsLargerAndStays()
         return largest;
     };
     const int plain = size();
+    const auto words = [&] { return window->workbench().input()->axisWidget(QwtAxis::XBottom)->font().pixelSize(); };
+    const int plainWords = words();
     QTest::keyClick(window.get(), Qt::Key_F5);
     QVERIFY(!window->menuBar()->isVisible());
     QVERIFY(guide.panel().isVisible());
-    QVERIFY(size() > plain);
+    QVERIFY(size() >= 26);
+    QVERIFY(guide.panel().width() >= 500);
+    QVERIFY2(words() >= 16, qPrintable(QString::number(words())));
     guide.goTo(1);
     QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
     QVERIFY(size() > plain);
@@ -334,6 +342,23 @@ void tst_Lessons::presentedItIsLargerAndStays()
     QTest::keyClick(window.get(), Qt::Key_F5);
     QTRY_VERIFY(!guide.dock()->isVisible()); // though it was there when the presentation began
     QVERIFY(window->menuBar()->isVisible());
+    QCOMPARE(words(), plainWords);
+    QCOMPARE(guide.panel().minimumWidth(), 0);
+}
+
+/// What a step is about is there, though a presentation puts away all panels.
+void tst_Lessons::presentedTheStepKeepsItsPanel()
+{
+    const auto window = newWindow();
+    LessonGuide &guide = window->lessonGuide();
+    guide.start(readLesson(":/lessons/reset.json"), 1);
+    QTRY_VERIFY_WITH_TIMEOUT(guide.isReady(), patience);
+    QTest::keyClick(window.get(), Qt::Key_F5);
+    auto *form = window->findChild<SettingsForm *>();
+    QVERIFY(form->isVisible() && form->editor("smd.lnK")->isVisible());
+    QVERIFY(!window->findChild<QDockWidget *>("thresholdDock")->isVisible());
+    guide.leave();
+    QTest::keyClick(window.get(), Qt::Key_F5);
 }
 
 void tst_Lessons::menuPaletteAndWelcomePageOfferThem()

@@ -3,6 +3,7 @@
 #include "app/MainWindow.h"
 #include "app/LatencyPanel.h"
 #include "app/LawPanel.h"
+#include "app/NoiseFitPanel.h"
 #include "app/OutputLayers.h"
 #include "app/PingBench.h"
 #include "app/StateSlicePanel.h"
@@ -294,6 +295,19 @@ private slots:
         QCOMPARE(w->document().settings().model.bearingRateChange, (std::vector<double>{0.8, 0.1}));
         QVERIFY(settled.wait(patience));
         QCOMPARE(w->document().analysis()->model.space.axes()[1].rateChange, (std::vector<double>{0.8, 0.1}));
+    }
+
+    void theNoiseFitSpeaksOfBearings()
+    {
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QSignalSpy settled(&w->noiseFit(), &NoiseFitPanel::settled);
+        w->showNoiseFit();
+        QVERIFY(settled.wait(patience));
+        const auto *table = w->noiseFit().findChild<QTableWidget *>();
+        QVERIFY2(table->rowCount() > 0, qPrintable(w->noiseFit().sentence()));
+        for (int row = 0; row < table->rowCount(); ++row)
+            QVERIFY2(table->item(row, 0)->text().endsWith(QString::fromUtf8("°")), qPrintable(table->item(row, 0)->text()));
     }
 
     void theLadderOfACell()

@@ -101,6 +101,11 @@ void tst_noiseFit::bandsAreSeparate()
     QCOMPARE(bands[0].low, 100.0);
     QCOMPARE(bands[0].high, 102.0);
     QCOMPARE(bands[1].high, 104.0);
+    // Of what is left out at the ends nothing is counted.
+    const auto inner = fitNoise(frames(1000, 4, y), 1, {}, {}, 4000, 1);
+    QCOMPARE(inner.front().low, 102.0);
+    QCOMPARE(inner.front().high, 106.0);
+    QCOMPARE(inner.front().law.count(), std::int64_t(2000));
     QCOMPARE(bands[0].law.count(), std::int64_t(2000));
     QVERIFY(std::abs(bands[0].law.mean() - 1.0) < 4.5 / std::sqrt(2000.0));
     QVERIFY(std::abs(bands[1].law.mean() - 3.0) < 4.5 * 3.0 / std::sqrt(2000.0));
