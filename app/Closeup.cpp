@@ -46,8 +46,12 @@ FrameStretch Closeup::wanted() const
     const Axis &time = analysis->time();
     const FrameStretch frames{time.nearest(visible.low), time.nearest(visible.high) + 1};
     const FrameStretch stretch = closeupStretch(*analysis->input, frames, m_input.framesPerPixel(), byteBudget);
-    const bool isThere = m_analysis == analysis && m_stretch.contains(frames);
-    return isThere && !stretch.isEmpty() ? m_stretch : stretch;
+    if (stretch.isEmpty() || m_analysis != analysis || !m_stretch.contains(frames))
+        return stretch;
+    const auto mergedIn = [&](const FrameStretch &one) { return framesPerRowWithin(byteBudget, one.end - one.begin, analysis->grid().size()); };
+    const Index there = mergedIn(m_stretch);
+    const bool isFineEnough = there <= mergedIn(stretch) || static_cast<double>(there) <= m_input.framesPerPixel();
+    return isFineEnough ? m_stretch : stretch;
 }
 
 void Closeup::follow()
@@ -79,6 +83,9 @@ void Closeup::compute()
     m_analysis = m_document.analysis();
     m_inputStretch.reset();
     m_statisticStretch.reset();
+    for (WaterfallView *view : {&m_input, &m_output})
+        if (view->shownPicture() == view->picture())
+            view->setCloseup(nullptr); // one that is out of sight takes no memory beside the next
     m_runner.start([this, analysis = m_analysis, stretch = m_stretch](const RunContext &context) -> JobRunner::Delivery {
         m_runner.deliver([this, input = inputCloseup(*analysis, stretch, byteBudget, context)] {
             m_inputStretch = input;

@@ -285,6 +285,11 @@ void MainWindow::connectController()
 {
     connect(&m_controller, &AnalysisController::busyChanged, m_activity, &ActivityBar::setBusy);
     connect(&m_controller, &AnalysisController::busyChanged, m_stopAction, &QAction::setEnabled);
+    connect(&m_controller, &AnalysisController::busyChanged, this, [this](bool isBusy) {
+        if (!isBusy && !m_document.isEmpty() && !m_document.analysis())
+            m_workbench->output()->setEmptySentence(tr("Stopped before the detector came to an end."));
+        showHint();
+    });
     connect(&m_controller, &AnalysisController::progressed, m_activity, &ActivityBar::setProgress);
     connect(m_activity, &ActivityBar::cancelRequested, &m_controller, &AnalysisController::stop);
     connect(&m_controller, &AnalysisController::failed, this, &MainWindow::showFailure);
@@ -551,7 +556,7 @@ void MainWindow::showEvents()
 
 void MainWindow::showHint()
 {
-    m_hint->setText(hint(m_document));
+    m_hint->setText(hint(m_document, m_controller.isBusy()));
 }
 
 void MainWindow::showTitle()

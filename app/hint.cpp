@@ -6,11 +6,13 @@
 
 namespace faintline {
 
-QString hint(const Document &document)
+QString hint(const Document &document, bool isBusy)
 {
     const auto tr = [](const char *text) { return QCoreApplication::translate("hint", text); };
     if (document.isEmpty())
         return tr("Click a picture, or drop a recording anywhere on the window.");
+    if (!document.analysis() && !isBusy)
+        return tr("Stopped before there was a result. Run begins again; From and To choose a part of the recording.");
     if (!document.analysis())
         return tr("Reading the recording and listening to its noise.");
     if (document.provisional())

@@ -6,7 +6,7 @@ namespace faintline {
 
 class Document;
 
-/// One sentence on what to try next, for the status bar.
-QString hint(const Document &document);
+/// One sentence on what to try next, for the status bar; `isBusy`: whether something is being computed.
+QString hint(const Document &document, bool isBusy);
 
 } // namespace faintline

@@ -10,15 +10,6 @@ namespace {
 
     constexpr Index blockValues = Index(1) << 18;
 
-    /// Frames a row that a pyramid of so many frames ends up with.
-    Index framesPerRow(Index frames, Index cells, std::size_t byteBudget)
-    {
-        Index merged = 1;
-        while (4 * (frames / merged) * cells / 3 > static_cast<Index>(byteBudget))
-            merged *= 4;
-        return merged;
-    }
-
     PeakPyramid emptyPicture(const Analysis &analysis, const FrameStretch &stretch, ByteScale::Kind kind, std::size_t byteBudget)
     {
         Axis time = analysis.time();
@@ -44,6 +35,14 @@ namespace {
 
 } // namespace
 
+Index framesPerRowWithin(std::size_t byteBudget, Index frames, Index cells)
+{
+    Index merged = 1;
+    while (4 * (frames / merged) * cells / 3 > static_cast<Index>(byteBudget))
+        merged *= 4;
+    return merged;
+}
+
 FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visible, double framesPerPixel, std::size_t byteBudget)
 {
     const Index perRow = picture.framesPerRow(0);
@@ -53,7 +52,7 @@ FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visi
         const Index begin = std::clamp<Index>(visible.begin - by, 0, picture.frameCount());
         return FrameStretch{begin - begin % perRow, std::clamp<Index>(visible.end + by, 0, picture.frameCount())};
     };
-    const auto mergedIn = [&](const FrameStretch &stretch) { return framesPerRow(stretch.end - stretch.begin, picture.cells(), byteBudget); };
+    const auto mergedIn = [&](const FrameStretch &stretch) { return framesPerRowWithin(byteBudget, stretch.end - stretch.begin, picture.cells()); };
     constexpr Index atTheSides = 2; // pixels there may begin or end a frame farther out
     const FrameStretch least = widened(atTheSides);
     if (least.isEmpty() || mergedIn(least) >= perRow)

@@ -19,6 +19,7 @@ namespace {
     constexpr int framesPerBlock = 512; // longer blocks are looked at here and there
     constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
+    constexpr Index largestValueCount = Index(1) << 24; ///< of blocks × cells: 64 MiB, nine hours at 48 kHz; beyond that blocks are longer
     constexpr float largestRatio = 1e30f;
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
@@ -456,8 +457,9 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
 
     const Index frameCount = frames.time().count;
     const Index cells = frames.frequency().count;
+    const Index mostBlocks = std::clamp<Index>(largestValueCount / std::max<Index>(1, cells), 1, largestBlockCount);
     const Index framesWanted = std::max(static_cast<Index>(std::llround(settings.blockWindows)),
-                                        (frameCount + largestBlockCount - 1) / largestBlockCount);
+                                        (frameCount + mostBlocks - 1) / mostBlocks);
     const Index blockCount = isSketch ? 1 : std::max<Index>(1, frameCount / framesWanted);
     const double blockFrames = static_cast<double>(frameCount) / static_cast<double>(blockCount);
 
@@ -474,6 +476,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     background->bandCount = settings.followLevel && !isSketch ? subBandCount(static_cast<double>(cells)) : 0;
     std::vector<float> levels;
     std::vector<float> rows;
+    rows.reserve(static_cast<std::size_t>(blockCount * cells));
     std::vector<float> block;
     for (Index b = 0; b < blockCount; ++b) {
         context.checkpoint(static_cast<double>(b) / static_cast<double>(blockCount), "noise background");

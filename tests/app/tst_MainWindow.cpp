@@ -25,7 +25,9 @@
 #include <QStatusBar>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -125,6 +127,30 @@ class tst_MainWindow : public QObject
     }
 
 private slots:
+    void stoppedSaysSo()
+    {
+        MainWindow window;
+        window.setAsking(false);
+        window.show();
+        const auto says = [&window](const QString &words) {
+            const auto labels = window.findChildren<QLabel *>();
+            return std::any_of(labels.begin(), labels.end(), [&](const QLabel *label) { return label->text().startsWith(words); });
+        };
+        // As soon as it is open, in the midst of its first analysis.
+        connect(&window.document(), &Document::opened, &window, [&] {
+            QTimer::singleShot(0, &window, [&] {
+                QVERIFY(says("Reading"));
+                window.controller().stop();
+            });
+        });
+        QTemporaryDir folder;
+        const QString path = folder.filePath("long.json");
+        writeFile(path, R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
+        QVERIFY(openAndSettle(window, path));
+        QVERIFY(!window.document().analysis());
+        QVERIFY(says("Stopped"));
+    }
+
     void initTestCase()
     {
         Theme::apply(Theme::Kind::Dark);

@@ -8,6 +8,8 @@
 #include "widgets/ExceedancePlot.h"
 #include "widgets/Theme.h"
 
+#include <qwt_scale_div.h>
+
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QFile>
@@ -134,17 +136,18 @@ public:
         return cost;
     }
 
-    /// Drags the threshold over the statistics of the events there are, and lets go where it was.
+    /// Drags the threshold over the statistics of events, as far as the plot goes, and back.
     Cost threshold(int frames)
     {
         Cost cost;
         QwtPlot *plot = m_window.findChild<ExceedancePlot *>();
         QWidget *canvas = plot->canvas();
         const double before = m_window.document().shownThreshold();
+        const double farthest = plot->axisScaleDiv(QwtAxis::XBottom).upperBound();
         const auto at = [&](double nats) { return QPointF(plot->transform(QwtAxis::XBottom, nats), 0.5 * canvas->height()); };
         mouse(canvas, QEvent::MouseButtonPress, at(before));
         for (int i = 0; i < frames; ++i)
-            frame(cost, [&] { mouse(canvas, QEvent::MouseMove, at(before + 30.0 * (0.5 - std::abs(0.5 - static_cast<double>(i) / frames)))); });
+            frame(cost, [&] { mouse(canvas, QEvent::MouseMove, at(before + (farthest - before) * (1.0 - std::abs(1.0 - 2.0 * i / frames)))); });
         mouse(canvas, QEvent::MouseMove, at(before));
         return cost;
     }
