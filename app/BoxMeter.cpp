@@ -23,7 +23,9 @@ namespace {
     QString noteOf(const BoxLevels &levels, bool saysMean)
     {
         const QString mean = saysMean ? BoxMeter::tr("mean %1 dB · ").arg(numberText(levels.meanDb, 1)) : QString();
-        return mean + (levels.snrDb ? BoxMeter::tr("area SNR %1 dB").arg(numberText(*levels.snrDb, 1)) : BoxMeter::tr("no more than the noise beside it"));
+        if (!levels.snrDb)
+            return mean + BoxMeter::tr("no more than the noise beside it");
+        return mean + BoxMeter::tr("area SNR %1 dB").arg(numberText(*levels.snrDb, 1));
     }
 
 } // namespace

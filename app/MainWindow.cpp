@@ -370,7 +370,7 @@ void MainWindow::connectEvaluation()
     connect(m_sequential, &SequentialPanel::failed, this, &MainWindow::showError);
     auto *dock = static_cast<QDockWidget *>(m_sequential->parentWidget());
     connect(dock->toggleViewAction(), &QAction::toggled, this, [this, dock] {
-        if (dock->isHidden() && m_pages->isHidden()) // it was all there was
+        if (dock->isHidden() && m_pages->isHidden() && !m_panels->isRearranging()) // it was all there was
             showWelcome();
     });
     connect(m_trials.get(), &TrialViewer::failed, this, &MainWindow::showError);
@@ -446,6 +446,7 @@ void MainWindow::openScans(const ScanTest &test)
     m_messages->dismiss();
     if (m_document.isEmpty()) {
         m_pages->hide(); // the panel gets its room
+        m_presentAction->setEnabled(true);
         setWindowTitle(tr("Radar scans — Faintline"));
         m_hint->setText(tr("Click a walk to follow that test; J and L go from stage to stage."));
     }

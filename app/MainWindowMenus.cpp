@@ -129,7 +129,8 @@ void MainWindow::buildViewMenu()
     sidebands->setCheckable(true);
     connect(sidebands, &QAction::toggled, output, &WaterfallView::setSidebands);
     connect(output, &WaterfallView::sidebandsChanged, sidebands, [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
-    addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K, [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
+    addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K,
+                  [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
     menu->addSeparator();
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {
@@ -325,7 +326,8 @@ void MainWindow::buildToolBar()
     addOfView(tr("Run"), "run", tr("Run the chain again (Ctrl+R)"), true, [this] { m_controller.run(); });
     bar->addAction(m_stopAction, QStringLiteral("stop"), true);
     bar->addSeparator();
-    addOfView(tr("Orientation"), "orientation", tr("Newest on top, oldest on top, left to right (O)"), false, [this] { bench().cycleOrientation(); });
+    addOfView(tr("Orientation"), "orientation", tr("Newest on top, oldest on top, left to right (O)"), false,
+              [this] { bench().cycleOrientation(); });
     addOfView(tr("Colours"), "colours", tr("Next colour map (C)"), false, [this] { bench().cycleColourMap(); });
     addOfView(tr("Show all"), "show-all", tr("The whole recording (0)"), false, [this] { m_document.viewport().showAll(); });
     bar->addSeparator();

@@ -28,7 +28,8 @@ namespace {
     {
         if (axis.unit != "Hz") {
             const int decimals = decimalsFor((band.high - band.low) / 10.0);
-            return QObject::tr("%1 … %2 %3").arg(numberText(band.low, decimals), numberText(band.high, decimals), QString::fromStdString(axis.unit));
+            return QObject::tr("%1 … %2 %3")
+                .arg(numberText(band.low, decimals), numberText(band.high, decimals), QString::fromStdString(axis.unit));
         }
         const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
         const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
@@ -161,7 +162,9 @@ void NoiseFitPanel::say(const Fit &fit)
         std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
     if (fit.pfa.empty())
         return m_sentence->setText((misfits == 0 ? tr("All bands follow the law.")
-                                                 : tr("%1 of %2 bands depart from the law; targets in them do so too.").arg(misfits).arg(fit.bands.size()))
+                                                 : tr("%1 of %2 bands depart from the law; targets in them do so too.")
+                                                       .arg(misfits)
+                                                       .arg(fit.bands.size()))
                                    + QLatin1Char(' ') + tr("What misfits do to Pfa is reckoned for slope sets only."));
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
                                         [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });

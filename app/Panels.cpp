@@ -5,6 +5,7 @@
 #include <QLayout>
 #include <QMainWindow>
 #include <QMenuBar>
+#include <QScopedValueRollback>
 #include <QStatusBar>
 #include <QToolBar>
 
@@ -167,12 +168,15 @@ QList<QAction *> Panels::toggleActions() const
 
 void Panels::setPresenting(bool isPresenting)
 {
+    const QScopedValueRollback rearranging(m_isRearranging, true);
     if (isPresenting)
         m_beforePresenting = m_window.saveState();
     for (QToolBar *bar : m_window.findChildren<QToolBar *>())
         bar->setVisible(!isPresenting);
-    for (const Entry &entry : m_entries)
-        entry.dock->setVisible(!isPresenting);
+    constexpr int leastPicture = 100; // pixels; below, a panel has taken the pictures' place and is what is presented
+    if (!isPresenting || m_window.centralWidget()->height() >= leastPicture)
+        for (const Entry &entry : m_entries)
+            entry.dock->setVisible(!isPresenting);
     m_window.menuBar()->setVisible(!isPresenting);
     m_window.statusBar()->setVisible(!isPresenting);
     m_window.setWindowState(m_window.windowState().setFlag(Qt::WindowFullScreen, isPresenting));

@@ -38,6 +38,9 @@ public:
     static QStringList layoutNames();
     void takeLayout(const QString &name);
 
+    /// While they come and go together; what one of them does then is no wish of the user's.
+    bool isRearranging() const { return m_isRearranging; }
+
 public slots:
     void takeDefault();
     /// The pictures and nothing else, over the whole screen.
@@ -58,6 +61,7 @@ private:
     std::vector<Entry> m_entries;
     QByteArray m_default;
     QByteArray m_beforePresenting;
+    bool m_isRearranging = false;
 };
 
 } // namespace faintline

@@ -13,7 +13,8 @@ namespace faintline {
 
 SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidget *parent)
     : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm),
-      m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values; the window stays free meanwhile"))), m_tabs(new QTabWidget),
+      m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values; the window stays free meanwhile"))),
+      m_tabs(new QTabWidget),
       m_tradeOff(new ChartPlot), m_pd(new ChartPlot), m_falseAlarms(new ChartPlot), m_latency(new ChartPlot), m_cost(new ChartPlot)
 {
     buildCharts();

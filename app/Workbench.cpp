@@ -100,7 +100,8 @@ namespace {
 
 Workbench::Workbench(Document &document, QWidget *parent)
     : Bench(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
-      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)), m_boxMeter(new BoxMeter(document, this)),
+      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
+      m_boxMeter(new BoxMeter(document, this)),
       m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
       m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
       m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))

@@ -66,7 +66,9 @@ namespace {
             ->allow_extra_args(false)
             ->capture_default_str();
         command->add_option("--size", size, "Pixels")->capture_default_str();
-        command->add_option("--scale", options.scale, "Device pixels per pixel, as on a screen of high resolution: 1.25 or 2 times the size, not blown up")
+        command
+            ->add_option("--scale", options.scale,
+                         "Device pixels per pixel, as on a screen of high resolution: 1.25 or 2 times the size, not blown up")
             ->check(CLI::Range(1.0, 4.0))
             ->capture_default_str();
         command->add_option("--time", options.seconds, "Where the cursor goes, s");

@@ -330,7 +330,8 @@ void OverlayItem::drawSidebands(const Canvas &canvas) const
         if (isNamed)
             canvas.label(line.p1() + QPointF(4.0, 4.0), name, colours.cursor);
     }
-    canvas.label(canvas.rect.bottomLeft() + QPointF(6.0, -6.0), sidebandText, colours.cursor, QColor(0, 0, 0, 190), Theme::monoFont(Theme::plotFont().pixelSize()));
+    canvas.label(canvas.rect.bottomLeft() + QPointF(6.0, -6.0), sidebandText, colours.cursor, QColor(0, 0, 0, 190),
+                 Theme::monoFont(Theme::plotFont().pixelSize()));
 }
 
 void OverlayItem::drawCursor(const Canvas &canvas) const

@@ -38,8 +38,8 @@ class RasterItem;
 /// drag pans, Shift+drag zooms to a box, click places the cursor, double-click activates an event. Keys: arrows move
 /// the cursor by a cell (with Ctrl by ten), Backspace back, 0 all, O orientation, [ ] black level, { } white level, A
 /// automatic range, C colour map, `,` `.` threshold, M measure, H harmonics, I sidebands, K to the peak, Escape clears.
-/// With Ctrl the cursor, a corner of the measured box and a dragged sideband go to the strongest cell nearby. A sideband's line is dragged to
-/// change their spacing; Alt with Left and Right does so by a bin.
+/// With Ctrl the cursor, a corner of the measured box and a dragged sideband go to the strongest cell nearby. A sideband's line is dragged
+/// to change their spacing; Alt with Left and Right does so by a bin.
 class WaterfallView : public QwtPlot
 {
     Q_OBJECT

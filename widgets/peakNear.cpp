@@ -14,11 +14,13 @@ std::optional<Viewport::Point> peakNear(const PeakPyramid &picture, const Axis &
     const auto framesPerRow = static_cast<double>(picture.framesPerRow(0));
     const auto rowMiddle = [&](Index row) { return (static_cast<double>(row) + 0.5) * framesPerRow - 0.5; };
     const auto within = [](double low, double high, Index count) {
-        return std::pair(std::max<Index>(static_cast<Index>(std::ceil(low - 1e-9)), 0), std::min(static_cast<Index>(std::floor(high + 1e-9)) + 1, count));
+        return std::pair(std::max<Index>(static_cast<Index>(std::ceil(low - 1e-9)), 0),
+                         std::min(static_cast<Index>(std::floor(high + 1e-9)) + 1, count));
     };
     const auto rowOf = [&](double seconds) { return (picture.time().position(seconds) + 0.5) / framesPerRow - 0.5; };
     const auto [firstRow, endRow] = within(rowOf(box.time.low), rowOf(box.time.high), picture.rowCount(0));
-    const auto [firstCell, endCell] = within(frequency.position(box.frequency.low), frequency.position(box.frequency.high), frequency.count);
+    const auto [firstCell, endCell] =
+        within(frequency.position(box.frequency.low), frequency.position(box.frequency.high), frequency.count);
 
     std::optional<Viewport::Point> best;
     double highest = 0.0;

@@ -58,8 +58,8 @@ struct FittedBand {
 };
 
 /// Counts frames' values in `bands` bands of equal width. Looks at no more than about `cells` values, in frames spread evenly.
-/// `geometry`: how far overlap makes neighbours dependent. `leftOut`: cells at either end of the axis that are kept from the detector, too (where
-/// a real recording's spectrum overlaps with its mirror image). Throws Cancelled.
+/// `geometry`: how far overlap makes neighbours dependent. `leftOut`: cells at either end of the axis that are kept from the detector, too
+/// (where a real recording's spectrum overlaps with its mirror image). Throws Cancelled.
 std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {},
                                  const RunContext &context = {}, std::int64_t cells = 20'000'000, Index leftOut = 0);
 

@@ -67,7 +67,8 @@ private slots:
         Analysis analysis;
         analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 1}, Grid{{Axis{"frequency", "Hz", 0.0, 1.0, 2}}},
                                                        std::vector<float>{1, 2});
-        for (const FrameBox box : {FrameBox{0, 0, 0, 1}, FrameBox{0, 2, 0, 1}, FrameBox{0, 1, 1, 1}, FrameBox{0, 1, -1, 1}, FrameBox{0, 1, 0, 3}})
+        for (const FrameBox box : {FrameBox{0, 0, 0, 1}, FrameBox{0, 2, 0, 1}, FrameBox{0, 1, 1, 1},
+                                   FrameBox{0, 1, -1, 1}, FrameBox{0, 1, 0, 3}})
             QVERIFY_EXCEPTION_THROWN(boxLevels(analysis, box), Error);
     }
 

@@ -15,6 +15,7 @@
 #include "widgets/WalkPlot.h"
 
 #include <QDockWidget>
+#include <QMenuBar>
 #include <QFile>
 #include <QFileInfo>
 #include <QImage>
@@ -65,6 +66,7 @@ private slots:
     void cleanup() { m_window.reset(); }
 
     void theWelcomeCardOpensTheDock();
+    void presentedTheyStay();
     void scansFillTheViews();
     void resultsDoNotDependOnTheWindow();
     void aClickSelectsEverywhere();
@@ -117,6 +119,24 @@ void tst_Sequential::openLine()
     m_window->open(scene);
     QVERIFY(settled.wait(patience));
     QVERIFY(m_window->document().analysis());
+}
+
+void tst_Sequential::presentedTheyStay()
+{
+    m_window->openScans(smallTest());
+    QVERIFY(settle());
+    QTest::keyClick(m_window.get(), Qt::Key_F5);
+    QVERIFY(!m_window->menuBar()->isVisible());
+    QVERIFY(dock()->isVisible());
+    QVERIFY(!m_window->welcome().isVisible());
+    QTest::keyClick(m_window.get(), Qt::Key_F5);
+    QVERIFY(m_window->menuBar()->isVisible());
+    QVERIFY(dock()->isVisible());
+    QVERIFY(!m_window->welcome().isVisible());
+    int panels = 0;
+    for (const QDockWidget *each : m_window->findChildren<QDockWidget *>())
+        panels += each->isVisible() ? 1 : 0;
+    QCOMPARE(panels, 1);
 }
 
 void tst_Sequential::theWelcomeCardOpensTheDock()

@@ -81,7 +81,8 @@ private slots:
     void aFinerScreenHasMorePixelsNotLargerOnes()
     {
         const auto picture = [&](const QString &name, const QStringList &more) {
-            const Outcome outcome = run(QStringList{"render", path("scene.json"), "--view", "output,threshold", "--size", "400x300", "--out", path(name)} + more);
+            const Outcome outcome = run(QStringList{"render", path("scene.json"), "--view", "output,threshold",
+                                                    "--size", "400x300", "--out", path(name)} + more);
             return outcome.error.isEmpty() && outcome.exitCode == 0;
         };
         QVERIFY(picture("plain.png", {}));
@@ -97,7 +98,8 @@ private slots:
             int finer = 0;
             for (int y = 0; y < one.height(); ++y)
                 for (int x = 0; x < one.width(); ++x)
-                    finer += two.pixel(2 * x, 2 * y) != two.pixel(2 * x + 1, 2 * y) || two.pixel(2 * x, 2 * y) != two.pixel(2 * x, 2 * y + 1);
+                    finer += two.pixel(2 * x, 2 * y) != two.pixel(2 * x + 1, 2 * y)
+                             || two.pixel(2 * x, 2 * y) != two.pixel(2 * x, 2 * y + 1);
             const int least = view == "-output.png" ? one.width() * one.height() / 10 : 400; // a raster; lines and words
             QVERIFY2(finer > least, qPrintable(QString::number(finer)));
         }

@@ -284,7 +284,8 @@ void tst_WaterfallView::sidebandsAreDragged()
     QVERIFY(m_viewport.showsAll());
     // With Ctrl onto the peak at 200 Hz: the line has its level.
     const double peak = test::hzAxis(200).value(50);
-    drag(pixel(40.0, 300.0 - 2.0 * m_view->sidebandSpacing()), m_view->positionOf({40.5, peak}).toPoint() + QPoint(5, 3), Qt::ControlModifier);
+    drag(pixel(40.0, 300.0 - 2.0 * m_view->sidebandSpacing()),
+         m_view->positionOf({40.5, peak}).toPoint() + QPoint(5, 3), Qt::ControlModifier);
     QCOMPARE(m_view->sidebandSpacing(), (300.0 - peak) / 2.0);
     QVERIFY2(m_view->sidebandText().contains("30.0"), qPrintable(m_view->sidebandText()));
     // Beside the lines one still pans.
