@@ -57,7 +57,7 @@ QString hourOfLines(const QTemporaryDir &folder)
         return {};
     file.write(R"({"kind": "lines", "sampleRateHz": 16000, "durationSeconds": 3600, "seed": 5, "lines": [)");
     for (int i = 0; i < 59; ++i)
-        file.write(QStringLiteral(R"(%1{"snrDb": 8, "driftHzPerSecond": 0.4, "startSeconds": %2, "durationSeconds": 50, "frequencyHz": %3})")
+        file.write(QStringLiteral(R"(%1{"snrDb":8, "driftHzPerSecond": 0.4, "startSeconds": %2, "durationSeconds": 50, "frequencyHz": %3})")
                        .arg(i == 0 ? "" : ", ")
                        .arg(60 * i + 5)
                        .arg(300 + (i * 1237) % 7400)
@@ -179,7 +179,8 @@ int main(int argc, char **argv)
 
     const QSize canvas = window.workbench().output()->canvas()->size();
     const auto &picture = *window.document().analysis()->input;
-    std::printf("window %d x %d, two canvases of %d x %d; %lld frames, %lld cells, %lld frames a row; %zu events\n", window.width(),
+    std::printf("window %d x %d, two canvases of %d x %d; %lld frames, %lld cells, %lld frames a row; %zu events\n",
+                window.width(),
                 window.height(),
                 canvas.width(), canvas.height(), static_cast<long long>(picture.frameCount()), static_cast<long long>(picture.cells()),
                 static_cast<long long>(picture.framesPerRow(0)), window.document().shownEvents().size());
