@@ -48,7 +48,8 @@ FrameStretch Closeup::wanted() const
     const FrameStretch stretch = closeupStretch(*analysis->input, frames, m_input.framesPerPixel(), byteBudget);
     if (stretch.isEmpty() || m_analysis != analysis || !m_stretch.contains(frames))
         return stretch;
-    const auto mergedIn = [&](const FrameStretch &one) { return framesPerRowWithin(byteBudget, one.end - one.begin, analysis->grid().size()); };
+    const Index cells = analysis->grid().size();
+    const auto mergedIn = [cells](const FrameStretch &one) { return framesPerRowWithin(byteBudget, one.end - one.begin, cells); };
     const Index there = mergedIn(m_stretch);
     const bool isFineEnough = there <= mergedIn(stretch) || static_cast<double>(there) <= m_input.framesPerPixel();
     return isFineEnough ? m_stretch : stretch;

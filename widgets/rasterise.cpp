@@ -179,7 +179,8 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
     constexpr double bytesWorthAThread = 2e6;
     const double bytes = std::max(time.step / static_cast<double>(perRow), 1.0) * time.count * static_cast<double>(width);
     RunContext context;
-    context.threads = static_cast<int>(std::min({bytes / bytesWorthAThread, static_cast<double>(std::thread::hardware_concurrency()), 8.0}));
+    const auto processors = static_cast<double>(std::thread::hardware_concurrency());
+    context.threads = static_cast<int>(std::min({bytes / bytesWorthAThread, processors, 8.0}));
     if (context.threads < 2)
         return drawLines(0, time.count);
     const Index bands = 4 * context.threads;

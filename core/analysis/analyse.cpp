@@ -91,7 +91,8 @@ namespace {
         Showing(const PictureSink &sink, const Axis &time, const Axis &frequency, const AnalysisSettings &settings) : m_sink(sink)
         {
             constexpr double manyCells = 3e7;
-            m_isWanted = sink && (static_cast<double>(time.count) * static_cast<double>(frequency.count) > manyCells || !knownCalibration(settings));
+            const bool isLong = static_cast<double>(time.count) * static_cast<double>(frequency.count) > manyCells;
+            m_isWanted = sink && (isLong || !knownCalibration(settings));
             m_pictures.time = time;
             m_pictures.frequency = frequency;
         }

@@ -93,7 +93,7 @@ struct PicturesSoFar {
     Axis frequency;
 };
 
-/// Called by the thread that computes, a few times a second, if the recording is long. Changes no byte of the result.
+/// Called by the thread that computes, a few times a second, if the recording is long or not calibrated yet. Changes no byte.
 using PictureSink = std::function<void(const PicturesSoFar &)>;
 
 /// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.

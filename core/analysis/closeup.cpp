@@ -25,7 +25,8 @@ namespace {
         const Index most = std::max<Index>(1, blockValues / cells);
         std::vector<float> block;
         for (Index first = frames.begin; first < frames.end; first += most) {
-            context.checkpoint(static_cast<double>(first - frames.begin) / static_cast<double>(frames.end - frames.begin), "looking closely");
+            const double share = static_cast<double>(first - frames.begin) / static_cast<double>(frames.end - frames.begin);
+            context.checkpoint(share, "looking closely");
             const Index count = std::min(most, frames.end - first);
             block.resize(static_cast<std::size_t>(count * cells));
             analysis.frames->read(first, count, block);
@@ -52,7 +53,7 @@ FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visi
         const Index begin = std::clamp<Index>(visible.begin - by, 0, picture.frameCount());
         return FrameStretch{begin - begin % perRow, std::clamp<Index>(visible.end + by, 0, picture.frameCount())};
     };
-    const auto mergedIn = [&](const FrameStretch &stretch) { return framesPerRowWithin(byteBudget, stretch.end - stretch.begin, picture.cells()); };
+    const auto mergedIn = [&](const FrameStretch &one) { return framesPerRowWithin(byteBudget, one.end - one.begin, picture.cells()); };
     constexpr Index atTheSides = 2; // pixels there may begin or end a frame farther out
     const FrameStretch least = widened(atTheSides);
     if (least.isEmpty() || mergedIn(least) >= perRow)

@@ -17,6 +17,8 @@ namespace faintline {
 namespace {
 
     constexpr int framesPerBlock = 512; // longer blocks are looked at here and there
+    constexpr Index valuesPerBlock = Index(1) << 22; // so are those of many cells
+    constexpr Index fewestFramesPerBlock = 64;
     constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
     constexpr Index largestValueCount = Index(1) << 24; ///< of blocks × cells: 64 MiB, nine hours at 48 kHz; beyond that blocks are longer
@@ -470,7 +472,9 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     background->lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
 
     // Frames looked at lie on one even raster over all blocks, every frame where there are not too many of them.
-    const Index stride = static_cast<Index>(std::ceil(blockFrames / (isSketch ? sketchFrames : framesPerBlock)));
+    const auto mostUsed = static_cast<double>(
+        isSketch ? sketchFrames : std::clamp<Index>(valuesPerBlock / std::max<Index>(1, cells), fewestFramesPerBlock, framesPerBlock));
+    const Index stride = static_cast<Index>(std::ceil(blockFrames / mostUsed));
     background->levelTime = {"time", "s", frames.time().first, static_cast<double>(stride) * frames.time().step,
                              (frameCount + stride - 1) / stride, false};
     background->bandCount = settings.followLevel && !isSketch ? subBandCount(static_cast<double>(cells)) : 0;
@@ -495,7 +499,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         removeOffsets(levels, firstLevel, background->bandCount);
     }
     background->lnPower =
-        averageWhileSteady(rows, blockCount, cells, settings.halfWidthCells, std::min<double>(framesPerBlock, blockFrames));
+        averageWhileSteady(rows, blockCount, cells, settings.halfWidthCells, std::min(mostUsed, blockFrames));
     moveToBackground(levels, rows, *background, blockFrames / static_cast<double>(stride));
     background->lnLevel = finishLevels(levels, *background, stride == 1);
     return background;

@@ -48,7 +48,7 @@ struct NoiseBackground {
 enum class BackgroundDepth { Whole, Sketch };
 
 /// One pass over the recording at one frame per window and one bin per cell: a fraction 1/(k_t·k_f) of the detector's own
-/// transforms. Memory: at most 1024 blocks.
+/// transforms, and less where blocks are long. Memory: at most 1024 blocks and 64 MiB, twice.
 std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram, const NormaliserSettings &settings,
                                                           const RunContext &context = {},
                                                           BackgroundDepth depth = BackgroundDepth::Whole);

@@ -57,7 +57,7 @@ QString hourOfLines(const QTemporaryDir &folder)
         return {};
     file.write(R"({"kind": "lines", "sampleRateHz": 16000, "durationSeconds": 3600, "seed": 5, "lines": [)");
     for (int i = 0; i < 59; ++i)
-        file.write(QStringLiteral(R"(%1{"snrDb": 8, "startSeconds": %2, "durationSeconds": 50, "frequencyHz": %3, "driftHzPerSecond": 0.4})")
+        file.write(QStringLiteral(R"(%1{"snrDb":8, "driftHzPerSecond": 0.4, "startSeconds": %2, "durationSeconds": 50, "frequencyHz": %3})")
                        .arg(i == 0 ? "" : ", ")
                        .arg(60 * i + 5)
                        .arg(300 + (i * 1237) % 7400)
@@ -146,8 +146,10 @@ public:
         const double farthest = plot->axisScaleDiv(QwtAxis::XBottom).upperBound();
         const auto at = [&](double nats) { return QPointF(plot->transform(QwtAxis::XBottom, nats), 0.5 * canvas->height()); };
         mouse(canvas, QEvent::MouseButtonPress, at(before));
-        for (int i = 0; i < frames; ++i)
-            frame(cost, [&] { mouse(canvas, QEvent::MouseMove, at(before + (farthest - before) * (1.0 - std::abs(1.0 - 2.0 * i / frames)))); });
+        for (int i = 0; i < frames; ++i) {
+            const double share = 1.0 - std::abs(1.0 - 2.0 * i / frames);
+            frame(cost, [&] { mouse(canvas, QEvent::MouseMove, at(before + (farthest - before) * share)); });
+        }
         mouse(canvas, QEvent::MouseMove, at(before));
         return cost;
     }
@@ -177,7 +179,9 @@ int main(int argc, char **argv)
 
     const QSize canvas = window.workbench().output()->canvas()->size();
     const auto &picture = *window.document().analysis()->input;
-    std::printf("window %d x %d, two canvases of %d x %d; %lld frames, %lld cells, %lld frames a row; %zu events\n", window.width(), window.height(),
+    std::printf("window %d x %d, two canvases of %d x %d; %lld frames, %lld cells, %lld frames a row; %zu events\n",
+                window.width(),
+                window.height(),
                 canvas.width(), canvas.height(), static_cast<long long>(picture.frameCount()), static_cast<long long>(picture.cells()),
                 static_cast<long long>(picture.framesPerRow(0)), window.document().shownEvents().size());
     Hand hand(window);

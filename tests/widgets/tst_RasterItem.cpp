@@ -130,7 +130,8 @@ void tst_RasterItem::scrolledIsAsDrawnAnew()
         for (const double seconds : {40.0, 333.3, 611.0}) {
             const auto walker = itemOf(isTimeVertical);
             double low = 11.0, hz = 150.0;
-            for (const QPointF &step : {QPointF(0, 0), QPointF(3, 0), QPointF(0, 7), QPointF(-5, 9), QPointF(11, -20), QPointF(-2, -3.3), QPointF(200, 0)}) {
+            for (const QPointF &step : {QPointF(0, 0), QPointF(3, 0), QPointF(0, 7), QPointF(-5, 9), QPointF(11, -20), QPointF(-2, -3.3),
+                                        QPointF(200, 0)}) {
                 low += step.x();
                 hz += step.y();
                 const Span time{low, low + seconds}, band{hz, hz + 171.0};
