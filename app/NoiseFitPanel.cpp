@@ -64,6 +64,19 @@ namespace {
         return chart;
     }
 
+    constexpr double notable = 3.0; ///< times a Pfa
+
+    /// Noise a little too strong adds up faster than resets take away; a ratio would only tell how small the Pfa was.
+    bool growsWithoutEnd(const MisfitPfa &pfa)
+    {
+        return pfa.actual > 0.1;
+    }
+
+    QString pfaText(const MisfitPfa &pfa)
+    {
+        return growsWithoutEnd(pfa) ? NoiseFitPanel::tr("grows") : QStringLiteral("× ") + powerText(pfa.ratio(), 3);
+    }
+
 } // namespace
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
@@ -149,8 +162,7 @@ void NoiseFitPanel::show(const Fit &fit)
                                      .arg(numberText(band.law.distance(), 4),
                                           band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
                                           numberText(NoiseLaw::distanceLimit(band.independent), 4)),
-                                 fit.pfa.empty() ? QStringLiteral("–")
-                                                 : QStringLiteral("× ") + powerText(fit.pfa[static_cast<std::size_t>(row)].ratio(), 3)};
+                                 fit.pfa.empty() ? QStringLiteral("–") : pfaText(fit.pfa[static_cast<std::size_t>(row)])};
         fillRow(*m_table, row, texts, 1);
     }
     say(fit);
@@ -169,17 +181,18 @@ void NoiseFitPanel::say(const Fit &fit)
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
                                         [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
     const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());
+    const bool isHarmless = misfits == 0 && worst->ratio() < notable;
+    const QString law = misfits > 0 ? tr("%1 of %2 bands depart from the law; lines in them do so too.").arg(misfits).arg(fit.bands.size())
+                        : isHarmless ? tr("All bands follow the law.")
+                                     : tr("All bands follow the law but for their tails, in which lines are too.");
     const QString ratio = powerText(worst->ratio(), 3);
     const QString nominal = powerText(worst->nominal);
-    m_sentence->setText(misfits == 0 ? tr("All bands follow the law. Where it gives a Pfa of %3 per cell, these give "
-                                          "at most %1 times that (%2).")
-                                           .arg(ratio, band, nominal)
-                                     : tr("%1 of %2 bands depart from the law; lines in them do so too. Taken as "
-                                          "noise, %3 would give %4 times a Pfa of "
-                                          "%5 per cell.")
-                                           .arg(misfits)
-                                           .arg(fit.bands.size())
-                                           .arg(band, ratio, nominal));
+    QString alarms = tr("Taken as noise, %1 would give %2 times a Pfa of %3 per cell.").arg(band, ratio, nominal);
+    if (growsWithoutEnd(*worst))
+        alarms = tr("Taken as noise, %1 would let D grow without end: nearly every cell above the threshold.").arg(band);
+    else if (isHarmless)
+        alarms = tr("Where it gives a Pfa of %1 per cell, these give at most %2 times that (%3).").arg(nominal, ratio, band);
+    m_sentence->setText(law + QLatin1Char(' ') + alarms);
 }
 
 } // namespace faintline

@@ -1,12 +1,14 @@
 #include "app/Panels.h"
 
 #include <QAction>
+#include <QChildEvent>
 #include <QDockWidget>
 #include <QLayout>
 #include <QMainWindow>
 #include <QMenuBar>
 #include <QScopedValueRollback>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QToolBar>
 
 #include <algorithm>
@@ -57,6 +59,7 @@ Panels::Panels(QMainWindow &window) : QObject(&window), m_window(window)
     window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
     window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    window.installEventFilter(this);
 }
 
 void Panels::add(const QString &name, const QString &title, QWidget *panel, Place place)
@@ -73,6 +76,14 @@ void Panels::add(const QString &name, const QString &title, QWidget *panel, Plac
     }
     dock->setHidden(place == Place::Bottom);
     m_entries.push_back({dock, place});
+}
+
+bool Panels::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() == QEvent::ChildPolished)
+        if (auto *bar = qobject_cast<QTabBar *>(static_cast<QChildEvent *>(event)->child()))
+            bar->setAutoHide(true);
+    return QObject::eventFilter(watched, event);
 }
 
 void Panels::rememberDefault()

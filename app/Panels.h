@@ -41,6 +41,9 @@ public:
     /// While they come and go together; what one of them does then is no wish of the user's.
     bool isRearranging() const { return m_isRearranging; }
 
+    /// Qt leaves bars without tabs in sight, and at times in front of others, whose clicks they take.
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
 public slots:
     void takeDefault();
     /// The pictures and nothing else, over the whole screen.

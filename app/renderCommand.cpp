@@ -582,7 +582,7 @@ void replay(const ReplayOptions &options)
         session.erase("render");
         session.erase("version");
         RenderOptions again = optionsFromJson(provenance["render"]);
-        if (again.size != kept.size())
+        if (again.size != (kept.size() / again.scale))
             throw Error(options.picture, "tells of another size than it has");
         again.source = folder.filePath(QStringLiteral("picture.faintline")).toStdString();
         again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();

@@ -282,7 +282,7 @@ namespace {
             const float kept = going > join.floor ? going : join.floor;
             const float score = lambda[i] + kept;
             target.to[targetOffset + i] = score;
-            continued.count += score > lambda[i] ? 1 : 0;
+            continued.count += join.counting != Counting::Nothing && score > lambda[i] ? 1 : 0;
             continued.sum += join.counting == Counting::StatesAndSum ? static_cast<double>(kept) : 0.0;
             statistic[i] = score > statistic[i] ? score : statistic[i];
         }

@@ -155,6 +155,8 @@ private slots:
         QFETCH(QString, layout);
         m_window->findChild<Panels *>()->takeLayout(layout);
         QCoreApplication::processEvents();
+        for (const QTabBar *bar : m_window->findChildren<QTabBar *>(Qt::FindDirectChildrenOnly)) // an empty one would take others' clicks
+            QVERIFY(bar->count() > 1 || !bar->isVisible() || !m_window->rect().intersects(bar->geometry()));
         m_window->activateWindow();
         QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
         std::set<const QDockWidget *> reached;
