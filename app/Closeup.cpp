@@ -9,7 +9,7 @@ namespace faintline {
 namespace {
 
     constexpr int pauseMs = 80;
-    constexpr std::size_t byteBudget = std::size_t(48) << 20; ///< of each of the two
+    constexpr std::size_t byteBudget = std::size_t(24) << 20; ///< of each of the two: more frames than a screen has rows
 
 } // namespace
 
