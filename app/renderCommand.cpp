@@ -503,7 +503,8 @@ void render(const RenderOptions &options)
 
 double scaleOf(const std::string &picture)
 {
-    const Json provenance = Json::parse(QImageReader(QString::fromStdString(picture)).text(pictureProvenanceKey()).toStdString(), nullptr, false);
+    const QString text = QImageReader(QString::fromStdString(picture)).text(pictureProvenanceKey());
+    const Json provenance = Json::parse(text.toStdString(), nullptr, false);
     const Json::json_pointer place("/render/scale");
     const bool tells = provenance.is_object() && provenance.contains(place) && provenance[place].is_number();
     return tells ? std::clamp(provenance[place].get<double>(), 1.0, 4.0) : 1.0;

@@ -16,7 +16,8 @@ ChainReplay::ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t b
     : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)), m_y(static_cast<std::size_t>(m_analysis->grid().size())),
       m_statistic(m_y.size())
 {
-    const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / (sizeof(float) * static_cast<std::size_t>(stateCount(*m_analysis)))));
+    const std::size_t bytesOfStates = sizeof(float) * static_cast<std::size_t>(stateCount(*m_analysis));
+    const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / bytesOfStates));
     m_interval = std::max(shortestInterval, (m_analysis->time().count + most - 1) / most);
 }
 

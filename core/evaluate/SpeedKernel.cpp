@@ -335,7 +335,8 @@ namespace {
             {"recursion-5", "one axis, 5 slopes, 100 000 cells", "state",
              {{ours, formula, 10.0}, {ours, eigen, 5.0}, {twoThreads, ours, 1.5}},
              [] { return slopeForms(5, 100'000); }, {sameAsFormula(slopes(5, 3000), slopesLnK)}},
-            {"recursion-large", "one axis, 21 slopes, 21 million states", "state", {{"21 M states", "0.2 M states", 0.75}, {"21 M states", pass, 1.3}},
+            {"recursion-large", "one axis, 21 slopes, 21 million states", "state",
+             {{"21 M states", "0.2 M states", 0.75}, {"21 M states", pass, 1.3}},
              [] { return sizes("0.2 M states", slopes(21, 10'000), "21 M states", slopes(21, 1'000'000), blockFrames, slopesLnK); }},
             {"sonar-27", "two axes, 27 transitions, 6.15 million states", "state",
              {{ours, formula, 40.0}, {ours, eigen, 4.0}, {ours, pass, 0.25}, {twoThreads, ours, 1.6}},
@@ -343,7 +344,8 @@ namespace {
             {"sonar-1", "two axes, one-to-one, 6.15 million states", "state",
              {{ours, eigen, 2.5}, {ours, pass, 1.0}, {twoThreads, ours, 1.5}},
              [] { return sonarForms(nonManoeuvring(), false); }, {sameAsFormula(sonar(nonManoeuvring(), 150), sonarLnK(nonManoeuvring()))}},
-            {"sonar-large", "two axes, 27 transitions, 24.6 million states", "state", {{"24.6 M states", "3 M states", 0.85}, {"24.6 M states", pass, 0.25}},
+            {"sonar-large", "two axes, 27 transitions, 24.6 million states", "state",
+             {{"24.6 M states", "3 M states", 0.85}, {"24.6 M states", pass, 0.25}},
              [] {
                  return sizes("3 M states", sonar(manoeuvring(), 1250), "24.6 M states", sonar(manoeuvring(), 10'000), 2,
                               sonarLnK(manoeuvring()));

@@ -1,7 +1,7 @@
 #include "evaluate/measureSpeed.h"
 
-#include "base/multiversion.h"
 #include "base/json.h"
+#include "base/multiversion.h"
 
 #include <algorithm>
 #include <chrono>

@@ -121,7 +121,8 @@ private slots:
             QCOMPARE(outcome.error, QByteArray());
             QCOMPARE(outcome.out, name.toUtf8() + ": the same pixels\n");
         }
-        QCOMPARE(run({"render", path("scene.json"), "--out", path("fine.png"), "--view", "output", "--size", "400x300", "--scale", "2"}).error, QByteArray());
+        const QStringList fine{"render", path("scene.json"), "--out", path("fine.png"), "--view", "output", "--size", "400x300", "--scale", "2"};
+        QCOMPARE(run(fine).error, QByteArray());
         QCOMPARE(run({"replay", path("fine.png")}).out, QByteArray("fine.png: the same pixels\n"));
         // One pixel of another colour is seen, its text says what it should have been.
         QImage changed(path("again-output.png"));
