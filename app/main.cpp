@@ -155,6 +155,19 @@ namespace {
             std::fprintf(stderr, "error: Qt: %s\n", qPrintable(message));
     }
 
+    /// What "nan" and "inf" are read as, which no range refuses.
+    void checkNumbers(const RenderOptions &options)
+    {
+        const std::pair<const char *, std::optional<double>> numbers[] = {{"--scale", options.scale},
+                                                                          {"--time", options.seconds},
+                                                                          {"--frequency", options.hz},
+                                                                          {"--range", options.range},
+                                                                          {"--bearing", options.bearing}};
+        for (const auto &[name, number] : numbers)
+            if (number && !std::isfinite(*number))
+                throw Error(name, "must be a finite number");
+    }
+
     /// Of a picture that is to be made again: its own size, as when it was made.
     QSize screenFor(const std::string &picture)
     {
@@ -228,6 +241,7 @@ namespace {
             return runRender(argc, argv, replaying, screenFor(replaying.picture), scaleOf(replaying.picture), replay);
         if (!renderCommand->parsed())
             return runWindow(argc, argv, files, opening);
+        checkNumbers(rendering);
         rendering.size = parseSize(size);
         return runRender(argc, argv, rendering, rendering.size, rendering.scale, render);
     }

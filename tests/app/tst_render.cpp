@@ -104,6 +104,8 @@ private slots:
             QVERIFY2(finer > least, qPrintable(QString::number(finer)));
         }
         QCOMPARE(run({"render", path("scene.json"), "--out", path("no.png"), "--scale", "0.5"}).exitCode, 2);
+        for (const QString &option : {QString("--scale"), QString("--frequency")})
+            QCOMPARE(run({"render", path("scene.json"), "--out", path("no.png"), option, "nan"}).exitCode, 2);
     }
 
     void aPictureIsMadeAgain()
