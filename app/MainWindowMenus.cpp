@@ -22,6 +22,7 @@
 #include "app/scanScenario.h"
 #include "widgets/EventTable.h"
 #include "widgets/icon.h"
+#include "widgets/waterfallCommands.h"
 
 #include <QActionGroup>
 #include <QMenu>
@@ -135,7 +136,7 @@ void MainWindow::buildViewMenu()
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {
         picture->clear();
-        output->addActionsTo(picture);
+        addCommands(*picture, *output);
     });
     addLayerMenu(*menu);
     m_panelsMenu = menu->addMenu(tr("&Panels"));
