@@ -21,6 +21,12 @@ ChainReplay::ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t b
     m_interval = std::max(shortestInterval, (m_analysis->time().count + most - 1) / most);
 }
 
+void ChainReplay::takeCheckpointsOfRun()
+{
+    for (const ChainCheckpoint &checkpoint : m_analysis->checkpoints)
+        m_checkpoints.emplace(checkpoint.frame, checkpoint.state);
+}
+
 void ChainReplay::seek(Index frame)
 {
     auto nearest = m_checkpoints.upper_bound(frame);

@@ -14,12 +14,17 @@ namespace faintline {
 /// An analysis's chain once more, frame by frame, and back again from checkpoints.
 ///
 /// On its way it keeps the chain's state every `interval()` frames, as many as go into the byte budget: to go back costs at most one
-/// interval, of the whole way that was gone before. Same scores as in the run, bit for bit; tracks are not traced back.
-/// A detector that cannot tell its state (fixed-window Viterbi and the like) is begun anew. One object per thread.
+/// interval, of the whole way that was gone before. Those that the run itself kept are few, for they stay as long as the analysis; who
+/// needs scores only sets out from them, who follows paths (LayerReplay) from the first frame. Same scores as in the run, bit for bit;
+/// tracks are not traced back. A detector that cannot tell its state (fixed-window Viterbi and the like) is begun anew. One object per
+/// thread.
 class ChainReplay
 {
 public:
     ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget);
+
+    /// From now on `seek` goes on from the run's own checkpoints as well: for who needs nothing that was before them.
+    void takeCheckpointsOfRun();
 
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
     const DetectionChain &chain() const { return *m_chain; }

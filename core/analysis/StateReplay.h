@@ -20,9 +20,9 @@ struct StateScores {
 /// Looks into an analysis that kept no states: goes through its chain again up to the frame that is asked for.
 ///
 /// From a frame to a later one it goes on from where it stands; the latest frames are kept, so that a few steps back cost nothing;
-/// farther back it goes on from the checkpoint before, which costs an interval at most (ChainReplay). Same bytes as in the run. Memory: one
-/// chain, and as many frames' states and as many checkpoints as go into half of 192 MiB each, at least one.
-/// Cost: the detector's per frame. One object per thread.
+/// farther back it goes on from the checkpoint before, which costs an interval at most, and the first look from one of the run's
+/// (ChainReplay). Same bytes as in the run. Memory: one chain, and as many frames' states and as many checkpoints as go into half of
+/// 192 MiB each, at least one. Cost: the detector's per frame. One object per thread.
 class StateReplay
 {
 public:

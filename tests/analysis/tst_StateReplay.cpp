@@ -131,6 +131,25 @@ private slots:
         }
     }
 
+    void theFirstLookBeginsAtACheckpointOfTheRun()
+    {
+        PingScene longer = scene();
+        longer.pings = 150;
+        const auto analysis = analyse(std::make_shared<SimulatedPings>(longer), settings());
+        QCOMPARE(analysis->checkpoints.size(), std::size_t(2)); // before frames 64 and 128
+        Analysis forgetful = *analysis;
+        forgetful.checkpoints.clear();
+        StateReplay fromTheStart(std::make_shared<const Analysis>(std::move(forgetful)));
+        for (const Index frame : {63, 64, 127, 131, 149}) {
+            int steps = 0;
+            RunContext context;
+            context.progress = [&](double, std::string_view) { ++steps; };
+            StateReplay replay(analysis);
+            QCOMPARE(replay.at(frame, 0, context)->values, fromTheStart.at(frame)->values);
+            QCOMPARE(steps, static_cast<int>(frame % 64) + 1);
+        }
+    }
+
     void aCancelledLookIsTakenUpAgain()
     {
         StateReplay replay(run().analysis);
