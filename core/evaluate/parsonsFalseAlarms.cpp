@@ -247,8 +247,8 @@ namespace {
     Reproduction reproduceFigure3(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made = reproduceFalseAlarms(figure3(), options, context);
-        made.notes = {"With 800 pings, as the tolerances suppose, seeds 1 to 4 gave K -1.507, -1.484, -1.493, -1.497 and thresholds 22.15, 19.63, 21.58, "
-                      "22.31: seed 1 lay outside. Since that was seen, the run is as long as the one the reference comes from.",
+        made.notes = {"With 800 pings, as the tolerances suppose, seeds 1 to 4 gave K -1.507, -1.484, -1.493, -1.497 and thresholds 22.15, "
+                      "19.63, 21.58, 22.31: seed 1 lay outside. Since that was seen, the run is as long as the one the reference comes from.",
                       "200 pings to settle, then 1600 of which every 4th is counted. The paper counted 20 pings: its 18.7 is one draw "
                       "from a wide law, "
                       "thresholds of such blocks have their 5th to 95th percentile at 17.8 to 22.1.",

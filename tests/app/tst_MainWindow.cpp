@@ -111,7 +111,8 @@ private slots:
             });
         });
         QTemporaryDir folder;
-        const QString path = writeFile(folder, "long.json", R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
+        const QString path =
+            writeFile(folder, "long.json", R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
         QVERIFY(openAndSettle(window, path));
         QVERIFY(!window.document().analysis());
         QVERIFY(says("Stopped"));
