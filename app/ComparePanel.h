@@ -27,7 +27,6 @@ public:
     QTableWidget *table() const { return m_table; }
     QString sentence() const;    ///< what there is to see, or why nothing
     QString differences() const; ///< of the settings
-    QPushButton *keepButton() const { return m_keep; }
     QPushButton *swapButton() const { return m_swap; }
     QPushButton *goToButton() const { return m_goTo; }
     QPushButton *computeButton() const { return m_compute; }

@@ -30,7 +30,7 @@
 #include "widgets/ExceedancePlot.h"
 #include "widgets/OverviewStrip.h"
 #include "widgets/ReadOut.h"
-#include "widgets/SettingsForm.h"
+#include "widgets/settingWords.h"
 
 #include <QDockWidget>
 #include <QFileInfo>
@@ -154,7 +154,7 @@ void MainWindow::connectViews()
             &OutputLayers::setWatching);
     connect(&m_workbench->layers(), &OutputLayers::failed, this, &MainWindow::showError);
     connect(m_states, &StateSlicePanel::lawRequested, this, [this](const QString &field, const std::vector<double> &law) {
-        m_controller.edit(field, law, tr("Change “%1”").arg(SettingsForm::label(field)));
+        m_controller.edit(field, law, tr("Change “%1”").arg(settingLabel(field)));
     });
     connect(m_threshold, &ExceedancePlot::thresholdRequested, &m_controller, &AnalysisController::previewThreshold);
     connect(m_threshold, &ExceedancePlot::thresholdCommitted, &m_controller, &AnalysisController::commitThreshold);

@@ -5,6 +5,7 @@
 #include "widgets/SettingsForm.h"
 #include "widgets/Theme.h"
 #include "widgets/quantities.h"
+#include "widgets/settingWords.h"
 
 #include <QComboBox>
 #include <QFormLayout>
@@ -77,7 +78,7 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
 
     connect(m_preset, &QComboBox::activated, this, &PipelinePanel::applyPreset);
     connect(m_form, &SettingsForm::settingEdited, this, [this](const QString &name, const FieldValue &value) {
-        m_controller.edit(name, value, tr("Change “%1”").arg(SettingsForm::label(name)));
+        m_controller.edit(name, value, tr("Change “%1”").arg(settingLabel(name)));
     });
     connect(m_form, &SettingsForm::resetRequested, this,
             [this] { m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings")); });

@@ -96,9 +96,4 @@ QRgb ColourMap::at(double position) const
     return m_entries[static_cast<std::size_t>(std::lround(index))];
 }
 
-bool ColourMap::isDarkAtLow() const
-{
-    return qGray(m_entries[64]) < 128;
-}
-
 } // namespace faintline

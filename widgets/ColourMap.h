@@ -30,9 +30,6 @@ public:
     /// The colour at 0 … 1, clamped.
     QRgb at(double position) const;
 
-    /// Whether noise, in the lower part of the map, comes out dark: lines drawn over it should then be light.
-    bool isDarkAtLow() const;
-
     /// `stops`: sRGB colours at equal distances, interpolated linearly.
     ColourMap(QString name, const QList<QRgb> &stops);
 

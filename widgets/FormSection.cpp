@@ -85,11 +85,6 @@ bool FormSection::isOpen() const
     return m_heading->isChecked();
 }
 
-bool FormSection::isMoreOpen() const
-{
-    return m_more->isChecked();
-}
-
 void FormSection::reveal(QWidget *row)
 {
     setOpen(true);

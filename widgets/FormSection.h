@@ -20,7 +20,6 @@ public:
     void setOpen(bool isOpen);
     void setMoreOpen(bool isOpen);
     bool isOpen() const;
-    bool isMoreOpen() const;
 
     /// Opens whatever hides the row.
     void reveal(QWidget *row);

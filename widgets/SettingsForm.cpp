@@ -151,14 +151,4 @@ QWidget *SettingsForm::editor(const QString &name) const
     return row ? row->editor() : nullptr;
 }
 
-QString SettingsForm::label(const QString &name)
-{
-    return settingLabel(name);
-}
-
-QString SettingsForm::sectionLabel(const QString &prefix)
-{
-    return stageLabel(prefix);
-}
-
 } // namespace faintline

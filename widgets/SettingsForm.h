@@ -48,10 +48,6 @@ public:
     /// The widget that edits a field, null if it is not shown.
     QWidget *editor(const QString &name) const;
 
-    /// Words for a field: "decide.falseAlarmsPerHour" → "False alarms per hour".
-    static QString label(const QString &name);
-    static QString sectionLabel(const QString &prefix);
-
 signals:
     void settingEdited(const QString &name, const faintline::FieldValue &value);
     /// "Reset all": the app sets the defaults.

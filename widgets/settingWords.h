@@ -10,7 +10,7 @@ namespace faintline {
 /// "decide.falseAlarmsPerHour" → "False alarms per hour".
 QString settingLabel(const QString &name);
 
-/// "smd" → "Detector".
+/// "smd" → "Sequential Markov".
 QString stageLabel(const QString &prefix);
 
 /// "halfDown" → "half down".

@@ -2,6 +2,7 @@
 
 #include "widgets/SettingRow.h"
 #include "widgets/Theme.h"
+#include "widgets/settingWords.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -167,10 +168,10 @@ void tst_SettingsForm::theWheelChangesNothingInPassing()
 
 void tst_SettingsForm::labelsAreWords()
 {
-    QCOMPARE(SettingsForm::label("spectrogram.windowSeconds"), QString("Window length"));
-    QCOMPARE(SettingsForm::label("some.newThingHere"), QString("New thing here"));
-    QCOMPARE(SettingsForm::sectionLabel("smd"), QString("Sequential Markov"));
-    QCOMPARE(SettingsForm::sectionLabel("someStage"), QString("Some stage"));
+    QCOMPARE(settingLabel("spectrogram.windowSeconds"), QString("Window length"));
+    QCOMPARE(settingLabel("some.newThingHere"), QString("New thing here"));
+    QCOMPARE(stageLabel("smd"), QString("Sequential Markov"));
+    QCOMPARE(stageLabel("someStage"), QString("Some stage"));
 }
 
 void tst_SettingsForm::flagsAreCheckBoxes()
