@@ -1,0 +1,65 @@
+#pragma once
+
+#include "base/Axis.h"
+#include "base/Field.h"
+#include "base/RunContext.h"
+#include "spectrum/Spectrogram.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// How the noise under the lines is estimated.
+struct NormaliserSettings {
+    int halfWidthCells = 20;     ///< half the frequency window, in resolution cells
+    double blockWindows = 48.0;  ///< length of one time block, in T_FT
+    bool followLevel = true;     ///< divide out broad-band level changes shorter than a block (bursts, gain steps, clicks)
+
+    static const std::vector<Field<NormaliserSettings>> &fields();
+    bool operator==(const NormaliserSettings &) const = default;
+};
+
+/// The coarse background of a recording: mean noise power per time block and resolution cell.
+///
+/// Per block and cell: the median over the block's non-overlapping frames (frames of digital silence left out), freed of
+/// its bias for exponential data; per block: a running median over ±halfWidth cells, continued beyond the band edges
+/// by point reflection of the logarithm, which follows any slope; then the mean ratio of the unsuspicious
+/// cells to that median within the same window, which removes the median's bias and variance.
+/// Blocks are averaged with their neighbours in time as far as the noise keeps its colour, whatever its level does.
+/// A line, however long, is narrower than the window, so it never becomes its own background; a burst, however broad,
+/// is shorter than half a block. Between block centres and between cells the logarithm is interpolated. What changes
+/// faster than a block is a level over the background, per window: the whole band's, a mean over its cells of noise cut off at
+/// five times itself, by a Kalman smoother if it walks, and beyond that, for the band and for each sub-band of about 96 cells, a
+/// running median over seven windows as far as it is beyond its own scatter.
+struct NoiseBackground {
+    Axis time;      ///< block centres, s
+    Axis frequency; ///< cells, Hz
+    std::vector<float> lnPower; ///< time.count × frequency.count, natural logarithm of mean noise power
+    Axis levelTime;             ///< windows, s
+    Index bandCount = 0;        ///< sub-bands of equal width; 0 where the band is too narrow to tell
+    std::vector<float> lnLevel; ///< levelTime.count × bandCount, to be added to lnPower
+
+    /// ln power that stands for "nothing was recorded".
+    static constexpr float silence = -200.0f;
+
+    /// ln of the mean noise power at one time and frequency, without levels.
+    double lnPowerAt(double seconds, double hz) const;
+    /// The same of all cells at one time, with levels: what a frame is divided by.
+    void readLnPower(double seconds, std::span<float> ln) const;
+
+    /// Sub-bands of about 96 cells; none where fewer than 48 could tell the level.
+    static Index subBandCount(double cells);
+};
+
+/// How closely to look: a sketch takes no more than 64 frames of all, and one background for all time.
+enum class BackgroundDepth { Whole, Sketch };
+
+/// One pass over the recording at one frame per window and one bin per cell: a fraction 1/(k_t·k_f) of the detector's own
+/// transforms, and less where blocks are long. Memory: at most 1024 blocks and 64 MiB, twice.
+std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram, const NormaliserSettings &settings,
+                                                          const RunContext &context = {},
+                                                          BackgroundDepth depth = BackgroundDepth::Whole);
+
+} // namespace faintline
