@@ -105,8 +105,11 @@ int EventModel::columnCount(const QModelIndex &parent) const
 QString EventModel::text(const Event &event, int column) const
 {
     switch (column) {
-    case Id:
-        return QString::number(event.id);
+    case Id: { // in sight however narrow the panel, unlike the review's own column
+        const Verdict verdict = review(event).verdict;
+        const QString mark = verdict == Verdict::Accepted ? QStringLiteral("✓ ") : verdict == Verdict::Rejected ? QStringLiteral("× ") : QString();
+        return mark + QString::number(event.id);
+    }
     case Onset:
         return secondsText(event.onsetSeconds, 0.1);
     case Detection:
