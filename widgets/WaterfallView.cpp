@@ -357,7 +357,7 @@ Span WaterfallView::automaticRange() const
 {
     if (!m_picture || m_histogram.empty())
         return m_range;
-    return faintline::automaticRange(m_picture->scale(), m_histogram);
+    return faintline::automaticRange(m_picture->scale(), m_histogram, m_threshold);
 }
 
 void WaterfallView::applyRange(const Span &range)

@@ -1,6 +1,7 @@
 #include "spectrum/NoiseNormaliser.h"
 
 #include "base/fastmath.h"
+#include "base/memoryShares.h"
 #include "base/multiversion.h"
 #include "spectrum/levels.h"
 #include "spectrum/medians.h"
@@ -21,7 +22,7 @@ namespace {
     constexpr Index fewestFramesPerBlock = 64;
     constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
-    constexpr Index largestValueCount = Index(1) << 24; ///< of blocks × cells: 64 MiB, nine hours at 48 kHz; beyond that blocks are longer
+    constexpr Index largestValueCount = memoryShares::background / sizeof(float); ///< nine hours at 48 kHz; beyond that blocks are longer
     constexpr float largestRatio = 1e30f;
     constexpr float silence = -200.0f;   // ln power that stands for "nothing was recorded"
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
