@@ -72,14 +72,12 @@ namespace {
         const Axis &time = analysis.time();
         rows.heading(analysis.grid().axes.size() > 1 ? tr("Pings") : tr("Frames"));
         rows.row(tr("Number"), tr("%1, every %2 s").arg(time.count).arg(time.step, 0, 'g', 4));
-        for (const Axis &axis : analysis.grid().axes) {
-            QString name = QString::fromStdString(axis.name);
-            name[0] = name[0].toUpper();
-            rows.row(name, tr("%1 cells of %2 %3%4")
-                               .arg(axis.count)
-                               .arg(axis.step, 0, 'g', 4)
-                               .arg(QString::fromStdString(axis.unit), axis.cyclic ? tr(", all round") : QString()));
-        }
+        for (const Axis &axis : analysis.grid().axes)
+            rows.row(capitalised(QString::fromStdString(axis.name)),
+                     tr("%1 cells of %2 %3%4")
+                         .arg(axis.count)
+                         .arg(axis.step, 0, 'g', 4)
+                         .arg(QString::fromStdString(axis.unit), axis.cyclic ? tr(", all round") : QString()));
         rows.row(tr("States"), QString::number(analysis.model.space.stateCount()));
         if (analysis.lnKBand.deviation > 0.0)
             rows.row(tr("ln K on noise"), tr("%1 … %2 nat").arg(analysis.lnKBand.low(), 0, 'f', 3).arg(analysis.lnKBand.high(), 0, 'f', 3));

@@ -1,6 +1,6 @@
 #include "app/Lesson.h"
 
-#include "app/MainWindow.h"
+#include "app/WindowViews.h"
 #include "app/lessonMeasures.h"
 #include "base/Error.h"
 #include "base/json.h"
@@ -106,12 +106,12 @@ namespace {
     void checkWidget(const QString &name, const std::string &where)
     {
         static const QStringList others{"regulation", "profile", "pipeline", "readout"};
-        if (name.isEmpty() || others.contains(name) || MainWindow::viewNames().contains(name))
+        if (name.isEmpty() || others.contains(name) || WindowViews::names().contains(name))
             return;
         if (!name.startsWith(QLatin1String("setting ")))
             throw Error(where + " = " + name.toStdString(),
                         "is no view; there are "
-                            + (others + MainWindow::viewNames()).join(QStringLiteral(", ")).toStdString()
+                            + (others + WindowViews::names()).join(QStringLiteral(", ")).toStdString()
                             + " and \"setting NAME\"");
         settingField(name.mid(8).toStdString());
     }

@@ -6,6 +6,7 @@
 #include "app/PingBench.h"
 #include "app/PointerFrame.h"
 #include "app/SequentialPanel.h"
+#include "app/WindowViews.h"
 #include "app/Workbench.h"
 #include "app/lessonMeasures.h"
 #include "app/scanScenario.h"
@@ -222,7 +223,7 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
         return m_window.findChild<SettingsForm *>();
     if (name == QLatin1String("readout"))
         return m_window.findChild<ReadOut *>();
-    return m_window.view(name);
+    return m_window.views().named(name);
 }
 
 void LessonGuide::showPanel()

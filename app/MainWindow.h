@@ -52,6 +52,7 @@ class SweepPanel;
 class TrialViewer;
 class WelcomePage;
 class WhyPanel;
+class WindowViews;
 class Workbench;
 
 /// The window: it puts the panels in their places and connects them to the document and its controller.
@@ -85,6 +86,7 @@ public:
     ReproductionPanel &reproduction() { return *m_reproduction; }
     NoiseFitPanel &noiseFit() { return *m_noiseFit; }
     WhyPanel &why() { return *m_why; }
+    InfoPanel &info() { return *m_info; }
     Recovery &recovery() { return *m_recovery; }
     StateSlicePanel &states() { return *m_states; }
     LatencyPanel &latency() { return *m_latency; }
@@ -94,19 +96,13 @@ public:
     Comparer &comparer() { return m_comparer; }
     ComparePanel &comparePanel() { return *m_compare; }
     SweepPanel &sweep() { return *m_sweep; }
+    WindowViews &views() { return *m_views; }
+    Bench &bench(); ///< the one for what is open
 
     /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
     void openScans(const ScanTest &test);
     SequentialTests &sequentialTests() { return m_sequentialTests; }
     SequentialPanel &sequential() { return *m_sequential; }
-
-    /// What can be looked at by itself: "window", "input", "output", "threshold", "events", "noise",
-    /// "noisefit", "pd", "why", "compare", "sweep", "hand"; the states' "slice"; of a sonar's pings "map", "polar", "histories", "latency"; of sequential tests "sequential",
-    /// "walk", "stopping", "posterior", "scan", "asn", "prior", "sectors".
-    static const QStringList &viewNames();
-    QWidget *view(const QString &name);
-    /// One of them as it is seen now, by the path's extension, with what it was made from.
-    void saveViewTo(const QString &name, const QString &path);
 
     void showNoiseFit();
     void showWhy();
@@ -149,7 +145,6 @@ private:
     /// An action that makes sense only while a recording is shown.
     QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
 
-    Bench &bench(); ///< the one for what is open
     void showWorkbench();
     void showAnalysis();
     void showEvents();
@@ -161,8 +156,6 @@ private:
     void openScenario(ScenarioCard *card);
     void chooseFile();
     void chooseRawFile();
-    void exportPicture(const QString &view);
-    std::string withView(const QString &view, const std::string &provenance);
     void exportReport();
     void injectLine();
     void reproduce(const Reproducible &reproducible, bool quick);
@@ -184,6 +177,7 @@ private:
     bool m_isAsking = true;
 
     Panels *m_panels = nullptr;
+    WindowViews *m_views = nullptr;
     SessionSaver *m_saver = nullptr;
     Recovery *m_recovery = nullptr;
     QString m_recoveryFolder;

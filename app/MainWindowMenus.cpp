@@ -18,10 +18,12 @@
 #include "app/SessionSaver.h"
 #include "app/ToolBar.h"
 #include "app/WelcomePage.h"
+#include "app/WindowViews.h"
 #include "app/Workbench.h"
 #include "app/scanScenario.h"
 #include "widgets/EventTable.h"
 #include "widgets/icon.h"
+#include "widgets/waterfallCommands.h"
 
 #include <QActionGroup>
 #include <QMenu>
@@ -85,7 +87,7 @@ void MainWindow::buildFileMenu()
     const std::pair<const char *, QString> views[] = {{"window", tr("&Window")},       {"input", tr("&Input")}, {"output", tr("&Statistic")},
                                                       {"threshold", tr("&Threshold")}, {"why", tr("W&hy")},     {"noise", tr("&Noise and calibration")}};
     for (const auto &[name, text] : views)
-        pictures->addAction(text, this, [this, name = QString::fromLatin1(name)] { exportPicture(name); });
+        pictures->addAction(text, this, [this, name = QString::fromLatin1(name)] { m_views->exportPicture(name); });
     m_viewActions.push_back(pictures->menuAction());
     addViewAction(*menu, tr("Export repor&t…"), {}, [this] { exportReport(); });
     menu->addSeparator();
@@ -135,7 +137,7 @@ void MainWindow::buildViewMenu()
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {
         picture->clear();
-        output->addActionsTo(picture);
+        addCommands(*picture, *output);
     });
     addLayerMenu(*menu);
     m_panelsMenu = menu->addMenu(tr("&Panels"));

@@ -2,6 +2,7 @@
 
 #include "app/MainWindow.h"
 #include "app/Provenance.h"
+#include "app/WindowViews.h"
 #include "base/AtomicFile.h"
 
 #include <QBuffer>
@@ -43,7 +44,7 @@ std::vector<ReportMaterial::Picture> reportPictures(MainWindow &window)
         QByteArray bytes;
         QBuffer buffer(&bytes);
         buffer.open(QIODevice::WriteOnly);
-        const QImage image = window.view(QString::fromLatin1(name))->grab().toImage().convertToFormat(QImage::Format_RGB32);
+        const QImage image = window.views().named(QString::fromLatin1(name))->grab().toImage().convertToFormat(QImage::Format_RGB32);
         image.save(&buffer, "PNG");
         pictures.push_back({title.toStdString(), bytes.toStdString(), image.width(), image.height()});
     }

@@ -2,18 +2,16 @@
 
 #include "app/Document.h"
 #include "app/ScanTestForm.h"
+#include "app/TrajectoryPage.h"
 #include "app/saveView.h"
+#include "app/sequentialSentences.h"
 #include "exchange/sequentialCsv.h"
 #include "exchange/writeChart.h"
-#include "spectrum/NoiseNormaliser.h"
 #include "widgets/BarPlot.h"
 #include "widgets/CellPicture.h"
 #include "widgets/ChartPlot.h"
-#include "widgets/Theme.h"
 #include "widgets/WalkPlot.h"
-#include "widgets/quantities.h"
 
-#include <QComboBox>
 #include <QFileDialog>
 #include <QKeyEvent>
 #include <QLabel>
@@ -68,38 +66,22 @@ namespace {
         return page;
     }
 
-    QString percent(double share)
-    {
-        return numberText(100.0 * share, std::abs(share) < 0.1 ? 1 : 0) + QStringLiteral(" %");
-    }
-
-    QString decisionText(const SprtResult &result)
-    {
-        switch (result.decision) {
-        case SprtDecision::H1:
-            return result.isForced ? QObject::tr("the cut-off decides for a target") : QObject::tr("a target accepted");
-        case SprtDecision::H0:
-            return result.isForced ? QObject::tr("the cut-off decides for noise") : QObject::tr("noise only accepted");
-        case SprtDecision::Undecided:
-            break;
-        }
-        return QObject::tr("undecided");
-    }
-
 } // namespace
 
 SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
     : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm), m_start(new QPushButton(tr("Run"))),
       m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the recording’s view"))),
-      m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_posterior(new CellPicture),
-      m_scan(new CellPicture), m_axis(new QComboBox), m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()),
+      m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
+      m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()),
       m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()),
       m_runText(new QLabel), m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
 {
     m_tabs->setDocumentMode(true);
     m_tabs->setMinimumWidth(280); // the window must not grow for charts that are not looked at
     m_tabs->addTab(buildWalks(), tr("Walks"));
-    m_tabs->addTab(buildTrajectory(), tr("Trajectory and scan"));
+    addView(&m_trajectory->posterior(), tr("Posterior and trajectory"), [this] { return m_trajectory->posteriorNumbers(); });
+    addView(&m_trajectory->scan(), tr("Scan"), [this] { return m_trajectory->scanNumbers(); });
+    m_tabs->addTab(m_trajectory, tr("Trajectory and scan"));
     m_tabs->addTab(buildCurves(), tr("Stages against SNR"));
     m_tabs->addTab(buildPrior(), tr("Against the prior"));
     m_tabs->addTab(buildSectors(), tr("Sectors"));
@@ -198,40 +180,6 @@ QWidget *SequentialPanel::buildWalks()
     return sideBySide(m_walk, m_stopping, 3, 2);
 }
 
-QWidget *SequentialPanel::buildTrajectory()
-{
-    m_posterior->setEmptySentence(tr("What the selected run thought of its target's place, stage by stage."));
-    m_posterior->setAccessibleName(tr("Posterior probability of the target's cell, stage by stage"));
-    m_scan->setAccessibleName(tr("Range-Doppler map of the stage"));
-    m_axis->setAccessibleName(tr("Axis of the posterior"));
-    addView(m_posterior, tr("Posterior and trajectory"), [this] {
-        const PosteriorPicture *picture = shownPosterior();
-        return picture ? posteriorCsv(*picture) : std::string();
-    });
-    addView(m_scan, tr("Scan"), [this] {
-        std::string csv = "range,doppler,db\n";
-        const Index rows = m_scan->yAxis().count;
-        for (std::size_t i = 0; i < m_scan->values().size(); ++i)
-            csv += std::to_string(static_cast<Index>(i) % rows) + "," + std::to_string(static_cast<Index>(i) / rows) + ","
-                + formatNumber(static_cast<double>(m_scan->values()[i])) + "\n";
-        return csv;
-    });
-    connect(m_axis, &QComboBox::activated, this, &SequentialPanel::showInspection);
-    connect(m_posterior, &MarkedPlot::activated, this, [this](double x) { m_tests.setStage(std::lround(x)); });
-    auto *axisRow = new QHBoxLayout;
-    axisRow->setContentsMargins(8, 3, 8, 0);
-    axisRow->addWidget(new QLabel(tr("Where along")));
-    axisRow->addWidget(m_axis);
-    axisRow->addStretch(1);
-    auto *left = new QWidget;
-    auto *layout = new QVBoxLayout(left);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
-    layout->addLayout(axisRow);
-    layout->addWidget(m_posterior, 1);
-    return sideBySide(left, m_scan, 3, 2);
-}
-
 QWidget *SequentialPanel::buildCurves()
 {
     for (ChartPlot *plot : {m_asn, m_variation, m_prior})
@@ -287,8 +235,7 @@ void SequentialPanel::connectTests()
     connect(&m_tests, &SequentialTests::fixedSizeChanged, this, &SequentialPanel::showWalks);
     connect(&m_tests, &SequentialTests::selectionChanged, this, &SequentialPanel::showSelection);
     connect(&m_tests, &SequentialTests::stageChanged, this, &SequentialPanel::showStage);
-    connect(&m_tests, &SequentialTests::inspectionChanged, this, &SequentialPanel::showInspection);
-    connect(&m_tests, &SequentialTests::scanChanged, this, &SequentialPanel::showScan);
+    connect(&m_tests, &SequentialTests::inspectionChanged, this, [this] { m_runText->setText(runSentence(m_tests)); });
     connect(&m_tests, &SequentialTests::curvesChanged, this, &SequentialPanel::showCurves);
     connect(&m_tests, &SequentialTests::surveyChanged, this, &SequentialPanel::showSectors);
     connect(&m_tests, &SequentialTests::failed, this, &SequentialPanel::failed);
@@ -340,11 +287,7 @@ void SequentialPanel::startOnSelection()
 void SequentialPanel::restart()
 {
     showBusy(m_tests.isRunning());
-    m_axis->clear();
-    m_posterior->clear();
-    m_scan->clear();
-    m_scan->setEmptySentence(m_tests.isOfScans() ? tr("The scan of the stage that is looked at.")
-                                                 : tr("A recording's frames have no range and no Doppler."));
+    m_trajectory->clear();
     const QString none = tr("Curves and sectors are simulated: press Run.");
     for (ChartPlot *plot : {m_asn, m_variation, m_prior})
         plot->setEmptySentence(m_tests.isOfScans() ? tr("Press Run: the curve grows here.") : none);
@@ -405,7 +348,7 @@ void SequentialPanel::showStopping()
     if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
         marks.push_back({static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
     m_stopping->setMarks(std::move(marks));
-    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("When the tests stop is counted here.") : recordingNote());
+    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("When the tests stop is counted here.") : recordingNote(m_tests));
 }
 
 void SequentialPanel::selectStoppedAt(int stage)
@@ -427,7 +370,7 @@ void SequentialPanel::showSelection()
     const QSignalBlocker blocker(m_slider);
     m_slider->setRange(1, static_cast<int>(stages));
     m_slider->setEnabled(hasRun && stages > 1);
-    m_runText->setText(runSentence());
+    m_runText->setText(runSentence(m_tests));
 }
 
 void SequentialPanel::showStage()
@@ -435,100 +378,9 @@ void SequentialPanel::showStage()
     const bool hasRun = m_tests.selected() >= 0;
     const auto stage = static_cast<double>(m_tests.stage());
     m_walk->setCursor(hasRun ? std::optional(stage) : std::nullopt);
-    m_posterior->setCursor(hasRun ? std::optional(stage) : std::nullopt);
     const QSignalBlocker blocker(m_slider);
     m_slider->setValue(static_cast<int>(m_tests.stage()));
     m_stageText->setText(hasRun ? tr("stage %1 of %2").arg(m_tests.stage()).arg(m_slider->maximum()) : QString());
-}
-
-const PosteriorPicture *SequentialPanel::shownPosterior() const
-{
-    const auto &inspection = m_tests.inspection();
-    const auto index = static_cast<std::size_t>(std::max(0, m_axis->currentIndex()));
-    return inspection && index < inspection->test.posterior.size() ? &inspection->test.posterior[index] : nullptr;
-}
-
-Axis SequentialPanel::cellAxis(const PosteriorPicture &picture) const
-{
-    if (m_tests.isOfScans())
-        return {picture.name, "cell", 0.0, 1.0, picture.cells, false};
-    Axis axis = m_tests.selection().frames->grid().axes[0];
-    axis.first = axis.value(static_cast<double>(m_tests.selection().firstCell));
-    axis.count = picture.cells;
-    return axis;
-}
-
-void SequentialPanel::showInspection()
-{
-    const auto &inspection = m_tests.inspection();
-    if (!inspection)
-        return;
-    if (m_axis->count() != static_cast<int>(inspection->test.posterior.size())) {
-        m_axis->clear();
-        std::size_t finest = 0;
-        for (std::size_t i = 0; i < inspection->test.posterior.size(); ++i) {
-            m_axis->addItem(QString::fromStdString(inspection->test.posterior[i].name));
-            if (inspection->test.posterior[i].cells > inspection->test.posterior[finest].cells)
-                finest = i;
-        }
-        m_axis->setCurrentIndex(static_cast<int>(finest));
-    }
-    const PosteriorPicture &picture = *shownPosterior();
-    constexpr double leastLg = -4.0;
-    std::vector<float> lg;
-    for (const float p : picture.probability)
-        lg.push_back(static_cast<float>(std::log10(std::max(static_cast<double>(p), 1e-9))));
-    const Axis cells = cellAxis(picture);
-    m_posterior->setPicture({"stage", "", 1.0, static_cast<double>(picture.stride), picture.rows(), false}, cells, std::move(lg),
-                            {leastLg, 0.0}, tr("log₁₀ P"));
-
-    const Theme::Colours &colours = Theme::colours(*this);
-    CellPicture::Path truth{tr("truth"), CellPicture::Path::Kind::Dashes, colours.truth, {}};
-    CellPicture::Path map{tr("MAP trajectory"), CellPicture::Path::Kind::Line, colours.track, {}};
-    const auto point = [&](Index stage, Index cell) {
-        return QPointF(static_cast<double>(stage + 1), cells.value(static_cast<double>(cell)));
-    };
-    for (Index stage = 0; stage < inspection->test.result.stages; ++stage) {
-        const auto at = static_cast<std::size_t>(stage);
-        if (at < inspection->truth.size())
-            truth.points.push_back(point(stage, inspection->truth[at][picture.frameAxis]));
-        if (at < inspection->test.result.trajectory.size())
-            map.points.push_back(point(stage, inspection->test.result.trajectory[at][picture.frameAxis]));
-    }
-    m_posterior->setPaths({map, truth});
-    m_runText->setText(runSentence());
-    showScan(); // its marks
-}
-
-void SequentialPanel::showScan()
-{
-    const auto &scan = m_tests.scan();
-    if (!scan)
-        return;
-    const ScanScene &scene = m_tests.test().scene;
-    const auto ranges = static_cast<std::size_t>(scene.rangeCells);
-    const auto dopplers = static_cast<std::size_t>(scene.dopplerCells);
-    std::vector<float> values(ranges * dopplers);
-    for (std::size_t r = 0; r < ranges; ++r)
-        for (std::size_t d = 0; d < dopplers; ++d)
-            values[d * ranges + r] = scan->db[r * dopplers + d];
-    m_scan->setPicture({"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false}, {"range", "cell", 0.0, 1.0, scene.rangeCells, false},
-                       std::move(values), {0.0, std::max(15.0, scene.snrDb + 6.0)}, tr("strongest beam (dB)"));
-    const auto &inspection = m_tests.inspection();
-    std::vector<CellPicture::Path> marks;
-    const auto at = static_cast<std::size_t>(scan->stage - 1);
-    const Theme::Colours &colours = Theme::colours(*this);
-    if (inspection && at < inspection->truth.size()) {
-        const ScanCell &cell = inspection->truth[at];
-        marks.push_back({tr("truth"), CellPicture::Path::Kind::Rings, colours.truth,
-                         {QPointF(static_cast<double>(cell[3]), static_cast<double>(cell[2]))}});
-    }
-    if (inspection && at < inspection->test.result.trajectory.size()) {
-        const std::vector<Index> &cell = inspection->test.result.trajectory[at];
-        marks.push_back({tr("MAP"), CellPicture::Path::Kind::Crosses, colours.track,
-                         {QPointF(static_cast<double>(cell[3]), static_cast<double>(cell[2]))}});
-    }
-    m_scan->setPaths(std::move(marks));
 }
 
 void SequentialPanel::showCurves()
@@ -536,8 +388,8 @@ void SequentialPanel::showCurves()
     m_asn->setChart(stagesChart(m_tests.points()));
     m_variation->setChart(variationChart(m_tests.points()));
     m_prior->setChart(m_tests.prior() ? priorChart(*m_tests.prior()) : Chart());
-    m_curvesText->setText(curvesSentence());
-    m_priorText->setText(priorSentence());
+    m_curvesText->setText(curvesSentence(m_tests));
+    m_priorText->setText(priorSentence(m_tests));
 }
 
 void SequentialPanel::showSectors()
@@ -561,140 +413,7 @@ void SequentialPanel::showSectors()
         m_sectors->setLeastHeight(0.0);
     }
     m_sectors->setMarks(std::move(marks));
-    m_sectorsText->setText(sectorsSentence());
-}
-
-// ---- sentences ------------------------------------------------------------------------------------------------------
-
-QString SequentialPanel::runSentence() const
-{
-    if (m_tests.selected() < 0)
-        return {};
-    if (!m_tests.isOfScans())
-        return recordingSentence();
-    const auto &[run, result] = m_tests.walks()[static_cast<std::size_t>(m_tests.selected())];
-    return tr("Run %1 %2: %3 after %4, ln Λ = %5.")
-               .arg(run.number + 1)
-               .arg(run.hasTarget ? tr("with a target") : tr("of noise only"), decisionText(result),
-                    result.stages == 1 ? tr("one stage") : tr("%1 stages").arg(result.stages), numberText(result.lnLambda.back(), 1))
-        + trajectorySentence();
-}
-
-QString SequentialPanel::trajectorySentence() const
-{
-    const auto &inspection = m_tests.inspection();
-    if (!inspection || inspection->truth.empty() || inspection->test.result.trajectory.empty())
-        return {};
-    Index worst = 0;
-    Index last = 0;
-    for (std::size_t stage = 0; stage < inspection->test.result.trajectory.size(); ++stage) {
-        last = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            last = std::max(last, std::abs(inspection->test.result.trajectory[stage][axis] - inspection->truth[stage][axis]));
-        worst = std::max(worst, last);
-    }
-    if (worst == 0)
-        return tr(" Its trajectory is right at every stage.");
-    return tr(" Its trajectory is off by %1 at last and by %2 cells at most.").arg(last).arg(worst);
-}
-
-QString SequentialPanel::recordingSentence() const
-{
-    const SequentialTests::Selection &selection = m_tests.selection();
-    const SprtResult &result = m_tests.walks().front().second;
-    const Axis &time = selection.frames->time();
-    return tr("A line since the first frame in view, in %1 bins: %2 after %3 of %4 frames (%5), ln Λ = %6.")
-                       .arg(selection.cellCount)
-                       .arg(decisionText(result))
-                       .arg(result.stages)
-                       .arg(selection.frameCount)
-                       .arg(secondsText(static_cast<double>(result.stages) * time.step, time.step),
-                            numberText(result.lnLambda.empty() ? 0.0 : result.lnLambda.back(), 1));
-}
-
-QString SequentialPanel::recordingNote() const
-{
-    QString text = tr("One test stops once: there is nothing to count.");
-    const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(m_tests.selection().frames.get());
-    if (frames && frames->spectrogram().settings().stepsPerWindow > 1)
-        text += tr(" This recording's frames overlap, so evidence counts more than once, and errors exceed α and β.");
-    return text;
-}
-
-QString SequentialPanel::curvesSentence() const
-{
-    const auto &points = m_tests.points();
-    const auto atDesign = std::find_if(points.begin(), points.end(), [](const ScanPoint &p) { return p.snrDb == p.designSnrDb; });
-    if (atDesign == points.end())
-        return {};
-    const ScanPoint &p = m_tests.test().designFollows ? points.back() : *atDesign;
-    const auto range = [](double low, double high) { return tr("%1 … %2").arg(numberText(low, 1), numberText(high, 1)); };
-    QString text = tr("At %1 dB: %2 stages on noise, bounds (8b) %3; %4 with a target, bounds (8a) %5. The bounds neglect by how far ln Λ "
-                      "overshoots its boundary")
-                       .arg(numberText(p.snrDb, 0), numberText(p.h0.stages.value, 1), range(p.bounds.h0Low, p.bounds.h0High),
-                            numberText(p.h1.stages.value, 1), range(p.bounds.h1Low, p.bounds.h1High));
-    QStringList above;
-    if (p.h0.stages.value > p.bounds.h0High)
-        above << tr("%1 on noise").arg(percent(p.h0.stages.value / p.bounds.h0High - 1.0));
-    if (p.h1.stages.value > p.bounds.h1High)
-        above << tr("%1 with a target").arg(percent(p.h1.stages.value / p.bounds.h1High - 1.0));
-    text += above.isEmpty() ? tr("; the simulated tests stay below the upper ones.")
-                            : tr(": the simulated tests exceed the upper ones by %1.").arg(above.join(tr(", ")));
-    if (m_tests.test().sprt.cutOffStage > 0)
-        text += tr(" Nor do they know of the cut-off.");
-    return text;
-}
-
-QString SequentialPanel::priorSentence() const
-{
-    if (!m_tests.prior())
-        return {};
-    const PriorCurve &curve = *m_tests.prior();
-    const QString what = tr("A line of %1 cells at %2 dB, from a known trajectory (left) to one of which nothing is known (right), "
-                            "without a cut-off.")
-                             .arg(curve.cells)
-                             .arg(numberText(m_tests.test().designSnrDb, 0));
-    const std::optional<Overshoot> over = overshoot(curve);
-    if (!over)
-        return what;
-    const QString how = over->h0 >= 0.0 && over->h1 >= 0.0
-                            ? tr(" At the right end the stages exceed the “upper bounds” by %1 on noise and %2 with a target")
-                            : tr(" At the right end the stages differ from the upper bounds by %1 on noise and %2 with a target");
-    return what + how.arg(percent(over->h0), percent(over->h1)) + tr(": the bounds neglect by how far ln Λ overshoots its boundary.");
-}
-
-QString SequentialPanel::sectorsSentence() const
-{
-    if (!m_tests.survey())
-        return {};
-    const Survey &survey = *m_tests.survey();
-    int looksAtTargets = 0;
-    int found = 0;
-    int falseAlarms = 0;
-    for (const SectorVisit &visit : survey.visits) {
-        const bool isAccepted = visit.result.decision == SprtDecision::H1;
-        const bool isTarget = holdsTarget(m_tests.test(), visit.sector);
-        looksAtTargets += isTarget ? 1 : 0;
-        found += isTarget && isAccepted ? 1 : 0;
-        falseAlarms += !isTarget && isAccepted ? 1 : 0;
-    }
-    const int looks = static_cast<int>(survey.visits.size());
-    const QString seen = tr(" A target is found in %1 of %2 looks at one; %3 of %4 looks at empty sectors end in a false alarm.")
-                             .arg(found)
-                             .arg(looksAtTargets)
-                             .arg(falseAlarms)
-                             .arg(looks - looksAtTargets);
-    if (!m_tests.isFixedSizeKnown())
-        return tr("%1 looks take %2 stages.").arg(looks).arg(survey.stages) + seen;
-    if (!m_tests.fixedSize())
-        return tr("%1 looks take %2 stages; a test of fixed size would need more than 40 for each.").arg(looks).arg(survey.stages) + seen;
-    return tr("%1 looks take %2 stages; tests of fixed size with the same errors, of about %3 stages each, would take %4: %5.")
-               .arg(looks)
-               .arg(survey.stages)
-               .arg(*m_tests.fixedSize())
-               .arg(survey.fixedStages)
-               .arg(survey.saving() >= 0.0 ? tr("%1 saved").arg(percent(survey.saving())) : tr("%1 lost").arg(percent(-survey.saving())))
-        + seen;
+    m_sectorsText->setText(sectorsSentence(m_tests));
 }
 
 // ---- keys and files -------------------------------------------------------------------------------------------------
@@ -725,7 +444,7 @@ std::string SequentialPanel::provenance(const View &view) const
                  {"chart", view.title.toStdString()},
                  {"walk", m_tests.selected()},
                  {"stage", m_tests.stage()},
-                 {"axis", m_axis->currentIndex()}};
+                 {"axis", m_trajectory->axis()}};
     json["sequential"] = m_tests.isOfScans() ? writeFields(m_tests.test(), ScanTest::fields()) : writeFields(m_tests.test().sprt, SprtSettings::fields());
     if (!m_tests.isOfScans()) {
         const SequentialTests::Selection &selection = m_tests.selection();
@@ -755,12 +474,6 @@ void SequentialPanel::save(const View &view)
 void SequentialPanel::saveTo(const View &view, const QString &path) const
 {
     saveView(*view.widget, view.csv(), path, provenance(view));
-}
-
-void SequentialPanel::showAxis(int axis)
-{
-    m_axis->setCurrentIndex(axis);
-    showInspection();
 }
 
 } // namespace faintline

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -18,10 +17,10 @@ class QTabWidget;
 namespace faintline {
 
 class BarPlot;
-class CellPicture;
 class ChartPlot;
 class Document;
 class ScanTestForm;
+class TrajectoryPage;
 class WalkPlot;
 
 /// Sequential tests to look into: the walks between their boundaries and when they stop, what one run thought of its target and what it
@@ -45,19 +44,13 @@ public:
     ChartPlot &asn() { return *m_asn; }
     ChartPlot &variation() { return *m_variation; }
     ChartPlot &prior() { return *m_prior; }
-    CellPicture &posterior() { return *m_posterior; }
-    CellPicture &scan() { return *m_scan; }
+    TrajectoryPage &trajectory() { return *m_trajectory; }
     BarPlot &sectors() { return *m_sectors; }
     QWidget *curvesPage() { return m_curvesPage; } ///< with their sentence
     QWidget *priorPage() { return m_priorPage; }
     QWidget *sectorsPage() { return m_sectorsPage; }
     QSlider &slider() { return *m_slider; }
     QTabWidget &tabs() { return *m_tabs; }
-
-    QString runSentence() const;
-    QString curvesSentence() const;
-    QString priorSentence() const;
-    QString sectorsSentence() const;
 
     /// A view and its numbers, for files.
     struct View {
@@ -68,8 +61,6 @@ public:
     const std::vector<View> &views() const { return m_views; }
     /// As it is shown; numbers (.csv) with what makes them again beside them. Throws Error.
     void saveTo(const View &view, const QString &path) const;
-    /// The axis of the posterior that is shown.
-    void showAxis(int axis);
 
     QSize sizeHint() const override { return {1000, 340}; }
 
@@ -83,7 +74,6 @@ protected:
 private:
     QWidget *buildLeft();
     QWidget *buildWalks();
-    QWidget *buildTrajectory();
     QWidget *buildCurves();
     QWidget *buildPrior();
     QWidget *buildSectors();
@@ -98,19 +88,12 @@ private:
     void showStopping();
     void showSelection();
     void showStage();
-    void showInspection();
-    void showScan();
     void showCurves();
     void showSectors();
     void selectStoppedAt(int stage);
     void followDocument();
     void save(const View &view);
     std::string provenance(const View &view) const;
-    const PosteriorPicture *shownPosterior() const;
-    Axis cellAxis(const PosteriorPicture &picture) const;
-    QString trajectorySentence() const;
-    QString recordingSentence() const;
-    QString recordingNote() const;
 
     Document &m_document;
     SequentialTests &m_tests;
@@ -125,9 +108,7 @@ private:
     QTabWidget *m_tabs;
     WalkPlot *m_walk;
     BarPlot *m_stopping;
-    CellPicture *m_posterior;
-    CellPicture *m_scan;
-    QComboBox *m_axis; ///< of the posterior
+    TrajectoryPage *m_trajectory;
     ChartPlot *m_asn;
     ChartPlot *m_variation;
     QLabel *m_curvesText;

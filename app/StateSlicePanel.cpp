@@ -26,13 +26,6 @@ namespace {
     constexpr Index longAxis = 200;    ///< cells from which on only the cursor's surroundings are shown at first
     constexpr double surroundings = 60.0; ///< cells either way
 
-    QString capitalised(QString text)
-    {
-        if (!text.isEmpty())
-            text[0] = text[0].toUpper();
-        return text;
-    }
-
     Span whole(const Axis &axis)
     {
         return {axis.value(-0.5), axis.value(static_cast<double>(axis.count) - 0.5)};

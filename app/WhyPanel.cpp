@@ -4,7 +4,7 @@
 #include "app/readingTable.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/PingViewports.h"
-#include "widgets/quantities.h"
+#include "widgets/axisWords.h"
 
 #include <QHeaderView>
 #include <QLabel>
@@ -242,14 +242,8 @@ void WhyPanel::explainCursor()
 void WhyPanel::layColumns(const Analysis &analysis)
 {
     QStringList names{tr("Time")};
-    for (const Axis &axis : analysis.grid().axes) {
-        if (axis.unit == "Hz") {
-            names << tr("f (%1)").arg(frequencyUnit(std::max(std::abs(axis.first), std::abs(axis.last()))).name);
-            continue;
-        }
-        const QString name = QString::fromStdString(axis.name);
-        names << tr("%1 (%2)").arg(name.left(1).toUpper() + name.mid(1), QString::fromStdString(axis.unit));
-    }
+    for (const Axis &axis : analysis.grid().axes)
+        names << (axis.unit == "Hz" ? tr("f (%1)").arg(shownUnit(axis).name) : titleOf(axis));
     const auto axes = static_cast<int>(analysis.grid().axes.size());
     names << tr("λ") << tr("ln P") << tr("ln K") << tr("Sum") << tr("2nd");
     m_ladder->setColumnCount(static_cast<int>(names.size()));
@@ -278,7 +272,7 @@ void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)
         const std::vector<Index> cells = grid.coordinates(space.cellOf(step.state));
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const Axis &axis = grid.axes[i];
-            const double unit = axis.unit == "Hz" ? frequencyUnit(std::max(std::abs(axis.first), std::abs(axis.last()))).hz : 1.0;
+            const double unit = shownUnit(axis).hz;
             texts << numberText(axis.value(static_cast<double>(cells[i])) / unit, decimalsFor(axis.step / unit));
         }
         texts << signedText(step.logLikelihoodRatio) << numberText(step.lnTransition, 2) << signedText(step.lnK)

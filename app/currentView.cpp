@@ -2,6 +2,7 @@
 
 #include "app/MainWindow.h"
 #include "app/WelcomePage.h"
+#include "app/WindowViews.h"
 #include "app/Workbench.h"
 #include "widgets/StripPlot.h"
 
@@ -19,8 +20,8 @@ namespace {
                 return QStringLiteral("profile");
             if (each == window.workbench().regulationPlot())
                 return QStringLiteral("regulation");
-            for (const QString &name : MainWindow::viewNames())
-                if (name != QLatin1String("polar") && window.view(name) == each)
+            for (const QString &name : WindowViews::names())
+                if (name != QLatin1String("polar") && window.views().named(name) == each)
                     return name;
         }
         return {};

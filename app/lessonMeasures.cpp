@@ -3,6 +3,7 @@
 #include "app/MainWindow.h"
 #include "app/PingBench.h"
 #include "app/WhyPanel.h"
+#include "app/WindowViews.h"
 #include "app/Workbench.h"
 #include "base/Error.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -335,7 +336,7 @@ Value lessonMeasure(MainWindow &window, const std::string &name)
     if (isLineMeasure(name))
         return lineMeasure(window, name);
     if (begins(name, "view.")) {
-        const QWidget *view = window.view(QString::fromStdString(name.substr(5)));
+        const QWidget *view = window.views().named(QString::fromStdString(name.substr(5)));
         return view && view->isVisible() && !view->visibleRegion().isEmpty() ? 1.0 : 0.0;
     }
     if (const auto *field = testField(name))
@@ -346,7 +347,7 @@ Value lessonMeasure(MainWindow &window, const std::string &name)
 void checkMeasure(const std::string &name, const std::string &where)
 {
     const bool isView =
-        begins(name, "view.") && MainWindow::viewNames().contains(QString::fromStdString(name.substr(5)));
+        begins(name, "view.") && WindowViews::names().contains(QString::fromStdString(name.substr(5)));
     if (isView || measures().contains(name) || isLineMeasure(name) || testField(name))
         return;
     try {

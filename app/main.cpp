@@ -4,6 +4,7 @@
 #include "app/Recovery.h"
 #include "app/comparePictures.h"
 #include "app/renderCommand.h"
+#include "app/replayPicture.h"
 
 #include <CLI/CLI.hpp>
 

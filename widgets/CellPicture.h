@@ -20,8 +20,6 @@ class CellPicture : public MarkedPlot
     Q_OBJECT
 
 public:
-    using Axis = faintline::Axis; ///< QwtPlot has one of its own
-
     struct Path {
         enum class Kind { Line, Dashes, Rings, Crosses };
         QString name;

@@ -63,7 +63,7 @@ namespace {
 } // namespace
 
 ExceedancePlot::ExceedancePlot(QWidget *parent)
-    : QwtPlot(parent), m_grid(new QwtPlotGrid), m_histogram(new QwtPlotHistogram), m_simulated(makeCurve(this, 20.0)),
+    : ThemedPlot(parent), m_grid(new QwtPlotGrid), m_histogram(new QwtPlotHistogram), m_simulated(makeCurve(this, 20.0)),
       m_tail(makeCurve(this, 19.0)), m_closedForm(makeCurve(this, 21.0)), m_measured(makeCurve(this, 18.0)),
       m_selection(makeCurve(this, 18.5)),
       m_line(new QwtPlotMarker), m_label(new LineLabel), m_sentence(new CanvasSentence),
@@ -85,11 +85,7 @@ ExceedancePlot::ExceedancePlot(QWidget *parent)
     setAxisScaleDraw(QwtAxis::YLeft, new PowerScaleDraw);
     setAxisScaleDraw(QwtAxis::YRight, new PowerScaleDraw);
     setAxisTitle(QwtAxis::YRight, tr("Cells per step of ¼"));
-    setFocusPolicy(Qt::StrongFocus);
-    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    canvas()->setFocusPolicy(Qt::NoFocus);
     canvas()->setMouseTracking(true);
-    canvas()->installEventFilter(this);
     setAccessibleName(tr("Threshold: exceedance of the statistic on noise"));
     setToolTip(tr("Drag the line to move the threshold, or press comma and full stop for a quarter of its unit. "
                   "Right button: units; per cell there is also the closed form, this recording, and the box measured with M."));
@@ -346,8 +342,6 @@ void ExceedancePlot::step(int quarterNats)
 
 bool ExceedancePlot::eventFilter(QObject *watched, QEvent *event)
 {
-    if (watched == canvas() && event->type() == QEvent::Resize)
-        layAxes(); // ticks and colours depend on the canvas as laid out, not on the window
     if (watched == canvas() && m_calibration) {
         const auto mouse = [event] { return static_cast<QMouseEvent *>(event); };
         if (event->type() == QEvent::MouseButtonPress && mouse()->button() == Qt::LeftButton) {
@@ -367,7 +361,7 @@ bool ExceedancePlot::eventFilter(QObject *watched, QEvent *event)
             return true;
         }
     }
-    return QwtPlot::eventFilter(watched, event);
+    return ThemedPlot::eventFilter(watched, event);
 }
 
 void ExceedancePlot::keyPressEvent(QKeyEvent *event)
@@ -377,7 +371,7 @@ void ExceedancePlot::keyPressEvent(QKeyEvent *event)
     else if (m_calibration && (event->key() == Qt::Key_Period || event->key() == Qt::Key_Right))
         step(1);
     else
-        QwtPlot::keyPressEvent(event);
+        ThemedPlot::keyPressEvent(event);
 }
 
 void ExceedancePlot::contextMenuEvent(QContextMenuEvent *event)
@@ -394,25 +388,6 @@ void ExceedancePlot::contextMenuEvent(QContextMenuEvent *event)
         connect(action, &QAction::triggered, this, [this, unit = unit] { setUnit(unit); });
     }
     menu.exec(event->globalPos());
-}
-
-void ExceedancePlot::changeEvent(QEvent *event)
-{
-    QwtPlot::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
-        restyle();
-}
-
-void ExceedancePlot::focusInEvent(QFocusEvent *event)
-{
-    QwtPlot::focusInEvent(event);
-    Theme::frame(*this);
-}
-
-void ExceedancePlot::focusOutEvent(QFocusEvent *event)
-{
-    QwtPlot::focusOutEvent(event);
-    Theme::frame(*this);
 }
 
 } // namespace faintline

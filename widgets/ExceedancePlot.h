@@ -2,8 +2,7 @@
 
 #include "analysis/Calibration.h"
 #include "widgets/Span.h"
-
-#include <qwt_plot.h>
+#include "widgets/ThemedPlot.h"
 
 #include <QPolygonF>
 
@@ -28,7 +27,7 @@ class LineLabel;
 /// settings, its exponential tail, a closed form where there is one, and the recording's own), or events on noise in
 /// false alarms per hour. Right ordinate: number of cells of this recording per quarter nat. The threshold line is
 /// dragged with the mouse (anywhere on the canvas) or moved with `,` and `.` by a quarter nat.
-class ExceedancePlot : public QwtPlot
+class ExceedancePlot : public ThemedPlot
 {
     Q_OBJECT
 
@@ -73,13 +72,11 @@ signals:
 protected:
     void keyPressEvent(QKeyEvent *event) override;
     void contextMenuEvent(QContextMenuEvent *event) override;
-    void changeEvent(QEvent *event) override;
-    void focusInEvent(QFocusEvent *event) override;
-    void focusOutEvent(QFocusEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
+    void restyle() override;
+    void followCanvas() override { layAxes(); }
 
 private:
-    void restyle();
     void layAxes();
     void updateCurves();
     void drawNoise();

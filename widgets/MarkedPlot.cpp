@@ -67,24 +67,15 @@ private:
 };
 
 MarkedPlot::MarkedPlot(QWidget *parent)
-    : QwtPlot(parent), m_grid(new QwtPlotGrid), m_markItem(new MarkItem(*this)), m_sentence(new CanvasSentence)
+    : ThemedPlot(parent), m_grid(new QwtPlotGrid), m_markItem(new MarkItem(*this)), m_sentence(new CanvasSentence)
 {
     m_grid->attach(this);
     m_markItem->attach(this);
     m_sentence->attach(this);
     setAxisScaleDraw(QwtAxis::XBottom, new NumberScaleDraw);
     setAxisScaleDraw(QwtAxis::YLeft, new NumberScaleDraw);
-    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    setFocusPolicy(Qt::StrongFocus);
-    canvas()->setFocusPolicy(Qt::NoFocus);
-    canvas()->installEventFilter(this);
     MarkedPlot::restyle();
     setEmpty(true);
-}
-
-MarkedPlot::~MarkedPlot()
-{
-    canvas()->removeEventFilter(this); // it outlives what the filter looks at
 }
 
 void MarkedPlot::setTitles(const QString &x, const QString &y)
@@ -169,25 +160,6 @@ void MarkedPlot::restyle()
 void MarkedPlot::clicked(const QPointF &canvas)
 {
     emit activated(invTransform(QwtAxis::XBottom, canvas.x()), invTransform(QwtAxis::YLeft, canvas.y()));
-}
-
-void MarkedPlot::changeEvent(QEvent *event)
-{
-    QwtPlot::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
-        restyle();
-}
-
-void MarkedPlot::focusInEvent(QFocusEvent *event)
-{
-    QwtPlot::focusInEvent(event);
-    Theme::frame(*this);
-}
-
-void MarkedPlot::focusOutEvent(QFocusEvent *event)
-{
-    QwtPlot::focusOutEvent(event);
-    Theme::frame(*this);
 }
 
 bool MarkedPlot::eventFilter(QObject *watched, QEvent *event)

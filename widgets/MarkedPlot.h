@@ -1,8 +1,7 @@
 #pragma once
 
 #include "widgets/Span.h"
-
-#include <qwt_plot.h>
+#include "widgets/ThemedPlot.h"
 
 #include <optional>
 #include <vector>
@@ -15,7 +14,7 @@ class CanvasSentence;
 
 /// What plots of a sequential test have in common: an abscissa of whole numbers, titles and spans, lines with words on them, a cursor
 /// that a click asks for, and a sentence while there is nothing to see. Follows the palette.
-class MarkedPlot : public QwtPlot
+class MarkedPlot : public ThemedPlot
 {
     Q_OBJECT
 
@@ -30,7 +29,6 @@ public:
     };
 
     explicit MarkedPlot(QWidget *parent = nullptr);
-    ~MarkedPlot() override;
 
     void setTitles(const QString &x, const QString &y);
     void setSpans(const Span &x, const Span &y);
@@ -61,13 +59,11 @@ signals:
     void activated(double x, double y);
 
 protected:
-    void changeEvent(QEvent *event) override;
-    void focusInEvent(QFocusEvent *event) override;
-    void focusOutEvent(QFocusEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
+    void followCanvas() override { layAxes(); }
 
     /// Colours may have changed; a class that adds some calls this one's first.
-    virtual void restyle();
+    void restyle() override;
     /// A click on the canvas, in its pixels.
     virtual void clicked(const QPointF &canvas);
 

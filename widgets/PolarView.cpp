@@ -5,6 +5,7 @@
 #include "widgets/Theme.h"
 #include "widgets/quantities.h"
 #include "widgets/scaleTicks.h"
+#include "widgets/waterfallCommands.h"
 
 #include <qwt_plot_canvas.h>
 #include <qwt_scale_map.h>
@@ -105,7 +106,7 @@ public:
 };
 
 PolarView::PolarView(WaterfallView &view, QWidget *parent)
-    : QwtPlot(parent), m_view(view), m_raster(new PolarItem), m_grid(new GridItem),
+    : ThemedPlot(parent), m_view(view), m_raster(new PolarItem), m_grid(new GridItem),
       m_overlay(new PingOverlayItem([](const PingMarks::Place &place, const QwtScaleMap &x, const QwtScaleMap &y) {
           const QPointF above = fromAbove(place);
           return QPointF(x.transform(above.x()), y.transform(above.y()));
@@ -116,12 +117,8 @@ PolarView::PolarView(WaterfallView &view, QWidget *parent)
     m_overlay->attach(this);
     for (const QwtAxisId axis : {QwtAxis::XBottom, QwtAxis::YLeft})
         setAxisVisible(axis, false);
-    setFocusPolicy(Qt::StrongFocus);
-    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    canvas()->setFocusPolicy(Qt::NoFocus);
     canvas()->setMouseTracking(true);
     canvas()->setCursor(Qt::CrossCursor);
-    canvas()->installEventFilter(this);
     setAccessibleName(tr("%1, from above").arg(view.accessibleName()));
     connect(&view, &WaterfallView::rangeChanged, this, &PolarView::followColours);
     connect(&view, &WaterfallView::colourMapChanged, this, &PolarView::followColours);
@@ -143,8 +140,7 @@ void PolarView::followPicture()
 
 void PolarView::restyle()
 {
-    QwtText title = m_view.title();
-    setTitle(title);
+    setTitle(m_view.title());
     Theme::style(*this);
     m_overlay->colours = Theme::colours(*this);
     m_raster->setGround(palette().color(QPalette::Window));
@@ -202,11 +198,9 @@ QPointF PolarView::positionOf(const PingMarks::Place &place) const
 
 bool PolarView::eventFilter(QObject *watched, QEvent *event)
 {
-    if (watched == canvas() && event->type() == QEvent::Resize)
-        followSpan();
     Viewport *viewport = m_view.viewport();
     if (watched != canvas() || !m_view.picture() || !viewport)
-        return QwtPlot::eventFilter(watched, event);
+        return ThemedPlot::eventFilter(watched, event);
     if (event->type() == QEvent::Leave)
         emit hoverEnded();
     if (event->type() == QEvent::MouseMove) {
@@ -220,7 +214,7 @@ bool PolarView::eventFilter(QObject *watched, QEvent *event)
             viewport->setCursor({place.range, place.bearing});
         return true;
     }
-    return QwtPlot::eventFilter(watched, event);
+    return ThemedPlot::eventFilter(watched, event);
 }
 
 void PolarView::wheelEvent(QWheelEvent *event)
@@ -241,29 +235,10 @@ void PolarView::keyPressEvent(QKeyEvent *event)
 void PolarView::contextMenuEvent(QContextMenuEvent *event)
 {
     QMenu menu(this);
-    m_view.addActionsTo(&menu);
+    addCommands(menu, m_view);
     const PingMarks::Place place = placeAt(canvas()->mapFrom(this, event->pos()));
     emit m_view.contextMenuRequested(&menu, place.range, place.bearing);
     menu.exec(event->globalPos());
-}
-
-void PolarView::changeEvent(QEvent *event)
-{
-    QwtPlot::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
-        restyle();
-}
-
-void PolarView::focusInEvent(QFocusEvent *event)
-{
-    QwtPlot::focusInEvent(event);
-    Theme::frame(*this);
-}
-
-void PolarView::focusOutEvent(QFocusEvent *event)
-{
-    QwtPlot::focusOutEvent(event);
-    Theme::frame(*this);
 }
 
 } // namespace faintline

@@ -1,11 +1,8 @@
 #pragma once
 
 #include "widgets/PingMarks.h"
+#include "widgets/ThemedPlot.h"
 #include "widgets/WaterfallView.h"
-
-#include <qwt_plot.h>
-
-#include <QPointer>
 
 namespace faintline {
 
@@ -16,13 +13,11 @@ class PolarItem;
 /// viewport, colours, contour and layers, and hands its own keys on to it.
 ///
 /// Mouse: Ctrl+wheel zooms about the pointer, click places the cursor. A sector wider than half a turn is shown all round.
-class PolarView : public QwtPlot
+class PolarView : public ThemedPlot
 {
     Q_OBJECT
 
 public:
-    using Axis = faintline::Axis; ///< QwtPlot has one of its own
-
     explicit PolarView(WaterfallView &view, QWidget *parent = nullptr);
     ~PolarView() override;
 
@@ -44,16 +39,14 @@ signals:
 protected:
     void wheelEvent(QWheelEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
-    void changeEvent(QEvent *event) override;
-    void focusInEvent(QFocusEvent *event) override;
-    void focusOutEvent(QFocusEvent *event) override;
     void contextMenuEvent(QContextMenuEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
+    void restyle() override;
+    void followCanvas() override { followSpan(); }
 
 private:
     class GridItem;
 
-    void restyle();
     void followColours();
     void followSpan();
 

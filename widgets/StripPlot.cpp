@@ -99,7 +99,7 @@ private:
 };
 
 StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
-    : QwtPlot(parent), m_levelValue(std::numeric_limits<double>::quiet_NaN()), m_grid(new QwtPlotGrid),
+    : ThemedPlot(parent), m_levelValue(std::numeric_limits<double>::quiet_NaN()), m_grid(new QwtPlotGrid),
       m_cursorLine(new QwtPlotMarker), m_level(new QwtPlotMarker), m_bandItem(new QwtPlotZoneItem), m_sentence(new CanvasSentence),
       m_key(new CurveKey(Qt::AlignRight | Qt::AlignTop))
 {
@@ -124,12 +124,8 @@ StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
     for (const QwtAxisId axis : {QwtAxis::YLeft, QwtAxis::YRight})
         setAxisScaleDraw(axis, new NumberScaleDraw);
     setAxisScaleDraw(QwtAxis::XBottom, new TimeScaleDraw);
-    setFocusPolicy(Qt::StrongFocus);
-    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    canvas()->setFocusPolicy(Qt::NoFocus);
     canvas()->setMouseTracking(true);
     canvas()->setCursor(Qt::CrossCursor);
-    canvas()->installEventFilter(this);
     setAccessibleName(tr("%1 over time").arg(ordinate));
     restyle();
 }
@@ -380,10 +376,8 @@ void StripPlot::followCursor()
 
 bool StripPlot::eventFilter(QObject *watched, QEvent *event)
 {
-    if (watched == canvas() && event->type() == QEvent::Resize)
-        followSpan(); // ticks and colours depend on the canvas as laid out, not on the window
     if (watched != canvas() || !m_viewport || m_viewport->isEmpty())
-        return QwtPlot::eventFilter(watched, event);
+        return ThemedPlot::eventFilter(watched, event);
     const auto mouse = [event] { return static_cast<QMouseEvent *>(event); };
     if (event->type() == QEvent::MouseButtonPress && mouse()->button() == Qt::LeftButton) {
         setFocus(Qt::MouseFocusReason);
@@ -418,7 +412,7 @@ bool StripPlot::eventFilter(QObject *watched, QEvent *event)
         }
         return true;
     }
-    return QwtPlot::eventFilter(watched, event);
+    return ThemedPlot::eventFilter(watched, event);
 }
 
 void StripPlot::wheelEvent(QWheelEvent *event)
@@ -444,25 +438,6 @@ QSize StripPlot::minimumSizeHint() const
     const int titleLength = QFontMetrics(Theme::plotTitleFont()).horizontalAdvance(axisTitle(QwtAxis::YLeft).text());
     const int timeAxis = static_cast<int>(std::lround(48.0 * Theme::plotScale()));
     return {220, std::max(least, titleLength + timeAxis)};
-}
-
-void StripPlot::changeEvent(QEvent *event)
-{
-    QwtPlot::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
-        restyle();
-}
-
-void StripPlot::focusInEvent(QFocusEvent *event)
-{
-    QwtPlot::focusInEvent(event);
-    Theme::frame(*this);
-}
-
-void StripPlot::focusOutEvent(QFocusEvent *event)
-{
-    QwtPlot::focusOutEvent(event);
-    Theme::frame(*this);
 }
 
 } // namespace faintline

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "base/Axis.h"
 #include "spectrum/PeakPyramid.h"
+#include "widgets/ThemedPlot.h"
 #include "widgets/Viewport.h"
-
-#include <qwt_plot.h>
 
 #include <QPointer>
 
@@ -26,12 +24,11 @@ class CurveKey;
 ///
 /// Long curves are drawn by their minimum and maximum per pixel, so a peak of one frame is seen. Time runs from left to
 /// right. Wheel scrolls, Ctrl+wheel zooms in time, drag pans, click places the cursor.
-class StripPlot : public QwtPlot
+class StripPlot : public ThemedPlot
 {
     Q_OBJECT
 
 public:
-    using Axis = faintline::Axis;    ///< QwtPlot has one of its own
     enum class Side { Left, Right }; ///< which ordinate
 
     /// `ordinate`: title with unit of the left axis, "ln K (nat)".
@@ -68,15 +65,13 @@ signals:
 
 protected:
     void wheelEvent(QWheelEvent *event) override;
-    void changeEvent(QEvent *event) override;
-    void focusInEvent(QFocusEvent *event) override;
-    void focusOutEvent(QFocusEvent *event) override;
     bool eventFilter(QObject *watched, QEvent *event) override;
+    void restyle() override;
+    void followCanvas() override { followSpan(); }
 
 private:
     struct Series;
 
-    void restyle();
     void layAxes();
     void nameCurves();
     int widthOfRightAxis() const;

@@ -4,83 +4,47 @@
 #include "widgets/NumberScaleDraw.h"
 #include "widgets/OverlayItem.h"
 #include "widgets/RasterItem.h"
-#include "widgets/peakNear.h"
 #include "widgets/Theme.h"
 #include "widgets/TimeScaleDraw.h"
-#include "widgets/quantities.h"
-#include "widgets/rasterise.h"
+#include "widgets/WaterfallMouse.h"
+#include "widgets/axisWords.h"
+#include "widgets/peakNear.h"
 #include "widgets/scaleTicks.h"
 #include "widgets/steadyAxes.h"
+#include "widgets/waterfallCommands.h"
+#include "widgets/waterfallWords.h"
 
 #include <qwt_plot_grid.h>
-#include <qwt_plot_layout.h>
 #include <qwt_scale_map.h>
-#include <qwt_scale_widget.h>
 #include <qwt_text.h>
 
-#include <QActionGroup>
 #include <QContextMenuEvent>
 #include <QKeyEvent>
 #include <QMenu>
-#include <QMouseEvent>
 #include <QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace faintline {
 
 namespace {
 
     constexpr double longSeconds = 600.0; ///< recordings from here on are labelled h:min:s
-    constexpr double scrollShare = 0.1;   ///< of what is visible, per notch of the wheel
-    constexpr double zoomPerNotch = 1.25;
-    constexpr double clickSlop = 4.0; ///< pixels a click may wander
     constexpr int harmonicCount = 12;
-    constexpr double peakReach = 12.0;    ///< pixels
-    constexpr double sidebandReach = 5.0; ///< pixels
-
-    double notchesOf(const QWheelEvent &event)
-    {
-        // Some platforms turn the wheel's direction while Shift or Alt is held.
-        const QPoint delta = event.angleDelta();
-        return (delta.y() != 0 ? delta.y() : delta.x()) / 120.0;
-    }
-
-    /// "Frequency", and what a value of that axis is divided by to be shown.
-    FrequencyUnit shownUnit(const Axis &axis)
-    {
-        if (axis.unit == "Hz")
-            return frequencyUnit(std::max(std::abs(axis.first), std::abs(axis.last())));
-        return {QString::fromStdString(axis.unit), 1.0};
-    }
+    constexpr double peakReach = 12.0; ///< pixels
 
     bool measuresTime(const Axis &axis)
     {
         return axis.unit == "s" || axis.unit.empty();
     }
 
-    /// "12.4 m"
-    QString valueText(const Axis &axis, double value, double resolution)
-    {
-        return numberText(value, decimalsFor(resolution)) + QLatin1Char(' ') + QString::fromStdString(axis.unit);
-    }
-
-    QString titleOf(const Axis &axis)
-    {
-        QString name = QString::fromStdString(axis.name);
-        if (!name.isEmpty())
-            name[0] = name[0].toUpper();
-        const QString unit = shownUnit(axis).name;
-        return unit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, unit);
-    }
-
 } // namespace
 
 WaterfallView::WaterfallView(const QString &heading, QWidget *parent)
-    : QwtPlot(parent), m_heading(heading), m_raster(new RasterItem), m_overlay(new OverlayItem),
-      m_sentence(new CanvasSentence), m_grid(new QwtPlotGrid), m_colourMap(&ColourMap::named(ColourMap::defaultName()))
+    : ThemedPlot(parent), m_heading(heading), m_raster(new RasterItem), m_overlay(new OverlayItem),
+      m_sentence(new CanvasSentence), m_grid(new QwtPlotGrid), m_colourMap(&ColourMap::named(ColourMap::defaultName())),
+      m_mouse(std::make_unique<WaterfallMouse>(*this))
 {
     m_sentence->text = tr("Open a recording or choose a scenario to see something here.");
     m_sentence->pixelSize = 14;
@@ -89,14 +53,8 @@ WaterfallView::WaterfallView(const QString &heading, QWidget *parent)
     m_grid->setZ(5.0);
     m_grid->attach(this);
     m_overlay->attach(this);
-    setFocusPolicy(Qt::StrongFocus);
-    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    canvas()->setFocusPolicy(Qt::NoFocus);
-    canvas()->setMouseTracking(true);
-    canvas()->setCursor(Qt::CrossCursor);
-    canvas()->installEventFilter(this);
     setAccessibleName(tr("%1 waterfall").arg(heading));
-    layAxes();
+    restyle();
 }
 
 WaterfallView::~WaterfallView() = default;
@@ -110,14 +68,14 @@ void WaterfallView::setViewport(Viewport *viewport)
     m_viewport = viewport;
     if (viewport) {
         connect(viewport, &Viewport::spanChanged, this, &WaterfallView::followSpan);
-        connect(viewport, &Viewport::extentsChanged, this, &WaterfallView::layAxes);
+        connect(viewport, &Viewport::extentsChanged, this, &WaterfallView::restyle);
         connect(viewport, &Viewport::cursorChanged, this, &WaterfallView::followCursor);
         connect(viewport, &Viewport::selectionChanged, this, [this] {
             m_selectionNote.clear();
             updateContent();
         });
     }
-    layAxes();
+    restyle();
     followCursor();
 }
 
@@ -132,14 +90,14 @@ void WaterfallView::setPicture(std::shared_ptr<const PeakPyramid> picture, const
     m_frequency = frequency;
     choosePicture();
     m_raster->setPicture(m_shown, frequency, m_picture ? m_picture->time() : Axis());
-    m_histogramKey = {-1, 0};
+    m_levels.countAgain();
     if (!m_picture) {
-        m_histogram.clear();
+        m_levels.clearHistogram();
         emit histogramChanged();
     }
     if (isOtherKind)
-        m_isRangeAutomatic = true;
-    hasSameAxes ? countHistogram() : layAxes();
+        m_levels.setAutomatic(true);
+    hasSameAxes ? countHistogram() : restyle();
     updateMarks();
 }
 
@@ -151,9 +109,10 @@ void WaterfallView::setNextPicture(std::shared_ptr<const PeakPyramid> picture)
     m_closeup.reset();
     m_picture = std::move(picture);
     choosePicture();
-    const bool wasAutomatic = std::exchange(m_isRangeAutomatic, false);
+    const bool wasAutomatic = m_levels.isAutomatic();
+    m_levels.setAutomatic(false);
     countHistogram();
-    m_isRangeAutomatic = wasAutomatic;
+    m_levels.setAutomatic(wasAutomatic);
     followCursor();
 }
 
@@ -182,12 +141,11 @@ void WaterfallView::choosePicture()
         return;
     m_shown = shown;
     m_raster->setPicture(m_shown, m_frequency, m_picture ? m_picture->time() : Axis());
-    m_histogramKey = {-1, 0};
+    m_levels.countAgain();
     emit shownPictureChanged();
 }
 
-/// Which tells most of that time.
-const PeakPyramid &WaterfallView::pictureOf(const Span &time) const
+const PeakPyramid &WaterfallView::finestPicture(const Span &time) const
 {
     const auto holds = [&](const PeakPyramid &picture) {
         const Span all = extents(picture.time(), m_frequency).time;
@@ -225,7 +183,7 @@ void WaterfallView::setStatisticUnit(const QString &unit, const QString &heading
     m_statisticUnit = unit;
     m_heading = heading;
     setAccessibleName(tr("%1 waterfall").arg(heading));
-    layAxes();
+    restyle();
 }
 
 std::optional<double> WaterfallView::valueAt(double seconds, double hz) const
@@ -235,7 +193,7 @@ std::optional<double> WaterfallView::valueAt(double seconds, double hz) const
     const Viewport::Box box = extents(m_picture->time(), m_frequency);
     if (!box.time.contains(seconds) || !box.frequency.contains(hz))
         return {};
-    const PeakPyramid &picture = pictureOf({seconds, seconds});
+    const PeakPyramid &picture = finestPicture({seconds, seconds});
     const double frame = std::floor(picture.time().position(seconds) + 0.5);
     if (frame > static_cast<double>(picture.frameCount()))
         return {}; // still to come
@@ -269,7 +227,7 @@ QPointF WaterfallView::positionOf(const Viewport::Point &point) const
 
 // ---- axes ----------------------------------------------------------------------------------------------------------
 
-void WaterfallView::layAxes()
+void WaterfallView::restyle()
 {
     const bool isEmpty = !m_picture;
     const bool isLong = full().time.high > longSeconds;
@@ -338,68 +296,57 @@ void WaterfallView::countHistogram()
     const QSize size = canvas()->contentsRect().size();
     if (!m_picture || size.isEmpty() || m_frequency.count == 0)
         return;
-    const Span hz = visible().frequency;
-    const double frames = framesPerPixel();
-    const double cells = hz.width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
-    // By powers of two in frequency and of four in time: while one zooms, colours change now and then, not all along.
-    const auto group = static_cast<Index>(std::exp2(std::round(std::log2(std::max(cells, 1.0)))));
-    const std::pair key{m_shown->levelFor(std::max(frames, 1.0)), group};
-    if (key == m_histogramKey)
+    const double cells = visible().frequency.width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
+    if (!m_levels.count(*m_shown, framesPerPixel(), cells))
         return;
-    m_histogramKey = key;
-    m_histogram = countPixels(*m_shown, frames, static_cast<double>(group));
     emit histogramChanged();
-    if (m_isRangeAutomatic)
+    if (m_levels.isAutomatic())
         applyRange(automaticRange());
 }
 
 Span WaterfallView::automaticRange() const
 {
-    if (!m_picture || m_histogram.empty())
-        return m_range;
-    return faintline::automaticRange(m_picture->scale(), m_histogram, m_threshold);
+    return m_picture ? m_levels.suggested(m_picture->scale(), m_threshold) : range();
 }
 
 void WaterfallView::applyRange(const Span &range)
 {
     m_raster->setColours(*m_colourMap, range);
-    if (range == m_range)
+    if (range == m_levels.range())
         return;
-    m_range = range;
+    m_levels.setRange(range);
     emit rangeChanged(range.low, range.high);
 }
 
 void WaterfallView::setRange(double low, double high)
 {
-    constexpr double smallest = 0.5;
-    m_isRangeAutomatic = false;
-    if (m_picture && m_picture->scale().kind() == ByteScale::Kind::DifferenceNats) {
-        // Zero stays in the middle of the colours: the end that was moved takes the other one along.
-        const double half = std::max(low != m_range.low ? -low : high, smallest);
-        applyRange({-half, half});
-        return replot();
-    }
-    applyRange({low, std::max(high, low + smallest)});
+    m_levels.setAutomatic(false);
+    applyRange(m_levels.byHand(low, high, m_picture ? &m_picture->scale() : nullptr));
     replot();
 }
 
 void WaterfallView::setAutomaticRange()
 {
-    m_isRangeAutomatic = true;
+    m_levels.setAutomatic(true);
     applyRange(automaticRange());
     replot();
 }
 
+double WaterfallView::levelStep() const
+{
+    return valueUnit() == tr("dB") ? 1.0 : 0.5;
+}
+
 void WaterfallView::stepBlack(int steps)
 {
-    const double step = valueUnit() == tr("dB") ? 1.0 : 0.5;
-    setRange(std::min(m_range.low + steps * step, m_range.high - step), m_range.high);
+    const double step = levelStep();
+    setRange(std::min(range().low + steps * step, range().high - step), range().high);
 }
 
 void WaterfallView::stepWhite(int steps)
 {
-    const double step = valueUnit() == tr("dB") ? 1.0 : 0.5;
-    setRange(m_range.low, std::max(m_range.high + steps * step, m_range.low + step));
+    const double step = levelStep();
+    setRange(range().low, std::max(range().high + steps * step, range().low + step));
 }
 
 void WaterfallView::setColourMap(const QString &name)
@@ -408,7 +355,7 @@ void WaterfallView::setColourMap(const QString &name)
     if (&map == m_colourMap)
         return;
     m_colourMap = &map;
-    m_raster->setColours(map, m_range);
+    m_raster->setColours(map, range());
     replot();
     emit colourMapChanged(map.name());
 }
@@ -425,7 +372,7 @@ void WaterfallView::setOrientation(Orientation orientation)
     if (orientation == m_orientation)
         return;
     m_orientation = orientation;
-    layAxes();
+    restyle();
     emit orientationChanged(orientation);
 }
 
@@ -560,13 +507,6 @@ void WaterfallView::moveCursorToPeak()
         m_viewport->setCursor(*peak);
 }
 
-/// Where the pointer is; with Ctrl the strongest cell near it.
-Viewport::Point WaterfallView::pointOf(const QMouseEvent &event) const
-{
-    const Viewport::Point point = pointAt(event.position());
-    return event.modifiers().testFlag(Qt::ControlModifier) ? peakAround(point).value_or(point) : point;
-}
-
 void WaterfallView::updateMarks()
 {
     const double frame = m_picture ? m_picture->time().step : 0.0;
@@ -610,71 +550,20 @@ std::optional<Sidebands> WaterfallView::sidebands() const
 QString WaterfallView::sidebandText() const
 {
     const auto lines = sidebands();
-    if (!lines)
-        return {};
-    const auto level = [&](int order) {
-        const auto value = valueAt(m_viewport->cursor()->seconds, lines->hz(order));
-        return (value ? numberText(*value, 1) : QStringLiteral("–")).rightJustified(7);
-    };
-    QStringList rows{tr("carrier %1 %2 %3").arg(hertzText(lines->carrierHz, m_frequency.step), level(0), valueUnit()),
-                     tr("spacing %1").arg(hertzText(lines->spacingHz, 0.1 * m_frequency.step)), tr(" n     −n     +n %1").arg(valueUnit())};
-    for (int order = 1; order <= Sidebands::orders; ++order)
-        rows << QStringLiteral("%1 %2%3").arg(order, 2).arg(level(-order), level(order));
-    return rows.join(QLatin1Char('\n'));
+    return lines ? faintline::sidebandText(*this, *lines, m_viewport->cursor()->seconds) : QString();
 }
 
 QString WaterfallView::selectionText() const
 {
     if (!m_viewport || !m_viewport->selection())
         return {};
-    const Viewport::Box box = *m_viewport->selection();
-    const double seconds = box.time.width(), hz = box.frequency.width();
-    QStringList words;
-    if (hasTime())
-        words << tr("Δt %1").arg(secondsText(seconds, 0.01 * seconds));
-    else
-        words << QStringLiteral("Δ ") + valueText(m_picture->time(), seconds, 0.01 * seconds);
-    if (m_frequency.unit == "Hz" || m_frequency.unit.empty())
-        words << tr("Δf %1").arg(hertzText(hz, 0.01 * hz));
-    else
-        words << QStringLiteral("Δ ") + valueText(m_frequency, hz, 0.01 * hz);
-    if (seconds > 0.0 && hasTime())
-        words << tr("%1 %2/s").arg(powerText(hz / seconds, 3), m_frequency.unit.empty()
-                                                                   ? QStringLiteral("Hz")
-                                                                   : QString::fromStdString(m_frequency.unit));
-    const auto cellsOf = [](const Axis &axis, Index count, const Span &span) {
-        const auto clamped = [count](double index) { return std::clamp<Index>(std::lround(index), 0, count - 1); };
-        return std::pair(clamped(axis.position(span.low)), clamped(axis.position(span.high)) + 1);
-    };
-    if (m_picture && m_picture->frameCount() > 0 && m_frequency.count > 0) {
-        const PeakPyramid &picture = pictureOf(box.time);
-        const auto [firstFrame, endFrame] = cellsOf(picture.time(), picture.frameCount(), box.time);
-        const auto [firstCell, endCell] = cellsOf(m_frequency, m_frequency.count, box.frequency);
-        const BoxValues values = boxValues(picture, firstFrame, endFrame, firstCell, endCell);
-        words << tr("peak %1 %2").arg(numberText(values.peak, 1), valueUnit());
-        if (values.mean)
-            words << tr("mean %1 dB").arg(numberText(*values.mean, 1));
-    }
-    constexpr qsizetype extents = 3; // a line of these, then one of the levels
-    const QString levels = words.size() > extents ? words.mid(extents).join(QStringLiteral(" · ")) : QString();
-    QStringList lines{words.mid(0, extents).join(QStringLiteral(" · ")), levels, m_selectionNote};
-    lines.removeAll(QString());
-    return lines.join(QLatin1Char('\n'));
+    const QString text = boxText(*this, *m_viewport->selection());
+    return m_selectionNote.isEmpty() ? text : text + QLatin1Char('\n') + m_selectionNote;
 }
 
 void WaterfallView::followCursor()
 {
-    QString text = tr("Arrow keys move the cursor, Ctrl and wheel zoom, 0 shows all.");
-    if (m_viewport && m_viewport->cursor()) {
-        const Viewport::Point &cursor = *m_viewport->cursor();
-        const auto value = valueAt(cursor.seconds, cursor.hz);
-        text = tr("Cursor at %1, %2")
-                   .arg(hasTime() ? secondsText(cursor.seconds, 0.01) : valueText(m_picture->time(), cursor.seconds, 0.1),
-                        m_frequency.unit == "Hz" ? hertzText(cursor.hz, 0.1) : valueText(m_frequency, cursor.hz, 0.1));
-        if (value)
-            text += tr(", %1 %2").arg(numberText(*value, 1), valueUnit());
-    }
-    setAccessibleDescription(text);
+    setAccessibleDescription(cursorText(*this));
     updateContent();
 }
 
@@ -694,311 +583,25 @@ int WaterfallView::eventAt(const QPointF &position) const
     return nearest;
 }
 
-// ---- mouse ---------------------------------------------------------------------------------------------------------
-
-bool WaterfallView::eventFilter(QObject *watched, QEvent *event)
+void WaterfallView::setRubber(const std::optional<Viewport::Box> &box)
 {
-    if (watched == canvas() && event->type() == QEvent::Resize)
-        followSpan(); // ticks and colours depend on the canvas as laid out, not on the window
-    if (watched != canvas() || !m_picture || !m_viewport)
-        return QwtPlot::eventFilter(watched, event);
-    switch (event->type()) {
-    case QEvent::MouseButtonPress:
-        pressed(*static_cast<QMouseEvent *>(event));
-        return true;
-    case QEvent::MouseMove:
-        moved(*static_cast<QMouseEvent *>(event));
-        return true;
-    case QEvent::MouseButtonRelease:
-        released(*static_cast<QMouseEvent *>(event));
-        return true;
-    case QEvent::MouseButtonDblClick:
-        if (const int id = eventAt(static_cast<QMouseEvent *>(event)->position()))
-            emit eventActivated(id);
-        return true;
-    case QEvent::Leave:
-        emit hoverEnded();
-        break;
-    default:
-        break;
-    }
-    return QwtPlot::eventFilter(watched, event);
-}
-
-void WaterfallView::pressed(const QMouseEvent &event)
-{
-    setFocus(Qt::MouseFocusReason);
-    if (event.button() != Qt::LeftButton && event.button() != Qt::MiddleButton)
-        return;
-    m_dragStart = event.position();
-    m_dragVisible = m_viewport->visible();
-    m_dragOrigin = pointAt(event.position());
-    m_draggedOrder = sidebandAt(event.position());
-    m_drag = event.button() == Qt::MiddleButton              ? Drag::Pan
-             : event.modifiers().testFlag(Qt::ShiftModifier) ? Drag::Zoom
-             : m_draggedOrder != 0                           ? Drag::Sideband
-             : m_isMeasuring                                 ? Drag::Measure
-                                                             : Drag::Press;
-    if (m_drag == Drag::Measure)
-        m_dragOrigin = pointOf(event);
-}
-
-/// The sideband whose line is under the pointer; 0 where there is none, or the carrier.
-int WaterfallView::sidebandAt(const QPointF &position) const
-{
-    const auto lines = sidebands();
-    if (!lines)
-        return 0;
-    const int order = lines->nearestOrder(pointAt(position).hz);
-    const QPointF line = positionOf({m_viewport->cursor()->seconds, lines->hz(order)});
-    return std::abs(isTimeVertical() ? line.x() - position.x() : line.y() - position.y()) <= sidebandReach ? order : 0;
-}
-
-void WaterfallView::dragSideband(const QMouseEvent &event)
-{
-    setSidebandSpacing(std::max(sidebands()->spacingFor(m_draggedOrder, pointOf(event).hz), m_frequency.step));
-}
-
-Viewport::Box WaterfallView::draggedBox(const Viewport::Point &to) const
-{
-    const Viewport::Point a = m_dragOrigin, b = to;
-    const Viewport::Box &full = m_viewport->full();
-    const auto spanOf = [](double p, double q, const Span &limits) {
-        return Span{std::max(std::min(p, q), limits.low), std::min(std::max(p, q), limits.high)};
-    };
-    return {spanOf(a.seconds, b.seconds, full.time), spanOf(a.hz, b.hz, full.frequency)};
-}
-
-void WaterfallView::moved(const QMouseEvent &event)
-{
-    hover(event.position());
-    const QPointF way = event.position() - m_dragStart;
-    if (m_drag == Drag::Press && way.manhattanLength() >= clickSlop) {
-        m_drag = Drag::Pan;
-        canvas()->setCursor(Qt::ClosedHandCursor);
-    }
-    if (m_drag == Drag::Pan) {
-        const QwtScaleMap time = canvasMap(timeAxis()), hz = canvasMap(hzAxis());
-        const auto travel = [](const QwtScaleMap &map, double from, double to) {
-            return map.invTransform(to) - map.invTransform(from);
-        };
-        const double seconds = isTimeVertical() ? travel(time, m_dragStart.y(), event.position().y())
-                                                : travel(time, m_dragStart.x(), event.position().x());
-        const double shift = isTimeVertical() ? travel(hz, m_dragStart.x(), event.position().x())
-                                              : travel(hz, m_dragStart.y(), event.position().y());
-        m_viewport->pan(m_dragVisible.time.low - seconds - m_viewport->time().low,
-                        m_dragVisible.frequency.low - shift - m_viewport->frequency().low);
-    } else if (m_drag == Drag::Zoom) {
-        m_overlay->rubber = draggedBox(pointAt(event.position()));
-        replot();
-    } else if (m_drag == Drag::Measure) {
-        m_viewport->setSelection(draggedBox(pointOf(event)));
-    } else if (m_drag == Drag::Sideband) {
-        dragSideband(event);
-    } else if (m_drag == Drag::None) {
-        const auto across = isTimeVertical() ? Qt::SplitHCursor : Qt::SplitVCursor;
-        canvas()->setCursor(sidebandAt(event.position()) != 0 ? across : Qt::CrossCursor);
-    }
-}
-
-void WaterfallView::released(const QMouseEvent &event)
-{
-    const Drag drag = std::exchange(m_drag, Drag::None);
-    const bool isClick = (event.position() - m_dragStart).manhattanLength() < clickSlop;
-    canvas()->setCursor(Qt::CrossCursor);
-    m_overlay->rubber.reset();
-    if (drag == Drag::Zoom && !isClick) {
-        const Viewport::Box box = draggedBox(pointAt(event.position()));
-        m_viewport->zoomTo(box.time, box.frequency);
-    } else if (drag == Drag::Press || (drag == Drag::Measure && isClick)) {
-        m_viewport->setCursor(pointOf(event));
-    }
+    m_overlay->rubber = box;
     replot();
 }
 
-void WaterfallView::hover(const QPointF &position)
-{
-    const Viewport::Point point = pointAt(position);
-    if (const auto value = valueAt(point.seconds, point.hz))
-        emit hovered(point.seconds, point.hz, *value);
-    else
-        emit hoverEnded();
-}
-
-void WaterfallView::scroll(Qt::Orientation direction, double notches)
-{
-    const bool isTime = (direction == Qt::Vertical) == isTimeVertical();
-    const Span span = isTime ? m_viewport->time() : m_viewport->frequency();
-    // The wheel away from oneself goes up or to the left; up is later with the newest on top, and higher in frequency.
-    const bool isUpward = direction == Qt::Vertical && (isTime ? m_orientation == Orientation::NewestOnTop : true);
-    const double shift = notches * scrollShare * span.width() * (isUpward ? 1.0 : -1.0);
-    m_viewport->pan(isTime ? shift : 0.0, isTime ? 0.0 : shift);
-}
+// ---- mouse and keyboard ---------------------------------------------------------------------------------------------
 
 void WaterfallView::wheelEvent(QWheelEvent *event)
 {
-    if (!m_picture || !m_viewport) {
-        event->ignore();
-        return;
-    }
-    const QPoint position = event->position().toPoint();
-    const Viewport::Point point = pointAt(canvas()->mapFrom(this, event->position()));
-    const double notches = notchesOf(*event);
-    const auto isOver = [&](QwtAxisId axis) {
-        return isAxisVisible(axis) && axisWidget(axis)->geometry().contains(position);
-    };
-    if (isOver(timeAxis()))
-        m_viewport->zoomAt(std::pow(zoomPerNotch, notches), point, Viewport::Axes::Time);
-    else if (isOver(hzAxis()))
-        m_viewport->zoomAt(std::pow(zoomPerNotch, notches), point, Viewport::Axes::Frequency);
-    else if (event->modifiers().testFlag(Qt::ControlModifier))
-        m_viewport->zoomAt(std::pow(zoomPerNotch, notches), point);
-    else if (event->modifiers().testFlag(Qt::ShiftModifier))
-        scroll(isTimeVertical() ? Qt::Horizontal : Qt::Vertical, notches);
-    else
-        scroll(isTimeVertical() ? Qt::Vertical : Qt::Horizontal, notches);
-    event->accept();
-}
-
-// ---- keyboard ------------------------------------------------------------------------------------------------------
-
-void WaterfallView::moveCursor(int right, int up, int cells)
-{
-    const auto &cursor = m_viewport->cursor();
-    Viewport::Point point =
-        cursor ? *cursor : Viewport::Point{m_viewport->time().middle(), m_viewport->frequency().middle()};
-    const int timeSteps = isTimeVertical() ? (m_orientation == Orientation::NewestOnTop ? up : -up) : right;
-    const int hzSteps = isTimeVertical() ? right : up;
-    // From cell centre to cell centre, so that every key press reads another cell.
-    const auto moved = [](const Axis &axis, Index count, double value, Index by) {
-        const auto index = static_cast<Index>(std::lround(axis.position(value)));
-        return axis.value(static_cast<double>(std::clamp<Index>(index + by, 0, count - 1)));
-    };
-    point.seconds = moved(m_picture->time(), m_picture->frameCount(), point.seconds, timeSteps * cells);
-    point.hz = moved(m_frequency, m_frequency.count, point.hz, hzSteps * cells);
-    m_viewport->setCursor(point);
-
-    const Span &time = m_viewport->time(), &hz = m_viewport->frequency();
-    const auto beyond = [](const Span &span, double value) {
-        return value < span.low ? value - span.low : value > span.high ? value - span.high : 0.0;
-    };
-    m_viewport->pan(beyond(time, point.seconds), beyond(hz, point.hz));
+    event->setAccepted(m_picture && m_viewport);
+    if (event->isAccepted())
+        m_mouse->turnWheel(*event);
 }
 
 void WaterfallView::keyPressEvent(QKeyEvent *event)
 {
-    const int cells = event->modifiers().testFlag(Qt::ControlModifier) ? 10 : 1;
-    const std::pair<int, std::function<void()>> cursorKeys[] = {
-        {Qt::Key_Left, [=, this] { moveCursor(-1, 0, cells); }},
-        {Qt::Key_Right, [=, this] { moveCursor(1, 0, cells); }},
-        {Qt::Key_Up, [=, this] { moveCursor(0, 1, cells); }},
-        {Qt::Key_Down, [=, this] { moveCursor(0, -1, cells); }},
-    };
-    const std::pair<int, std::function<void()>> plainKeys[] = {
-        {Qt::Key_Backspace, [this] { m_viewport->zoomBack(); }},
-        {Qt::Key_0, [this] { m_viewport->showAll(); }},
-        {Qt::Key_O, [this] { cycleOrientation(); }},
-        {Qt::Key_BracketLeft, [this] { stepBlack(-1); }},
-        {Qt::Key_BracketRight, [this] { stepBlack(1); }},
-        {Qt::Key_BraceLeft, [this] { stepWhite(-1); }},
-        {Qt::Key_BraceRight, [this] { stepWhite(1); }},
-        {Qt::Key_A, [this] { setAutomaticRange(); }},
-        {Qt::Key_C, [this] { cycleColourMap(); }},
-        {Qt::Key_Comma, [this] { emit thresholdStepRequested(-1); }},
-        {Qt::Key_Period, [this] { emit thresholdStepRequested(1); }},
-        {Qt::Key_M, [this] { setMeasuring(!m_isMeasuring); }},
-        {Qt::Key_H, [this] { setHarmonics(!m_hasHarmonics); }},
-        {Qt::Key_I, [this] { setSidebands(m_sidebandHz == 0.0); }},
-        {Qt::Key_K, [this] { moveCursorToPeak(); }},
-        {Qt::Key_Escape, [this] { clearMarks(); }},
-    };
-    const bool isPlain = !(event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
-    const auto act = [&](const auto &keys) {
-        const auto isPressed = [&](const auto &entry) { return entry.first == event->key(); };
-        const auto found = std::find_if(std::begin(keys), std::end(keys), isPressed);
-        if (found == std::end(keys))
-            return false;
-        found->second();
-        return true;
-    };
-    const std::pair<int, std::function<void()>> spacingKeys[] = {
-        {Qt::Key_Left, [this] { setSidebandSpacing(std::max(m_sidebandHz - m_frequency.step, m_frequency.step)); }},
-        {Qt::Key_Right, [this] { setSidebandSpacing(m_sidebandHz + m_frequency.step); }},
-    };
-    const bool isSpacing = sidebands() && event->modifiers().testFlag(Qt::AltModifier);
-    const bool isDone = m_picture && m_viewport && ((isSpacing && act(spacingKeys)) || act(cursorKeys) || (isPlain && act(plainKeys)));
-    if (!isDone)
-        QwtPlot::keyPressEvent(event);
-}
-
-void WaterfallView::clearMarks()
-{
-    setMeasuring(false);
-    setHarmonics(false);
-    setSidebandSpacing(0.0);
-    m_viewport->clearSelection();
-    m_viewport->clearCursor();
-}
-
-// ---- menu, look ----------------------------------------------------------------------------------------------------
-
-void WaterfallView::fillMenu(QMenu &menu)
-{
-    const auto add = [this](QMenu &to, const QString &text, const QString &key, auto act) {
-        // The key is text only: as a shortcut it would take the key from the view that has the focus.
-        QAction *action = to.addAction(key.isEmpty() ? text : text + QLatin1Char('\t') + key);
-        connect(action, &QAction::triggered, this, act);
-        return action;
-    };
-    const auto check = [&](QMenu &to, const QString &text, const QString &key, bool isOn, auto act) {
-        QAction *action = add(to, text, key, act);
-        action->setCheckable(true);
-        action->setChecked(isOn);
-        return action;
-    };
-    add(menu, tr("Show all"), QStringLiteral("0"), [this] {
-        m_viewport->showAll();
-    })->setEnabled(m_viewport && !m_viewport->showsAll());
-    add(menu, tr("Zoom back"), tr("Backspace"), [this] {
-        m_viewport->zoomBack();
-    })->setEnabled(m_viewport && m_viewport->canZoomBack());
-    menu.addSeparator();
-
-    QMenu &orientations = *menu.addMenu(tr("Orientation"));
-    auto *orientationGroup = new QActionGroup(&orientations);
-    const QStringList names{tr("Newest on top"), tr("Oldest on top"), tr("Left to right")};
-    for (int i = 0; i < names.size(); ++i)
-        orientationGroup->addAction(check(orientations, names[i], QString(), static_cast<int>(m_orientation) == i,
-                                          [this, i] { setOrientation(static_cast<Orientation>(i)); }));
-    QMenu &colours = *menu.addMenu(tr("Colours"));
-    auto *colourGroup = new QActionGroup(&colours);
-    for (const QString &name : ColourMap::names())
-        colourGroup->addAction(
-            check(colours, name, QString(), name == m_colourMap->name(), [this, name] { setColourMap(name); }));
-    check(menu, tr("Automatic range"), QStringLiteral("A"), m_isRangeAutomatic, [this] { setAutomaticRange(); });
-
-    QMenu &layers = *menu.addMenu(tr("Show"));
-    const std::pair<Layer, QString> rows[] = {{EventLayer, tr("Events")}, {TrackLayer, tr("Tracks")},
-                                              {TruthLayer, tr("Truth")},  {ThresholdLayer, tr("Threshold contour")},
-                                              {GridLayer, tr("Grid")},    {CursorLayer, tr("Cursor")}};
-    for (const auto &[layer, text] : rows)
-        check(layers, text, QString(), m_layers.testFlag(layer),
-              [this, layer = layer](bool isOn) { setLayer(layer, isOn); });
-    menu.addSeparator();
-    check(menu, tr("Measure a box"), QStringLiteral("M"), m_isMeasuring, [this](bool isOn) { setMeasuring(isOn); });
-    if (m_frequency.unit == "Hz") {
-        check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), m_hasHarmonics,
-              [this](bool isOn) { setHarmonics(isOn); });
-        check(menu, tr("Sidebands of the cursor"), QStringLiteral("I"), m_sidebandHz > 0.0, [this](bool isOn) { setSidebands(isOn); });
-    }
-    add(menu, tr("Cursor to the peak nearby"), QStringLiteral("K"), [this] {
-        moveCursorToPeak();
-    })->setEnabled(m_viewport && m_viewport->cursor());
-}
-
-void WaterfallView::addActionsTo(QMenu *menu)
-{
-    fillMenu(*menu);
+    if (!pressKey(*this, *event))
+        ThemedPlot::keyPressEvent(event);
 }
 
 void WaterfallView::contextMenuEvent(QContextMenuEvent *event)
@@ -1007,28 +610,9 @@ void WaterfallView::contextMenuEvent(QContextMenuEvent *event)
         return;
     const Viewport::Point point = pointAt(canvas()->mapFrom(this, event->pos()));
     QMenu menu(this);
-    fillMenu(menu);
+    addCommands(menu, *this);
     emit contextMenuRequested(&menu, point.seconds, point.hz);
     menu.exec(event->globalPos());
-}
-
-void WaterfallView::changeEvent(QEvent *event)
-{
-    QwtPlot::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
-        layAxes();
-}
-
-void WaterfallView::focusInEvent(QFocusEvent *event)
-{
-    QwtPlot::focusInEvent(event);
-    Theme::frame(*this);
-}
-
-void WaterfallView::focusOutEvent(QFocusEvent *event)
-{
-    QwtPlot::focusOutEvent(event);
-    Theme::frame(*this);
 }
 
 } // namespace faintline

@@ -5,17 +5,16 @@
 #include "recording/Truth.h"
 #include "spectrum/PeakPyramid.h"
 #include "track/Track.h"
+#include "widgets/ColourLevels.h"
 #include "widgets/ColourMap.h"
 #include "widgets/Sidebands.h"
+#include "widgets/ThemedPlot.h"
 #include "widgets/Viewport.h"
-
-#include <qwt_plot.h>
 
 #include <QPointer>
 
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 class QMenu;
@@ -26,6 +25,7 @@ namespace faintline {
 class CanvasSentence;
 class OverlayItem;
 class RasterItem;
+class WaterfallMouse;
 
 /// A spectrogram, or a detector's statistic, over time and frequency; or over any two axes, such as a sonar's range and bearing:
 /// where the picture's own axis is no time, it is labelled as what it is.
@@ -34,18 +34,13 @@ class RasterItem;
 /// cell is a plain rectangle. Looking (zooming, colours, orientation) is the view's own affair and is told by signals
 /// that say `…Changed`; what touches the document is only asked for by signals that say `…Requested`.
 ///
-/// Mouse: wheel scrolls time, with Shift frequency, with Ctrl zooms about the pointer, over an axis zooms that axis;
-/// drag pans, Shift+drag zooms to a box, click places the cursor, double-click activates an event. Keys: arrows move
-/// the cursor by a cell (with Ctrl by ten), Backspace back, 0 all, O orientation, [ ] black level, { } white level, A
-/// automatic range, C colour map, `,` `.` threshold, M measure, H harmonics, I sidebands, K to the peak, Escape clears.
-/// With Ctrl the cursor, a corner of the measured box and a dragged sideband go to the strongest cell nearby. A sideband's line is dragged
-/// to change their spacing; Alt with Left and Right does so by a bin.
-class WaterfallView : public QwtPlot
+/// This file says what is shown and how it is laid out; what a hand does to it is WaterfallMouse's and waterfallCommands', what is
+/// said about it waterfallWords', what is drawn RasterItem's and, above that, OverlayItem's.
+class WaterfallView : public ThemedPlot
 {
     Q_OBJECT
 
 public:
-    using Axis = faintline::Axis; ///< QwtPlot has one of its own
     enum class Orientation { NewestOnTop, OldestOnTop, LeftToRight };
     Q_ENUM(Orientation)
 
@@ -79,6 +74,8 @@ public:
     void setCloseup(std::shared_ptr<const PeakPyramid> closeup);
     /// The picture, or its close-up where that is what can be seen.
     const std::shared_ptr<const PeakPyramid> &shownPicture() const { return m_shown; }
+    /// Of these two the one that tells most of that time.
+    const PeakPyramid &finestPicture(const Span &time) const;
     double framesPerPixel() const; ///< as visible
 
     /// The box all cells of a picture fill: half a cell beyond the outermost frames and bins.
@@ -90,13 +87,14 @@ public:
     Orientation orientation() const { return m_orientation; }
     const ColourMap &colourMap() const { return *m_colourMap; }
     /// Values drawn in the map's first and last colour: dB or nat.
-    const Span &range() const { return m_range; }
-    bool isRangeAutomatic() const { return m_isRangeAutomatic; }
+    const Span &range() const { return m_levels.range(); }
+    bool isRangeAutomatic() const { return m_levels.isAutomatic(); }
     /// The range the picture's values suggest at this zoom: noise dark, what stands out of it bright.
     Span automaticRange() const;
     /// Number of pixels per byte of the picture's scale, for the whole picture, or its close-up, at this zoom.
-    const std::vector<double> &histogram() const { return m_histogram; }
+    const std::vector<double> &histogram() const { return m_levels.histogram(); }
     QString valueUnit() const; ///< "dB", or the statistic's
+    bool hasTime() const;      ///< as the picture's own axis
     /// What a statistic is measured in, "nat" unless said otherwise, and the heading that says so.
     void setStatisticUnit(const QString &unit, const QString &heading);
 
@@ -110,17 +108,21 @@ public:
     bool hasHarmonics() const { return m_hasHarmonics; }
     /// Of the sidebands round the cursor's frequency, Hz; 0: none are shown.
     double sidebandSpacing() const { return m_sidebandHz; }
+    std::optional<Sidebands> sidebands() const; ///< as shown
     /// What is said about the sidebands: carrier, spacing, the level of each at the cursor's time.
     QString sidebandText() const;
     /// What is said about the measured box.
     QString selectionText() const;
+    /// The strongest cell within a few pixels.
+    std::optional<Viewport::Point> peakAround(const Viewport::Point &point) const;
+    int eventAt(const QPointF &canvasPosition) const; ///< 0: none
 
     /// Pixel on the canvas ↔ time and frequency.
     Viewport::Point pointAt(const QPointF &canvasPosition) const;
     QPointF positionOf(const Viewport::Point &point) const;
-
-    /// The view's own actions, for a program's menus; the app adds to it through `contextMenuRequested`.
-    void addActionsTo(QMenu *menu);
+    bool isTimeVertical() const { return m_orientation != Orientation::LeftToRight; }
+    QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
+    QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
 
     QSize sizeHint() const override { return {520, 420}; }
     QSize minimumSizeHint() const override { return {220, 180}; }
@@ -151,6 +153,7 @@ public slots:
     void setSidebands(bool isOn);       ///< with a spacing that suits what is visible; a cursor is placed where there is none
     void setSelectionNote(const QString &note); ///< what else is known of the measured box; until it changes
     void moveCursorToPeak();                    ///< to the strongest cell nearby
+    void setRubber(const std::optional<faintline::Viewport::Box> &box); ///< shown while a box is dragged
 
 signals:
     /// The pointer is over a cell; `value` in dB or nat.
@@ -176,44 +179,20 @@ protected:
     void keyPressEvent(QKeyEvent *event) override;
     void wheelEvent(QWheelEvent *event) override;
     void contextMenuEvent(QContextMenuEvent *event) override;
-    void changeEvent(QEvent *event) override;
-    void focusInEvent(QFocusEvent *event) override;
-    void focusOutEvent(QFocusEvent *event) override;
-    bool eventFilter(QObject *watched, QEvent *event) override;
+    void restyle() override;
+    void followCanvas() override { followSpan(); }
 
 private:
-    enum class Drag { None, Press, Pan, Zoom, Measure, Sideband };
-
-    bool isTimeVertical() const { return m_orientation != Orientation::LeftToRight; }
-    QwtAxisId timeAxis() const { return isTimeVertical() ? QwtAxis::YLeft : QwtAxis::XBottom; }
-    QwtAxisId hzAxis() const { return isTimeVertical() ? QwtAxis::XBottom : QwtAxis::YLeft; }
     Viewport::Box full() const;
     Viewport::Box visible() const;
-    void layAxes();
     void followSpan();
     void followCursor();
     void choosePicture();
-    const PeakPyramid &pictureOf(const Span &time) const;
     void countHistogram();
     void applyRange(const Span &range);
-    bool hasTime() const;
+    double levelStep() const;
     void updateContent();
     void updateMarks();
-    std::optional<Sidebands> sidebands() const;
-    int sidebandAt(const QPointF &canvasPosition) const;
-    void dragSideband(const QMouseEvent &event);
-    Viewport::Point pointOf(const QMouseEvent &event) const;
-    std::optional<Viewport::Point> peakAround(const Viewport::Point &point) const;
-    int eventAt(const QPointF &canvasPosition) const;
-    void moveCursor(int right, int up, int cells);
-    void clearMarks();
-    void scroll(Qt::Orientation direction, double notches);
-    void pressed(const QMouseEvent &event);
-    void moved(const QMouseEvent &event);
-    void released(const QMouseEvent &event);
-    void hover(const QPointF &canvasPosition);
-    Viewport::Box draggedBox(const Viewport::Point &to) const;
-    void fillMenu(QMenu &menu);
 
     QString m_heading;
     QString m_statisticUnit = QStringLiteral("nat");
@@ -228,10 +207,7 @@ private:
     QwtPlotGrid *m_grid;
     const ColourMap *m_colourMap;
     Orientation m_orientation = Orientation::NewestOnTop;
-    Span m_range{-6.0, 14.0};
-    bool m_isRangeAutomatic = true;
-    std::vector<double> m_histogram;
-    std::pair<int, Index> m_histogramKey{-1, 0}; ///< level and cells per pixel it was counted at
+    ColourLevels m_levels;
     std::optional<double> m_threshold;
     Layers m_layers = Layers(EventLayer | TrackLayer | TruthLayer | ThresholdLayer | CursorLayer);
     std::vector<Event> m_events;
@@ -240,12 +216,7 @@ private:
     bool m_hasHarmonics = false;
     double m_sidebandHz = 0.0;
     QString m_selectionNote;
-
-    Drag m_drag = Drag::None;
-    QPointF m_dragStart;         ///< canvas pixels
-    Viewport::Box m_dragVisible; ///< what was visible when a pan began
-    Viewport::Point m_dragOrigin; ///< where a box began
-    int m_draggedOrder = 0;       ///< of the sideband
+    std::unique_ptr<WaterfallMouse> m_mouse;
 };
 
 Q_DECLARE_OPERATORS_FOR_FLAGS(WaterfallView::Layers)

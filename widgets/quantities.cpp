@@ -73,6 +73,13 @@ QString hertzText(double hz, double resolution)
     return numberText(hz / unit.hz, decimalsFor(resolution / unit.hz)) + QLatin1Char(' ') + unit.name;
 }
 
+QString capitalised(QString words)
+{
+    if (!words.isEmpty())
+        words[0] = words[0].toUpper();
+    return words;
+}
+
 QString powerOfTenText(int exponent)
 {
     static const QString superscripts = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹");

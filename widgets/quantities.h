@@ -39,6 +39,9 @@ QString rateText(double hzPerSecond);
 /// The unit in which drifts of that size are written, "mHz/s", and what it is in Hz/s.
 FrequencyUnit rateUnit(double largestHzPerSecond);
 
+/// "Frequency" from "frequency".
+QString capitalised(QString words);
+
 /// "10⁻⁷" from -7.
 QString powerOfTenText(int exponent);
 

@@ -1,5 +1,7 @@
 #include "widgets/settingWords.h"
 
+#include "widgets/quantities.h"
+
 #include <QHash>
 #include <QSet>
 
@@ -16,13 +18,6 @@ namespace {
                 words += QLatin1Char(' ');
             words += c.toLower();
         }
-        return words;
-    }
-
-    QString capitalised(QString words)
-    {
-        if (!words.isEmpty())
-            words[0] = words[0].toUpper();
         return words;
     }
 

@@ -1,13 +1,10 @@
 #include "app/Closeup.h"
-#include "app/MainWindow.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "widgets/StripPlot.h"
 
-#include <QSignalSpy>
-#include <QTemporaryDir>
-#include <QTest>
-
 using namespace faintline;
+using namespace faintline::test;
 
 /// Zoomed into a recording whose pictures hold rows of many frames, one sees single frames.
 class tst_Closeup : public QObject
@@ -54,17 +51,11 @@ class tst_Closeup : public QObject
 private slots:
     void init()
     {
-        QFile file(m_folder.filePath("scene.json"));
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 200, "lines": [{"snrDb": 6, "frequencyHz": 90}]})");
-        file.close();
-        m_window = std::make_unique<MainWindow>();
-        m_window->setAsking(false);
-        m_window->resize(1400, 900);
-        m_window->show();
-        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
-        m_window->open(file.fileName(), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
-        QVERIFY(settled.wait(60000));
+        const QString scene =
+            writeFile(m_folder, "scene.json",
+                      R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 200, "lines": [{"snrDb": 6, "frequencyHz": 90}]})");
+        m_window = newWindow();
+        QVERIFY(openAndSettle(*m_window, scene, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
         m_whole = m_window->document().analysis();
         QCOMPARE(m_whole->input->framesPerRow(0), Index(1));
     }

@@ -1,11 +1,11 @@
 // A walk over all widgets of the window in all its layouts: each can be named, reached, and no key means two things.
 
-#include "app/MainWindow.h"
 #include "app/OpenOptionsDialog.h"
 #include "app/InjectDialog.h"
 #include "app/Panels.h"
 #include "app/ToolBar.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "widgets/WaterfallView.h"
 
 #include <QAbstractButton>
@@ -18,20 +18,16 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
-#include <QSignalSpy>
 #include <QStyleOptionComboBox>
 #include <QTabBar>
-#include <QTemporaryDir>
-#include <QTest>
 #include <QToolButton>
 
 #include <set>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-constexpr int patience = 60000; // ms
 
 /// What a screen reader says of a widget.
 QString spokenName(QWidget *widget)
@@ -89,18 +85,9 @@ private slots:
     void initTestCase()
     {
         Theme::apply(Theme::Kind::Light);
-        const QString scene = m_folder.filePath("scene.json");
-        QFile file(scene);
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
-        file.close();
-        m_window = std::make_unique<MainWindow>();
-        m_window->setAsking(false);
-        m_window->resize(1280, 800);
-        m_window->show();
-        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
-        m_window->open(scene);
-        QVERIFY(settled.wait(patience));
+        m_window = newWindow({1280, 800});
+        QVERIFY(openAndSettle(*m_window, writeFile(m_folder, "scene.json",
+                                                   R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})")));
     }
     void cleanupTestCase() { m_window.reset(); }
 

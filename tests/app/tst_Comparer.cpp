@@ -1,17 +1,15 @@
 #include "app/ComparePanel.h"
 #include "app/Comparer.h"
-#include "app/MainWindow.h"
+#include "app/openWindow.h"
 #include "widgets/WaterfallView.h"
 
 #include <QLabel>
 #include <QPushButton>
-#include <QSignalSpy>
 #include <QTableWidget>
-#include <QTemporaryDir>
-#include <QTest>
 #include <QToolButton>
 
 using namespace faintline;
+using namespace faintline::test;
 
 /// A kept, B changed: what the window shows of the two.
 class tst_Comparer : public QObject
@@ -22,19 +20,15 @@ class tst_Comparer : public QObject
 
     QString scene(const QString &name, double hz)
     {
-        QFile file(m_folder.filePath(name));
-        if (file.open(QIODevice::WriteOnly))
-            file.write(QStringLiteral(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "seed": 3,
-                "lines": [{"snrDb": 0, "referenceSeconds": 0.25, "frequencyHz": %1, "startSeconds": 10, "durationSeconds": 45}]})")
-                           .arg(hz)
-                           .toUtf8());
-        return file.fileName();
+        const QString text = QStringLiteral(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "seed": 3,
+            "lines": [{"snrDb": 0, "referenceSeconds": 0.25, "frequencyHz": %1, "startSeconds": 10, "durationSeconds": 45}]})");
+        return writeFile(m_folder, name, text.arg(hz).toUtf8());
     }
 
     static void settle(MainWindow &window, QSignalSpy &settled)
     {
         if (settled.isEmpty())
-            QVERIFY(settled.wait(60000));
+            QVERIFY(settled.wait(patience));
         settled.clear();
         QTRY_VERIFY(!window.comparer().isBusy());
     }
@@ -42,10 +36,8 @@ class tst_Comparer : public QObject
 private slots:
     void keepChangeSwapGoBack()
     {
-        MainWindow window;
-        window.setAsking(false);
-        window.resize(1200, 800);
-        window.show();
+        const auto own = newWindow({1200, 800});
+        MainWindow &window = *own;
         QSignalSpy settled(&window.controller(), &AnalysisController::settled);
         window.open(scene("a.json", 90.0), {}, [](AnalysisSettings &settings) {
             settings = preset("billon").settings;

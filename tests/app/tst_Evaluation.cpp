@@ -3,30 +3,22 @@
 #include "app/EvaluatePanel.h"
 #include "app/ExperimentForm.h"
 #include "app/ExperimentsPanel.h"
-#include "app/MainWindow.h"
 #include "app/NoiseFitPanel.h"
 #include "app/ReproductionPanel.h"
 #include "app/TrialViewer.h"
 #include "app/TrialWindow.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "widgets/ChartPlot.h"
 
 #include <QFile>
 #include <QProcess>
-#include <QSignalSpy>
 #include <QTableWidget>
-#include <QTemporaryDir>
-#include <QTest>
 
 #include <memory>
 
 using namespace faintline;
-
-namespace {
-
-constexpr int patience = 120000; // ms
-
-} // namespace
+using namespace faintline::test;
 
 class tst_Evaluation : public QObject
 {
@@ -62,18 +54,10 @@ private:
 void tst_Evaluation::initTestCase()
 {
     Theme::apply(Theme::Kind::Dark);
-    QFile scene(m_folder.filePath("scene.json"));
-    QVERIFY(scene.open(QIODevice::WriteOnly));
-    scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+    const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120}]})");
-    scene.close();
-    m_window = std::make_unique<MainWindow>();
-    m_window->setAsking(false);
-    m_window->resize(1400, 900);
-    m_window->show();
-    QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
-    m_window->open(scene.fileName());
-    QVERIFY(settled.wait(patience));
+    m_window = newWindow();
+    QVERIFY(openAndSettle(*m_window, scene));
     QVERIFY(m_window->document().analysis());
 }
 

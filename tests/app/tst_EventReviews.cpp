@@ -2,9 +2,9 @@
 
 #include "app/EventReviews.h"
 
-#include "app/MainWindow.h"
 #include "app/Session.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "exchange/readAnnotations.h"
 #include "widgets/EventModel.h"
 #include "widgets/EventTable.h"
@@ -15,19 +15,11 @@
 #include <QImageReader>
 #include <QLineEdit>
 #include <QProcess>
-#include <QSignalSpy>
 #include <QTableView>
-#include <QTemporaryDir>
-#include <QTest>
 #include <QTimer>
 
 using namespace faintline;
-
-namespace {
-
-constexpr int patience = 60000; // ms
-
-} // namespace
+using namespace faintline::test;
 
 class tst_EventReviews : public QObject
 {
@@ -53,28 +45,16 @@ class tst_EventReviews : public QObject
                 if (table->model()->index(row, EventModel::Id).data(EventModel::SortRole).toInt() == id)
                     table->selectionModel()->select(table->model()->index(row, 0), QItemSelectionModel::Select | QItemSelectionModel::Rows);
     }
-    bool settle() const
-    {
-        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
-        return !m_window->controller().isBusy() || settled.wait(patience);
-    }
 
 private slots:
     void initTestCase() // opened once: every test leaves it as it was
     {
         Theme::apply(Theme::Kind::Light);
-        const QString scene = m_folder.filePath("scene.json");
-        QFile file(scene);
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
             {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120, "driftHzPerSecond": 1},
             {"snrDb": 7, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 350}]})");
-        file.close();
-        m_window = std::make_unique<MainWindow>();
-        m_window->setAsking(false);
-        m_window->show();
-        m_window->open(scene);
-        QVERIFY(settle());
+        m_window = newWindow({1440, 900});
+        QVERIFY(openAndSettle(*m_window, scene));
         QVERIFY(document().shownEvents().size() >= 2);
     }
     void cleanup()
@@ -83,7 +63,7 @@ private slots:
         while (document().undoStack().canUndo())
             document().undoStack().undo();
         document().undoStack().clear();
-        QVERIFY(settle());
+        QVERIFY(settle(*m_window));
     }
     void cleanupTestCase() { m_window.reset(); }
 
@@ -205,7 +185,7 @@ private slots:
         document().viewport().setSelection({{10.0, 20.0}, {100.0, 200.0}});
         m_window->reviews().annotateSelection("pump");
         m_window->controller().edit("decide.falseAlarmsPerHour", FieldValue(3.0), "Change");
-        QVERIFY(settle());
+        QVERIFY(settle(*m_window));
         const auto replay = [&](const QString &name, QByteArray *error = nullptr) {
             QProcess process;
             process.setWorkingDirectory(m_folder.path());
@@ -242,7 +222,7 @@ private slots:
         m_window->reviews().judge(Verdict::Accepted);
         QCOMPARE(document().undoStack().count(), 2);
         m_window->controller().commitThreshold(document().analysis()->threshold - 1.5);
-        QVERIFY(settle());
+        QVERIFY(settle(*m_window));
         const auto said = eventReviews(*document().analysis(), document().shownEvents(), document().annotations().reviews);
         const auto found = std::find_if(said.begin(), said.end(), [](const EventReview &one) { return one.verdict == Verdict::Accepted; });
         QVERIFY(found != said.end());
@@ -253,7 +233,7 @@ private slots:
         const Annotations kept = document().annotations();
         document().undoStack().setClean();
         m_window->open(session);
-        QVERIFY(settle());
+        QVERIFY(settle(*m_window));
         QVERIFY(document().annotations() == kept);
         QVERIFY(!document().isModified());
     }

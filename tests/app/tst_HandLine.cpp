@@ -1,25 +1,17 @@
 // A line drawn by hand: points by mouse and by key, its evidence beside the detector's, and nothing given away before it is revealed.
 
 #include "app/HandLinePanel.h"
-#include "app/MainWindow.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "widgets/HandLine.h"
 #include "widgets/StripPlot.h"
 
-#include <QFile>
 #include <QPushButton>
-#include <QTemporaryDir>
-#include <QTest>
 
 #include <memory>
 
 using namespace faintline;
-
-namespace {
-
-constexpr int patience = 120000; // ms
-
-} // namespace
+using namespace faintline::test;
 
 class tst_HandLine : public QObject
 {
@@ -49,17 +41,10 @@ private:
 void tst_HandLine::initTestCase()
 {
     Theme::apply(Theme::Kind::Light);
-    QFile scene(m_folder.filePath("scene.json"));
-    QVERIFY(scene.open(QIODevice::WriteOnly));
-    scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+    const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 50, "frequencyHz": 120, "driftHzPerSecond": 2}]})");
-    scene.close();
-    m_window = std::make_unique<MainWindow>();
-    m_window->setAsking(false);
-    m_window->resize(1400, 900);
-    m_window->show();
-    m_window->open(scene.fileName());
-    QTRY_VERIFY_WITH_TIMEOUT(m_window->document().analysis() && !m_window->controller().isBusy(), patience);
+    m_window = newWindow();
+    QVERIFY(openAndSettle(*m_window, scene));
     QVERIFY(!m_window->document().analysis()->tracks.empty());
     QTest::keyClick(m_window.get(), Qt::Key_D, Qt::ControlModifier);
     QVERIFY(panel().isVisible());

@@ -4,7 +4,6 @@
 #include "app/CommandPalette.h"
 #include "app/LessonGuide.h"
 #include "app/LessonPanel.h"
-#include "app/MainWindow.h"
 #include "app/PingBench.h"
 #include "app/PointerFrame.h"
 #include "app/ScanTestForm.h"
@@ -12,6 +11,7 @@
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
 #include "app/lessonMeasures.h"
+#include "app/openWindow.h"
 #include "widgets/PingMap.h"
 #include "widgets/SettingsForm.h"
 #include "widgets/WaterfallView.h"
@@ -26,7 +26,6 @@
 #include <QMap>
 #include <QMenuBar>
 #include <QPushButton>
-#include <QTest>
 
 #include <qwt_scale_widget.h>
 
@@ -34,10 +33,9 @@
 #include <memory>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-constexpr int patience = 240000; // ms
 
 using Act = std::function<void(MainWindow &)>;
 
@@ -138,15 +136,6 @@ const QMap<QString, Act> &acts()
          }},
     };
     return all;
-}
-
-std::unique_ptr<MainWindow> newWindow()
-{
-    auto window = std::make_unique<MainWindow>();
-    window->setAsking(false);
-    window->resize(1440, 900);
-    window->show();
-    return window;
 }
 
 } // namespace

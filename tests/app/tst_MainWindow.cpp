@@ -1,13 +1,13 @@
 // The window from outside: what a person does, and what is to be seen then.
 
-#include "app/MainWindow.h"
-
 #include "app/ActivityBar.h"
 #include "app/KeysOverlay.h"
 #include "app/MessageBar.h"
 #include "app/ScenarioCard.h"
 #include "app/WelcomePage.h"
+#include "app/WindowViews.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "widgets/EventTable.h"
 #include "widgets/ExceedancePlot.h"
 
@@ -20,11 +20,7 @@
 #include <QMenuBar>
 #include <QMimeData>
 #include <QProcess>
-#include <QSettings>
-#include <QSignalSpy>
 #include <QStatusBar>
-#include <QTemporaryDir>
-#include <QTest>
 #include <QTimer>
 
 #include <algorithm>
@@ -33,17 +29,9 @@
 #include <random>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-constexpr int patience = 120000; // ms
-
-void writeFile(const QString &path, const QByteArray &bytes)
-{
-    QFile file(path);
-    QVERIFY(file.open(QIODevice::WriteOnly));
-    file.write(bytes);
-}
 
 /// 16-bit mono WAV: noise and a tone that drifts.
 QByteArray wav(int rate, double seconds)
@@ -70,21 +58,6 @@ QByteArray wav(int rate, double seconds)
     header.writeRawData("data", 4);
     header << quint32(samples.size());
     return file + samples;
-}
-
-/// Waits until the window has nothing left to do.
-bool settle(MainWindow &window)
-{
-    if (!window.controller().isBusy())
-        return true;
-    QSignalSpy settled(&window.controller(), &AnalysisController::settled);
-    return settled.wait(patience);
-}
-
-bool openAndSettle(MainWindow &window, const QString &path)
-{
-    window.open(path);
-    return settle(window);
 }
 
 /// Where a statistic lies on the canvas of the threshold plot.
@@ -118,12 +91,7 @@ class tst_MainWindow : public QObject
 
     std::unique_ptr<MainWindow> window(bool remembers = false) const
     {
-        auto result = std::make_unique<MainWindow>(
-            remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
-        result->setAsking(false);
-        result->resize(1400, 900);
-        result->show();
-        return result;
+        return newWindow({1400, 900}, remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
     }
 
 private slots:
@@ -144,8 +112,7 @@ private slots:
             });
         });
         QTemporaryDir folder;
-        const QString path = folder.filePath("long.json");
-        writeFile(path, R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
+        const QString path = writeFile(folder, "long.json", R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
         QVERIFY(openAndSettle(window, path));
         QVERIFY(!window.document().analysis());
         QVERIFY(says("Stopped"));
@@ -154,14 +121,13 @@ private slots:
     void initTestCase()
     {
         Theme::apply(Theme::Kind::Dark);
-        m_scene = path("scene.json");
-        writeFile(m_scene, R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        m_scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
             {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120,
              "driftHzPerSecond": 1},
             {"snrDb": 4, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 20, "frequencyHz": 350}]})");
-        writeFile(path("tone.wav"), wav(1000, 60.0));
-        writeFile(path("text.wav"), "This is no sound.");
-        writeFile(path("short.wav"), wav(1000, 0.01));
+        writeFile(m_folder, "tone.wav", wav(1000, 60.0));
+        writeFile(m_folder, "text.wav", "This is no sound.");
+        writeFile(m_folder, "short.wav", wav(1000, 0.01));
     }
 
     void beginsWithThePicturesAndNoDialog()
@@ -503,14 +469,14 @@ private slots:
         window->document().viewport().zoomTo({4.0, 16.0}, {100.0, 300.0});
         for (const QString &name : {QString("input"), QString("output"), QString("threshold")}) {
             const QString file = path(name + ".png");
-            window->saveViewTo(name, file);
+            window->views().saveTo(name, file);
             QProcess replay;
             replay.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), {"replay", file});
             QVERIFY(replay.waitForFinished(patience));
             QVERIFY2(replay.readAllStandardOutput() == name.toUtf8() + ".png: the same pixels\n",
                      replay.readAllStandardError().constData());
         }
-        window->saveViewTo("window", path("window.png")); // where its panels are, it does not tell
+        window->views().saveTo("window", path("window.png")); // where its panels are, it does not tell
         QProcess replay;
         replay.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), {"replay", path("window.png")});
         QVERIFY(replay.waitForFinished(patience));

@@ -1,26 +1,18 @@
 // Measuring in the window with keys and mouse: a box's area SNR, sidebands in both pictures, the peak.
 
 #include "app/CommandPalette.h"
-#include "app/MainWindow.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "widgets/WaterfallView.h"
 
 #include <QAction>
 #include <QMenu>
 #include <QMenuBar>
-#include <QSignalSpy>
-#include <QTemporaryDir>
-#include <QTest>
 
 #include <memory>
 
 using namespace faintline;
-
-namespace {
-
-constexpr int patience = 60000; // ms
-
-} // namespace
+using namespace faintline::test;
 
 class tst_Measure : public QObject
 {
@@ -58,19 +50,10 @@ private slots:
     void initTestCase()
     {
         Theme::apply(Theme::Kind::Light);
-        const QString scene = m_folder.filePath("scene.json");
-        QFile file(scene);
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60,
+        const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60,
                        "lines": [{"frequencyHz": 150, "snrDb": 10, "referenceSeconds": 0.5}]})");
-        file.close();
-        m_window = std::make_unique<MainWindow>();
-        m_window->setAsking(false);
-        m_window->resize(1280, 800);
-        m_window->show();
-        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
-        m_window->open(scene, {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
-        QVERIFY(settled.wait(patience));
+        m_window = newWindow({1280, 800});
+        QVERIFY(openAndSettle(*m_window, scene, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
         m_window->activateWindow();
         input().setFocus();
         QVERIFY(QTest::qWaitForWindowActive(m_window.get()));

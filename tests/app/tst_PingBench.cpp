@@ -1,6 +1,5 @@
 // A sonar's pings in the window: opened, stepped through, saved and reopened.
 
-#include "app/MainWindow.h"
 #include "app/LatencyPanel.h"
 #include "app/LawPanel.h"
 #include "app/NoiseFitPanel.h"
@@ -10,6 +9,7 @@
 #include "app/WelcomePage.h"
 #include "app/WhyPanel.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "spectrum/SimulatedPings.h"
@@ -26,24 +26,19 @@
 #include <QCheckBox>
 #include <QMenu>
 #include <QMenuBar>
-#include <QSignalSpy>
-#include <QSettings>
 #include <QSlider>
 #include <QSplitter>
 #include <QTabBar>
 #include <QTableView>
 #include <QTableWidget>
-#include <QTemporaryDir>
-#include <QTest>
 
 #include <algorithm>
 #include <cmath>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-constexpr int patience = 120000; // ms
 
 /// Small enough to be analysed at once: nine rates a cell.
 const char *const scene = R"({"kind": "pings", "pings": 24, "rangeCells": 120, "beams": 8, "seed": 5, "targets": [
@@ -63,20 +58,9 @@ AnalysisSettings nineRates(AnalysisSettings settings)
     return settings;
 }
 
-bool openAndSettle(MainWindow &window, const QString &path, bool isAdjusted = true)
+bool openWithNineRates(MainWindow &window, const QString &path)
 {
-    QSignalSpy settled(&window.controller(), &AnalysisController::settled);
-    window.open(path, {}, [isAdjusted](AnalysisSettings &settings) {
-        if (isAdjusted)
-            settings = nineRates(settings);
-    });
-    return settled.wait(patience);
-}
-
-bool settleLayers(OutputLayers &layers)
-{
-    QSignalSpy settled(&layers, &OutputLayers::settled);
-    return !layers.isBusy() || settled.wait(patience);
+    return openAndSettle(window, path, [](AnalysisSettings &settings) { settings = nineRates(settings); });
 }
 
 } // namespace
@@ -91,11 +75,7 @@ class tst_PingBench : public QObject
 
     std::unique_ptr<MainWindow> window(bool remembers = false) const
     {
-        auto result = std::make_unique<MainWindow>(
-            remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
-        result->setAsking(false);
-        result->resize(1400, 900);
-        result->show();
+        auto result = newWindow({1400, 900}, remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
         result->welcome().stop();
         return result;
     }
@@ -104,10 +84,7 @@ private slots:
     void initTestCase()
     {
         Theme::apply(Theme::Kind::Light);
-        QFile file(path("pings.json"));
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(scene);
-        file.close();
+        writeFile(m_folder, "pings.json", scene);
         const SimulatedPings pings(*sourceOf(path("pings.json")).pings);
         std::vector<float> y(static_cast<std::size_t>(pings.time().count * pings.grid().size()));
         pings.read(0, pings.time().count, y);
@@ -122,7 +99,7 @@ private slots:
     void aSceneOpensOnTheBenchOfPings()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         QVERIFY(w->pingBench().isVisible());
         QVERIFY(!w->workbench().isVisible());
         const Analysis &analysis = *w->document().analysis();
@@ -139,9 +116,9 @@ private slots:
     void aStackOfFramesIsTheSame()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         const auto simulated = w->document().analysis();
-        QVERIFY(openAndSettle(*w, path("stack.npy")));
+        QVERIFY(openWithNineRates(*w, path("stack.npy")));
         const auto read = w->document().analysis();
         QVERIFY(read != simulated);
         QCOMPARE(read->lnK, simulated->lnK);
@@ -154,7 +131,7 @@ private slots:
     void stepsAndPlaysBothWays()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         bench.showPing(10);
         QCOMPARE(bench.ping(), Index(10));
@@ -185,7 +162,7 @@ private slots:
     void picturesHaveOneCursor()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         bench.showPing(8);
         const WaterfallView &history = *bench.rangeHistory();
@@ -199,7 +176,7 @@ private slots:
     void anEventBringsItsPing()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         const Event event = w->document().shownEvents().front();
         w->pingBench().selectEvent(event.id);
         QCOMPARE(w->pingBench().viewports().place().seconds, event.detectSeconds);
@@ -212,7 +189,7 @@ private slots:
     void inhibitionCanBeHidden()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->pingBench().selectEvent(w->document().shownEvents().front().id);
         PingMap &map = *w->pingBench().output();
         const QImage with = map.grab().toImage();
@@ -225,7 +202,7 @@ private slots:
     void theConventionalDetectorCanBeShownBeside()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         const std::vector<Track> &found = w->document().analysis()->conventional;
         QVERIFY(!found.empty()); // 11 dB show in a ping by themselves
@@ -240,7 +217,7 @@ private slots:
     void theBestStatesAreTheStatistic()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         StateSlicePanel &states = w->states();
         QSignalSpy settled(&states, &StateSlicePanel::settled);
         const auto wait = [&] { return !states.isBusy() || settled.wait(patience); };
@@ -269,7 +246,7 @@ private slots:
     void theLawOfBothRatesIsDragged()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->showStates();
         w->states().tabs()->setCurrentIndex(1);
         QCoreApplication::processEvents(); // the bars find their places
@@ -300,7 +277,7 @@ private slots:
     void theNoiseFitSpeaksOfBearings()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         QSignalSpy settled(&w->noiseFit(), &NoiseFitPanel::settled);
         w->showNoiseFit();
         QVERIFY(settled.wait(patience));
@@ -313,7 +290,7 @@ private slots:
     void theLadderOfACell()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         QSignalSpy settled(&w->why(), &WhyPanel::settled);
         w->pingBench().selectEvent(w->document().shownEvents().front().id);
         QTest::keyClick(w.get(), Qt::Key_W);
@@ -339,9 +316,9 @@ private slots:
     void latencyOfTheScene()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("stack.npy")));
+        QVERIFY(openWithNineRates(*w, path("stack.npy")));
         QVERIFY(w->latency().obstacle().contains("scene"));
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         QVERIFY2(w->latency().obstacle().isEmpty(), qPrintable(w->latency().obstacle()));
         QSignalSpy settled(&w->latency(), &LatencyPanel::settled);
         w->latency().start(3);
@@ -361,7 +338,7 @@ private slots:
     void aSessionComesBackAsItWas()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         bench.viewports().setPlace({400.0, 3600.0, 90.0});
         bench.viewports().map().zoomTo({3400.0, 3800.0}, {0.0, 225.0});
@@ -375,7 +352,7 @@ private slots:
         const Session back = readSession(path("s.faintline"));
         QVERIFY(back.source.pings);
         QCOMPARE(*back.source.pings, *session.source.pings);
-        QVERIFY(openAndSettle(*w, path("s.faintline"), false));
+        QVERIFY(openAndSettle(*w, path("s.faintline")));
         QCOMPARE(bench.viewports().place(), (PingViewports::Place{400.0, 3600.0, 90.0}));
         QCOMPARE(bench.viewports().map().time(), (Span{3400.0, 3800.0}));
         QCOMPARE(bench.viewports().map().frequency(), (Span{0.0, 225.0}));
@@ -396,16 +373,13 @@ private slots:
 
     void linesComeBackToTheirBench()
     {
-        QFile file(path("lines.json"));
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
-        file.close();
+        writeFile(m_folder, "lines.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
-        QVERIFY(openAndSettle(*w, path("lines.json"), false));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
+        QVERIFY(openAndSettle(*w, path("lines.json")));
         QVERIFY(w->workbench().isVisible());
         QVERIFY(!w->pingBench().isVisible());
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         QVERIFY(w->pingBench().isVisible());
     }
 
@@ -414,11 +388,8 @@ private slots:
         const auto w = window();
         QStringList failures;
         connect(&w->controller(), &AnalysisController::failed, this, [&](const Error &error) { failures << error.what(); });
-        QFile file(path("bad.json"));
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"kind": "pings", "moons": 1})");
-        file.close();
-        QVERIFY(openAndSettle(*w, path("bad.json")));
+        writeFile(m_folder, "bad.json", R"({"kind": "pings", "moons": 1})");
+        QVERIFY(openWithNineRates(*w, path("bad.json")));
         QCOMPARE(failures.size(), 1);
         QVERIFY2(failures.first().contains("moons"), qPrintable(failures.first()));
     }
@@ -426,7 +397,7 @@ private slots:
     void layersAreOfThePingShown()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         OutputLayers &layers = w->workbench().layers();
         bench.showPing(15);
@@ -434,7 +405,7 @@ private slots:
         const QImage statistic = bench.output()->grab().toImage();
         QTest::keyClick(bench.output()->plane(), Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Rate);
-        QVERIFY(settleLayers(layers));
+        QVERIFY(settle(layers));
         QVERIFY(bench.output()->plane()->title().text().contains("range rate"));
         QVERIFY(bench.output()->grab().toImage() != statistic);
         // The picture and the read-out are the replay's own.
@@ -455,9 +426,9 @@ private slots:
         QCOMPARE(layers.layer(), OutputLayer::SecondRate);
         QTest::keyClick(bench.output()->plane(), Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Age);
-        QVERIFY(settleLayers(layers));
+        QVERIFY(settle(layers));
         bench.setPolar(true);
-        QVERIFY(settleLayers(layers));
+        QVERIFY(settle(layers));
         const QImage age = bench.output()->grab().toImage();
         QTest::keyClick(bench.output()->polar(), Qt::Key_V, Qt::ShiftModifier);
         QVERIFY(layers.isOverlay());
@@ -465,22 +436,19 @@ private slots:
         // Another ping's layer is not this one's: it goes at once and comes anew.
         bench.stepFrames(1);
         QVERIFY(!layers.item().picture());
-        QVERIFY(settleLayers(layers));
+        QVERIFY(settle(layers));
         QVERIFY(layers.item().picture());
         layers.setLayer(OutputLayer::SecondRate);
-        QVERIFY(settleLayers(layers));
-        QFile file(path("line.json"));
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"kind": "lines", "sampleRateHz": 500, "durationSeconds": 10, "lines": []})");
-        file.close();
-        QVERIFY(openAndSettle(*w, path("line.json"), false));
+        QVERIFY(settle(layers));
+        writeFile(m_folder, "line.json", R"({"kind": "lines", "sampleRateHz": 500, "durationSeconds": 10, "lines": []})");
+        QVERIFY(openAndSettle(*w, path("line.json")));
         QCOMPARE(layers.layer(), OutputLayer::Rate);
     }
 
     void aChangedDetectorIsSeenAtOnceOnThePingShown()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         bench.showPing(20);
         const auto before = w->document().analysis();
@@ -511,7 +479,7 @@ private slots:
     void rejectedTracksAreFaintOnTheMaps()
     {
         const auto w = window();
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         PingBench &bench = w->pingBench();
         const Track &track = w->document().analysis()->tracks.front();
         bench.showPing(track.detectFrame + 3);
@@ -561,7 +529,7 @@ private slots:
         };
         {
             const auto w = window(true);
-            QVERIFY(openAndSettle(*w, path("pings.json")));
+            QVERIFY(openWithNineRates(*w, path("pings.json")));
             const QList<QList<int>> asBuilt = sharesOf(*w);
             QCOMPARE(asBuilt.size(), 3);
             for (QSplitter *splitter : splitters(*w))
@@ -577,11 +545,11 @@ private slots:
         }
         {
             const auto w = window(true); // lines only: what is not seen stays remembered
-            QVERIFY(openAndSettle(*w, path("line.json"), false));
+            QVERIFY(openAndSettle(*w, path("line.json")));
             w->close();
         }
         const auto w = window(true);
-        QVERIFY(openAndSettle(*w, path("pings.json")));
+        QVERIFY(openWithNineRates(*w, path("pings.json")));
         QCOMPARE(sharesOf(*w), shares);
     }
 };

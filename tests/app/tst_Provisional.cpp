@@ -1,13 +1,10 @@
-#include "app/MainWindow.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 
 #include <qwt_text.h>
 
-#include <QSignalSpy>
-#include <QTemporaryDir>
-#include <QTest>
-
 using namespace faintline;
+using namespace faintline::test;
 
 /// What a changed detector makes of the visible part is seen before everything else is known.
 class tst_Provisional : public QObject
@@ -18,22 +15,19 @@ class tst_Provisional : public QObject
 
     QString scene()
     {
-        QFile file(m_folder.filePath("scene.json"));
-        if (file.open(QIODevice::WriteOnly))
-            file.write(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 120, "lines": [{"snrDb": 5, "frequencyHz": 90}]})");
-        return file.fileName();
+        return writeFile(
+            m_folder, "scene.json",
+            R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 120, "lines": [{"snrDb": 5, "frequencyHz": 90}]})");
     }
 
 private slots:
     void seenAtOnceAndReplaced()
     {
-        MainWindow window;
-        window.setAsking(false);
-        window.resize(1200, 800);
-        window.show();
+        const auto own = newWindow({1200, 800});
+        MainWindow &window = *own;
         QSignalSpy settled(&window.controller(), &AnalysisController::settled);
         window.open(scene(), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
-        QVERIFY(settled.wait(60000));
+        QVERIFY(settled.wait(patience));
         settled.clear();
         const auto before = window.document().analysis();
         window.document().viewport().zoomTo({30.0, 60.0}, {50.0, 150.0});
@@ -54,7 +48,7 @@ private slots:
         });
         connect(&window.document(), &Document::analysisChanged, this, [&] { order << "analysis"; });
         window.controller().edit("model.snr", FieldValue(0.2718), "Change"); // never calibrated before
-        QVERIFY(settled.wait(60000));
+        QVERIFY(settled.wait(patience));
         QCOMPARE(order, (QStringList{"provisional", "analysis"}));
         QVERIFY(title.contains("provisional"));
         QVERIFY(shown->time().first >= 29.0 && shown->time().last() <= 61.0);
@@ -71,7 +65,7 @@ private slots:
         window.show();
         QSignalSpy settled(&window.controller(), &AnalysisController::settled);
         window.open(scene(), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
-        QVERIFY(settled.wait(60000));
+        QVERIFY(settled.wait(patience));
         settled.clear();
         window.document().viewport().zoomTo({30.0, 60.0}, {50.0, 150.0});
         bool wasThere = false;
@@ -84,7 +78,7 @@ private slots:
             QCOMPARE(window.workbench().output()->picture(), window.document().analysis()->statistic);
         });
         window.controller().edit("model.snr", FieldValue(0.2718), "Change");
-        QVERIFY(settled.wait(60000));
+        QVERIFY(settled.wait(patience));
         QVERIFY(wasThere);
         QVERIFY(window.document().isCurrent());
     }
@@ -96,14 +90,14 @@ private slots:
         window.show();
         QSignalSpy settled(&window.controller(), &AnalysisController::settled);
         window.open(scene(), {}, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; });
-        QVERIFY(settled.wait(60000));
+        QVERIFY(settled.wait(patience));
         settled.clear();
         connect(&window.document(), &Document::provisionalChanged, this, [&] {
             if (window.document().provisional())
                 window.controller().stop();
         });
         window.controller().edit("model.snr", FieldValue(0.1618), "Change");
-        QVERIFY(settled.wait(60000));
+        QVERIFY(settled.wait(patience));
         QVERIFY(!window.document().provisional());
         QCOMPARE(window.workbench().output()->picture(), window.document().analysis()->statistic);
     }

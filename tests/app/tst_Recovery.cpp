@@ -1,44 +1,31 @@
 // Unsaved work survives: kept while it is unsaved, found again after the program was killed.
 
-#include "app/MainWindow.h"
 #include "app/MessageBar.h"
 #include "app/Recovery.h"
+#include "app/openWindow.h"
 
 #include <QApplication>
 #include <QFile>
 #include <QProcess>
-#include <QSignalSpy>
-#include <QTemporaryDir>
-#include <QTest>
 #include <QToolButton>
 
 #include <cstdio>
 #include <memory>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
-constexpr int patience = 60000; // ms
-
 QString writeScene(const QTemporaryDir &folder)
 {
-    const QString path = folder.filePath("scene.json");
-    QFile scene(path);
-    if (!scene.open(QIODevice::WriteOnly))
-        return {};
-    scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
-    return path;
+    return writeFile(folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
 }
 
 std::unique_ptr<MainWindow> openedWindow(const QString &scene, const QString &recoveryFolder)
 {
-    auto window = std::make_unique<MainWindow>(nullptr, recoveryFolder);
-    window->setAsking(false);
-    window->show();
-    QSignalSpy settled(&window->controller(), &AnalysisController::settled);
-    window->open(scene);
-    settled.wait(patience);
+    auto window = newWindow({1440, 900}, nullptr, recoveryFolder);
+    openAndSettle(*window, scene);
     return window;
 }
 

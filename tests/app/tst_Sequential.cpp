@@ -1,14 +1,16 @@
 // Sequential tests from outside: a radar's scans and a recording's view are tested, looked into, cancelled and saved.
 
-#include "app/MainWindow.h"
 #include "app/MessageBar.h"
 #include "app/ScanCard.h"
 #include "app/ScanTestForm.h"
 #include "app/SequentialPanel.h"
+#include "app/TrajectoryPage.h"
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "app/saveView.h"
 #include "app/scanScenario.h"
+#include "app/sequentialSentences.h"
 #include "widgets/BarPlot.h"
 #include "widgets/CellPicture.h"
 #include "widgets/ChartPlot.h"
@@ -22,20 +24,16 @@
 #include <QLineEdit>
 #include <QProcess>
 #include <QPushButton>
-#include <QSignalSpy>
 #include <QSlider>
 #include <QTabWidget>
-#include <QTemporaryDir>
-#include <QTest>
 
 #include <algorithm>
 #include <memory>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-constexpr int patience = 120000; // ms
 
 ScanTest smallTest()
 {
@@ -87,11 +85,7 @@ private:
         return QTest::qWaitFor([this] { return !tests().isBusy(); }, patience);
     }
     QDockWidget *dock() { return m_window->findChild<QDockWidget *>("sequentialDock"); }
-    QString write(const QString &name, const QByteArray &text)
-    {
-        QFile file(m_folder.filePath(name));
-        return file.open(QIODevice::WriteOnly) && file.write(text) == text.size() ? file.fileName() : QString();
-    }
+    QString write(const QString &name, const QByteArray &text) { return writeFile(m_folder, name, text); }
     void openLine();
 
     QTemporaryDir m_folder;
@@ -105,19 +99,14 @@ void tst_Sequential::initTestCase()
 
 void tst_Sequential::init()
 {
-    m_window = std::make_unique<MainWindow>();
-    m_window->setAsking(false);
-    m_window->resize(1400, 900);
-    m_window->show();
+    m_window = newWindow();
 }
 
 void tst_Sequential::openLine()
 {
     const QString scene = write("line.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 6, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 35, "frequencyHz": 120}]})");
-    QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
-    m_window->open(scene);
-    QVERIFY(settled.wait(patience));
+    QVERIFY(openAndSettle(*m_window, scene));
     QVERIFY(m_window->document().analysis());
 }
 
@@ -187,13 +176,13 @@ void tst_Sequential::scansFillTheViews()
     QVERIFY(tests().fixedSize());
     QCOMPARE(tests().survey()->fixedStages, 18 * *tests().fixedSize());
     QCOMPARE(tests().selected(), 1);
-    QCOMPARE(panel().posterior().yAxis().count, Index(20)); // the finest axis
-    QCOMPARE(panel().scan().values().size(), std::size_t(80));
+    QCOMPARE(panel().trajectory().posterior().yAxis().count, Index(20)); // the finest axis
+    QCOMPARE(panel().trajectory().scan().values().size(), std::size_t(80));
 
-    QVERIFY2(panel().runSentence().startsWith("Run 1 with a target:"), qPrintable(panel().runSentence()));
-    QVERIFY2(panel().curvesSentence().contains("overshoots"), qPrintable(panel().curvesSentence()));
-    QVERIFY2(panel().priorSentence().contains("20 cells"), qPrintable(panel().priorSentence()));
-    QVERIFY2(panel().sectorsSentence().contains("18 looks"), qPrintable(panel().sectorsSentence()));
+    QVERIFY2(runSentence(tests()).startsWith("Run 1 with a target:"), qPrintable(runSentence(tests())));
+    QVERIFY2(curvesSentence(tests()).contains("overshoots"), qPrintable(curvesSentence(tests())));
+    QVERIFY2(priorSentence(tests()).contains("20 cells"), qPrintable(priorSentence(tests())));
+    QVERIFY2(sectorsSentence(tests()).contains("18 looks"), qPrintable(sectorsSentence(tests())));
 }
 
 void tst_Sequential::resultsDoNotDependOnTheWindow()
@@ -222,7 +211,7 @@ void tst_Sequential::aClickSelectsEverywhere()
         if (tests().walks()[static_cast<std::size_t>(i)].second.stages > tests().walks()[static_cast<std::size_t>(last)].second.stages)
             last = i;
     const Index stages = tests().walks()[static_cast<std::size_t>(last)].second.stages;
-    const auto posteriorBefore = panel().posterior().values();
+    const auto posteriorBefore = panel().trajectory().posterior().values();
     QTest::mouseClick(walk.canvas(), Qt::LeftButton, {}, walk.position(last, stages).toPoint());
     const int selected = tests().selected();
     QCOMPARE(tests().walks()[static_cast<std::size_t>(selected)].second.stages, stages);
@@ -230,14 +219,14 @@ void tst_Sequential::aClickSelectsEverywhere()
     QCOMPARE(walk.selected(), selected);
     QCOMPARE(tests().stage(), stages);
     QCOMPARE(panel().slider().maximum(), static_cast<int>(stages));
-    QVERIFY(panel().posterior().values() != posteriorBefore);
-    QCOMPARE(panel().posterior().xAxis().count, stages);
-    QVERIFY2(panel().runSentence().contains("of noise only"), qPrintable(panel().runSentence()));
+    QVERIFY(panel().trajectory().posterior().values() != posteriorBefore);
+    QCOMPARE(panel().trajectory().posterior().xAxis().count, stages);
+    QVERIFY2(runSentence(tests()).contains("of noise only"), qPrintable(runSentence(tests())));
 
     // A click in the middle of the posterior looks at that stage; the scan follows.
     panel().tabs().setCurrentIndex(1);
     QCoreApplication::processEvents();
-    CellPicture &posterior = panel().posterior();
+    CellPicture &posterior = panel().trajectory().posterior();
     QTest::mouseClick(posterior.canvas(), Qt::LeftButton, {}, posterior.canvasPosition(2.0, 10.0).toPoint());
     QCOMPARE(tests().stage(), Index(2));
     QVERIFY(settle());
@@ -362,13 +351,13 @@ void tst_Sequential::theRecordingsViewIsTested()
     QCOMPARE(tests().walks().size(), std::size_t(1));
     const SprtResult &found = tests().walks()[0].second;
     QVERIFY(found.decision == SprtDecision::H1);
-    QVERIFY2(panel().runSentence().contains("a target accepted"), qPrintable(panel().runSentence()));
-    QCOMPARE(panel().posterior().yAxis().unit, std::string("Hz"));
+    QVERIFY2(runSentence(tests()).contains("a target accepted"), qPrintable(runSentence(tests())));
+    QCOMPARE(panel().trajectory().posterior().yAxis().unit, std::string("Hz"));
     // Its trajectory ends on the line.
-    const auto &paths = panel().posterior().paths();
+    const auto &paths = panel().trajectory().posterior().paths();
     QCOMPARE(paths[0].points.size(), static_cast<std::size_t>(found.stages));
     QVERIFY(std::abs(paths[0].points.back().y() - 120.0) < 4.0);
-    QVERIFY(panel().posterior().yAxis().first >= 99.0 && panel().posterior().yAxis().last() <= 141.0);
+    QVERIFY(panel().trajectory().posterior().yAxis().first >= 99.0 && panel().trajectory().posterior().yAxis().last() <= 141.0);
     QVERIFY(panel().asn().chart().curves.empty());
 
     viewport.zoomTo({0.0, 15.0}, {300.0, 400.0}); // where there is nothing

@@ -1,11 +1,11 @@
 // The states of a line's frames, the law by which they follow each other, and what else the detector says of its output.
 
 #include "app/LawPanel.h"
-#include "app/MainWindow.h"
 #include "app/OutputLayers.h"
 #include "app/StateSlicePanel.h"
 #include "app/WelcomePage.h"
 #include "app/Workbench.h"
+#include "app/openWindow.h"
 #include "widgets/LawPlot.h"
 #include "widgets/LayerItem.h"
 #include "widgets/SliceMarks.h"
@@ -13,35 +13,15 @@
 #include <qwt_plot_canvas.h>
 #include <qwt_text.h>
 
-#include <QFile>
-#include <QSignalSpy>
 #include <QTabBar>
-#include <QTemporaryDir>
-#include <QTest>
 
 #include <algorithm>
 #include <cmath>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-constexpr int patience = 120000; // ms
-
-const char *const lineScene = R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 40,
-    "lines": [{"snrDb": 9, "frequencyHz": 200, "driftHzPerSecond": 0.5}]})";
-
-bool openAndSettle(MainWindow &window, const QString &path)
-{
-    QSignalSpy settled(&window.controller(), &AnalysisController::settled);
-    window.open(path, {}, [](AnalysisSettings &settings) {
-        settings.spectrogram.windowSeconds = 0.5;
-        settings.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.8};
-        settings.decide.by = DecideSettings::By::Nats;
-        settings.decide.thresholdNats = 20.0;
-    });
-    return settled.wait(patience);
-}
 
 double total(const std::vector<double> &law)
 {
@@ -65,18 +45,6 @@ void dragBar(LawPlot &plot, int change, double by, bool isLetGo = true)
         QTest::mouseRelease(plot.canvas(), Qt::LeftButton, {}, to);
 }
 
-bool settleStates(MainWindow &window)
-{
-    QSignalSpy settled(&window.states(), &StateSlicePanel::settled);
-    return !window.states().isBusy() || settled.wait(patience);
-}
-
-bool settleLayers(MainWindow &window)
-{
-    QSignalSpy settled(&window.workbench().layers(), &OutputLayers::settled);
-    return !window.workbench().layers().isBusy() || settled.wait(patience);
-}
-
 } // namespace
 
 class tst_StateSpace : public QObject
@@ -84,34 +52,30 @@ class tst_StateSpace : public QObject
     Q_OBJECT
 
     QTemporaryDir m_folder;
+    QString m_scene;
     std::unique_ptr<MainWindow> m_window;
 
-    QString path() const { return m_folder.filePath(QStringLiteral("line.json")); }
     LawPlot &law() { return *m_window->states().law().plot(0); }
     const std::vector<double> &setting() { return m_window->document().settings().model.slopeChange; }
-    bool settle()
-    {
-        QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
-        return !m_window->controller().isBusy() || settled.wait(patience);
-    }
 
 private slots:
     void initTestCase()
     {
         Theme::apply(Theme::Kind::Light);
-        QFile file(path());
-        QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(lineScene);
+        m_scene = writeFile(m_folder, "line.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 40,
+            "lines": [{"snrDb": 9, "frequencyHz": 200, "driftHzPerSecond": 0.5}]})");
     }
 
     void init()
     {
-        m_window = std::make_unique<MainWindow>();
-        m_window->setAsking(false);
-        m_window->resize(1600, 1400); // bars of a height at which a pixel is little
-        m_window->show();
+        m_window = newWindow({1600, 1400}); // bars of a height at which a pixel is little
         m_window->welcome().stop();
-        QVERIFY(openAndSettle(*m_window, path()));
+        QVERIFY(openAndSettle(*m_window, m_scene, [](AnalysisSettings &settings) {
+            settings.spectrogram.windowSeconds = 0.5;
+            settings.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.8};
+            settings.decide.by = DecideSettings::By::Nats;
+            settings.decide.thresholdNats = 20.0;
+        }));
     }
 
     void cleanup() { m_window.reset(); }
@@ -119,7 +83,7 @@ private slots:
     void theSliceFollowsTheCursor()
     {
         m_window->showStates();
-        QVERIFY(settleStates(*m_window));
+        QVERIFY(settle(m_window->states()));
         StateSlicePanel &states = m_window->states();
         const Analysis &analysis = *m_window->document().analysis();
         QCOMPARE(states.view()->picture()->cells(), analysis.grid().size());
@@ -129,7 +93,7 @@ private slots:
         Viewport &viewport = m_window->document().viewport();
         const double seconds = analysis.time().value(static_cast<double>(analysis.time().nearest(30.0)));
         viewport.setCursor({seconds, 205.0});
-        QVERIFY(settleStates(*m_window));
+        QVERIFY(settle(m_window->states()));
         QVERIFY(std::abs(states.marks().best()->column - (200.0 + 0.5 * seconds)) < 3.0);
         QVERIFY(!states.marks().paths().empty());
         const QString there = states.sentence();
@@ -141,10 +105,10 @@ private slots:
         };
         const auto before = row();
         QTest::keyClick(m_window->workbench().output(), Qt::Key_L);
-        QVERIFY(settleStates(*m_window));
+        QVERIFY(settle(m_window->states()));
         QVERIFY(states.sentence() != there);
         QTest::keyClick(m_window->workbench().output(), Qt::Key_J);
-        QVERIFY(settleStates(*m_window));
+        QVERIFY(settle(m_window->states()));
         QCOMPARE(states.sentence(), there);
         QCOMPARE(row(), before);
         // A click in the slice takes its frequency, not its slope.
@@ -157,7 +121,7 @@ private slots:
     void frequenciesAreTheWaterfalls()
     {
         m_window->showStates();
-        QVERIFY(settleStates(*m_window));
+        QVERIFY(settle(m_window->states()));
         Viewport &viewport = m_window->document().viewport();
         viewport.zoomTo(viewport.time(), {150.0, 250.0});
         QCOMPARE(m_window->states().view()->viewport()->frequency(), (Span{150.0, 250.0}));
@@ -169,7 +133,7 @@ private slots:
     {
         m_window->showStates();
         m_window->states().tabs()->setCurrentIndex(1);
-        QVERIFY(settleStates(*m_window));
+        QVERIFY(settle(m_window->states()));
         QVERIFY(law().isVisible());
         const std::vector<double> before = setting();
         const QString words = m_window->states().law().sentence();
@@ -182,7 +146,7 @@ private slots:
         QVERIFY(std::abs(total(setting()) - 1.0) < 1e-9);
         QCOMPARE(m_window->document().undoStack().count(), steps + 1);
         QVERIFY(m_window->states().law().sentence() != words);
-        QVERIFY(settle());
+        QVERIFY(settle(*m_window));
         QCOMPARE(m_window->document().analysis()->model.space.axes()[0].rateChange, setting());
 
         // The one more bar that stands ready, on the other side.
@@ -239,7 +203,7 @@ private slots:
         const QImage statistic = output.grab().toImage();
         QTest::keyClick(&output, Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Rate);
-        QVERIFY(settleLayers(*m_window));
+        QVERIFY(settle(m_window->workbench().layers()));
         QVERIFY(layers.item().picture());
         const QImage rate = output.grab().toImage();
         QVERIFY(rate != statistic);
@@ -251,18 +215,18 @@ private slots:
         for (int i = 0; i < 4; ++i)
             QTest::keyClick(&output, Qt::Key_V);
         QCOMPARE(layers.layer(), OutputLayer::Statistic);
-        QVERIFY(settleLayers(*m_window));
+        QVERIFY(settle(m_window->workbench().layers()));
     }
 
     void aLayerIsOfWhatIsSeen()
     {
         OutputLayers &layers = m_window->workbench().layers();
         layers.setLayer(OutputLayer::Age);
-        QVERIFY(settleLayers(*m_window));
+        QVERIFY(settle(m_window->workbench().layers()));
         const Index whole = layers.item().picture()->rows * layers.item().picture()->perRow;
         QVERIFY(whole >= m_window->document().analysis()->time().count);
         m_window->document().viewport().zoomTo({10.0, 14.0}, {190.0, 230.0});
-        QVERIFY(settleLayers(*m_window));
+        QVERIFY(settle(m_window->workbench().layers()));
         const LayerPicture &picture = *layers.item().picture();
         QCOMPARE(picture.perRow, Index(1));
         QCOMPARE(picture.perColumn, Index(1));
@@ -270,7 +234,7 @@ private slots:
         QCOMPARE(picture.firstRow, m_window->document().analysis()->time().nearest(10.0));
         // The read-out's figures are the cell's own.
         m_window->document().viewport().setCursor({13.0, 206.5});
-        QVERIFY(settleLayers(*m_window));
+        QVERIFY(settle(m_window->workbench().layers()));
         const auto reading = layers.readingAt(Viewport::Point{13.0, 206.5});
         QVERIFY(reading);
         LayerReplay replay(m_window->document().analysis());
@@ -288,7 +252,7 @@ private slots:
         QVERIFY(!layers.isBusy());
         QVERIFY(!layers.readingAt(Viewport::Point{20.0, 210.0}));
         m_window->showStates();
-        QVERIFY(settleLayers(*m_window));
+        QVERIFY(settle(m_window->workbench().layers()));
         QVERIFY(layers.readingAt(Viewport::Point{20.0, 210.0})); // watched with the states
     }
 };

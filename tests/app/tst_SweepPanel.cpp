@@ -1,16 +1,14 @@
-#include "app/MainWindow.h"
 #include "app/SweepForm.h"
 #include "app/SweepPanel.h"
+#include "app/openWindow.h"
 #include "widgets/ChartPlot.h"
 
 #include <qwt_plot.h>
 
 #include <QPushButton>
-#include <QSignalSpy>
-#include <QTemporaryDir>
-#include <QTest>
 
 using namespace faintline;
+using namespace faintline::test;
 
 /// A sweep in the window: it grows, can be cancelled, and a click takes a value.
 class tst_SweepPanel : public QObject
@@ -19,33 +17,24 @@ class tst_SweepPanel : public QObject
 
     QTemporaryDir m_folder;
 
-    static void openAndSettle(MainWindow &window, const QString &path)
+    void openLine(MainWindow &window)
     {
-        QSignalSpy settled(&window.controller(), &AnalysisController::settled);
-        window.open(path, {}, [](AnalysisSettings &settings) {
+        const QString scene = writeFile(
+            m_folder, "scene.json",
+            R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "lines": [{"snrDb": 5, "frequencyHz": 90}]})");
+        QVERIFY(openAndSettle(window, scene, [](AnalysisSettings &settings) {
             settings.spectrogram.windowSeconds = 0.5;
             settings.model.lowestSlope = settings.model.highestSlope = 0;
             settings.model.slopeChange = {1.0};
-        });
-        QVERIFY(settled.wait(60000));
-    }
-
-    QString scene()
-    {
-        QFile file(m_folder.filePath("scene.json"));
-        if (file.open(QIODevice::WriteOnly))
-            file.write(R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 60, "lines": [{"snrDb": 5, "frequencyHz": 90}]})");
-        return file.fileName();
+        }));
     }
 
 private slots:
     void aClickTakesTheValue()
     {
-        MainWindow window;
-        window.setAsking(false);
-        window.resize(1400, 900);
-        window.show();
-        openAndSettle(window, scene());
+        const auto own = newWindow();
+        MainWindow &window = *own;
+        openLine(window);
         window.showSweep();
         SweepPanel &panel = window.sweep();
         panel.form().setParameter("decide.thresholdNats");
@@ -76,7 +65,7 @@ private slots:
         MainWindow window;
         window.setAsking(false);
         window.show();
-        openAndSettle(window, scene());
+        openLine(window);
         SweepPanel &panel = window.sweep();
         panel.form().setRange(5.0, 15.0, 3, false);
         panel.form().setLines(3.0, 10.0, 5000);

@@ -1,24 +1,15 @@
 // The ladder under the cursor: its terms add up to what the picture shows, and its sentence says which way it went.
 
-#include "app/MainWindow.h"
 #include "app/WhyPanel.h"
+#include "app/openWindow.h"
 #include "widgets/ChartPlot.h"
 
-#include <QFile>
-#include <QSignalSpy>
 #include <QTableWidget>
-#include <QTemporaryDir>
-#include <QTest>
 
 #include <memory>
 
 using namespace faintline;
-
-namespace {
-
-constexpr int patience = 120000; // ms
-
-} // namespace
+using namespace faintline::test;
 
 class tst_WhyPanel : public QObject
 {
@@ -48,18 +39,10 @@ private:
 void tst_WhyPanel::initTestCase()
 {
     Theme::apply(Theme::Kind::Light);
-    QFile scene(m_folder.filePath("scene.json"));
-    QVERIFY(scene.open(QIODevice::WriteOnly));
-    scene.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+    const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 6, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 120}]})");
-    scene.close();
-    m_window = std::make_unique<MainWindow>();
-    m_window->setAsking(false);
-    m_window->resize(1400, 900);
-    m_window->show();
-    QSignalSpy settled(&m_window->controller(), &AnalysisController::settled);
-    m_window->open(scene.fileName());
-    QVERIFY(settled.wait(patience));
+    m_window = newWindow();
+    QVERIFY(openAndSettle(*m_window, scene));
     QTest::keyClick(m_window.get(), Qt::Key_W);
     QVERIFY(m_window->why().isVisible());
 }

@@ -2,27 +2,21 @@
 
 #include "app/EquationSheet.h"
 #include "app/KeysOverlay.h"
-#include "app/MainWindow.h"
+#include "app/WindowViews.h"
 #include "app/Workbench.h"
 #include "app/currentView.h"
 #include "app/equations.h"
 #include "app/keySections.h"
+#include "app/openWindow.h"
 #include "detect/makeDetector.h"
 #include "widgets/EventTable.h"
 #include "widgets/ExceedancePlot.h"
 #include "widgets/StripPlot.h"
 
-#include <QTest>
-
 #include <memory>
 
 using namespace faintline;
-
-namespace {
-
-constexpr int patience = 120000; // ms
-
-} // namespace
+using namespace faintline::test;
 
 class tst_equations : public QObject
 {
@@ -36,7 +30,7 @@ private slots:
 
 void tst_equations::everyViewHasOne()
 {
-    for (const QString &view : MainWindow::viewNames()) {
+    for (const QString &view : WindowViews::names()) {
         if (view == "window")
             continue;
         const Equation *equation = equationOf(view);
@@ -66,10 +60,8 @@ void tst_equations::everyViewHasItsKeys()
 void tst_equations::theOneOfTheViewComesUp()
 {
     Theme::apply(Theme::Kind::Light);
-    MainWindow window;
-    window.setAsking(false);
-    window.resize(1400, 900);
-    window.show();
+    const auto own = newWindow();
+    MainWindow &window = *own;
     auto *sheet = window.findChild<EquationSheet *>();
     QVERIFY(currentView(window).isEmpty());
     QTest::keyClick(&window, Qt::Key_F1, Qt::ShiftModifier);

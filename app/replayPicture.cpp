@@ -1,0 +1,122 @@
+#include "app/replayPicture.h"
+
+#include "app/MainWindow.h"
+#include "app/Provenance.h"
+#include "app/SequentialPanel.h"
+#include "app/TrajectoryPage.h"
+#include "app/renderCommand.h"
+#include "app/settleViews.h"
+#include "base/AtomicFile.h"
+#include "base/json.h"
+
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QImageReader>
+#include <QTemporaryDir>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace faintline {
+
+double scaleOf(const std::string &picture)
+{
+    const QString text = QImageReader(QString::fromStdString(picture)).text(pictureProvenanceKey());
+    const Json provenance = Json::parse(text.toStdString(), nullptr, false);
+    const Json::json_pointer place("/render/scale");
+    const bool tells = provenance.is_object() && provenance.contains(place) && provenance[place].is_number();
+    return tells ? std::clamp(provenance[place].get<double>(), 1.0, 4.0) : 1.0;
+}
+
+namespace {
+
+    /// A chart's numbers of a test on a radar's scans.
+    void replayChart(const ReplayOptions &options)
+    {
+        const Json provenance = readJsonFile(options.picture + ".provenance.json");
+        try {
+            if (!provenance.contains("chart") || provenance.contains("recording"))
+                throw Error(options.picture, "is no chart of a test on a radar's scans; faintline-cli replay makes other tables again");
+            ScanTest test;
+            readFields(provenance.at("sequential"), ScanTest::fields(), test, "sequential");
+            checkScanTest(test);
+            MainWindow window;
+            window.setAsking(false);
+            window.show();
+            testAndSettle(window, [&] { window.openScans(test); });
+            testAndSettle(window, [&] { window.sequentialTests().select(provenance.at("walk").get<int>()); });
+            testAndSettle(window, [&] { window.sequentialTests().setStage(provenance.at("stage").get<Index>()); });
+            window.sequential().trajectory().showAxis(provenance.at("axis").get<int>());
+            const auto &views = window.sequential().views();
+            const auto view = std::find_if(views.begin(), views.end(), [name = provenance.at("chart").get<std::string>()](const auto &one) {
+                return one.title.toStdString() == name;
+            });
+            if (view == views.end())
+                throw Error(options.picture, "is of a chart that this version does not have");
+            QFile kept(QString::fromStdString(options.picture));
+            if (!kept.open(QIODevice::ReadOnly))
+                throw Error(options.picture, "cannot be read: " + kept.errorString().toStdString());
+            const bool isSame = kept.readAll().toStdString() == view->csv();
+            std::printf("%s: %s\n", qPrintable(QFileInfo(kept).fileName()), isSame ? "the same bytes" : "differs");
+            if (!isSame)
+                throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+        } catch (const Json::exception &error) {
+            throw Error(options.picture, std::string("has a provenance that is broken: ") + error.what());
+        }
+    }
+
+} // namespace
+
+void replay(const ReplayOptions &options)
+{
+    const QString path = QString::fromStdString(options.picture);
+    if (path.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive))
+        return replayChart(options);
+    QImageReader reader(path);
+    const QImage kept = reader.read();
+    if (kept.isNull())
+        throw Error(options.picture, "is no picture that can be read: " + reader.errorString().toStdString());
+    const QString text = kept.text(pictureProvenanceKey());
+    if (text.isEmpty())
+        throw Error(options.picture, "tells nothing of what it was made from");
+    const Json provenance = parseJson(text.toStdString(), options.picture);
+    try {
+        if (!provenance.contains("recording") || !provenance.contains("render") || provenance["render"].contains("step"))
+            throw Error(options.picture,
+                        "is of the whole window, of a radar's scans, or of a lesson: what it tells does not suffice to make it again");
+        const QTemporaryDir folder;
+        Json session = provenance;
+        Json &source = session["recording"];
+        if (source.contains("path")) {
+            const QFileInfo beside(QFileInfo(path).absoluteDir().filePath(QString::fromStdString(source["path"].get<std::string>())));
+            const QString recording = options.recording.empty() ? beside.absoluteFilePath()
+                                                                : QFileInfo(QString::fromStdString(options.recording)).absoluteFilePath();
+            if (!QFileInfo::exists(recording))
+                throw Error(recording.toStdString(),
+                            "is what " + options.picture + " was made from, and is not there; --recording says where it is");
+            if (recordingHash(recording.toStdString()) != source["sha256"].get<std::string>())
+                throw Error(recording.toStdString(), "is not what " + options.picture + " was made from");
+            source["path"] = recording.toStdString();
+        }
+        session.erase("render");
+        session.erase("version");
+        RenderOptions again = renderOptionsFromJson(provenance["render"]);
+        if (again.size != (kept.size() / again.scale))
+            throw Error(options.picture, "tells of another size than it has");
+        again.source = folder.filePath(QStringLiteral("picture.faintline")).toStdString();
+        again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
+        writeTextFile(again.source, session.dump(2) + "\n");
+        render(again);
+        const std::string remade = pictureName(again, provenance["render"].at("view").get<std::string>());
+        const bool isSame = QImage(QString::fromStdString(remade)).convertToFormat(QImage::Format_RGB32)
+                            == kept.convertToFormat(QImage::Format_RGB32);
+        std::printf("%s: %s\n", qPrintable(QFileInfo(path).fileName()), isSame ? "the same pixels" : "differs");
+        if (!isSame)
+            throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+    } catch (const Json::exception &error) {
+        throw Error(options.picture, std::string("tells of its making in a broken way: ") + error.what());
+    }
+}
+
+} // namespace faintline

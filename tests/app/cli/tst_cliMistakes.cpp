@@ -1,0 +1,142 @@
+#include "app/cli/CommandLineTest.h"
+
+#include <QtTest>
+
+#include <csignal>
+
+#include <sys/resource.h>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// What goes wrong is said in one line, and nothing half-written is left.
+class tst_cliMistakes : public CommandLineTest
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { simulateLine(); }
+
+    void mistakes_data();
+    void mistakes();
+    void fullDiskIsAFailure();
+    void interruptLeavesNothing_data();
+    void interruptLeavesNothing();
+};
+
+void tst_cliMistakes::mistakes_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<QString>("message");
+    const auto row = [](const char *name, const QStringList &arguments, const char *message) {
+        QTest::newRow(name) << arguments << QString::fromUtf8(message);
+    };
+    row("nothing asked", {}, "command line: A subcommand is required");
+    row("no such command", {"dtect"}, "command line: ");
+    row("no such option", {"detect", "line.wav", "--summery"}, "command line: The following argument was not expected: --summery");
+    row("no number", {"detect", "line.wav", "--summary", "--from", "soon"}, "command line: Could not convert: --from = soon");
+    row("no threads", {"--threads", "0", "describe"}, "command line: --threads");
+    row("no such file", {"info", "none.wav"}, "none.wav: there is no such file");
+    row("a folder", {"info", "."}, ".: is a folder");
+    row("a text", {"info", "truth.json"}, "");
+    row("unknown setting", {"describe", "smd.k"}, "smd.k: is no setting; the nearest is smd.lnK");
+    row("misspelt setting", {"detect", "line.wav", "--summary", "--set", "smd.thresold=3"}, "smd.thresold: is no setting; the nearest is ");
+    row("no assignment", {"detect", "line.wav", "--summary", "--set", "smd.lnK"}, "--set smd.lnK: must be name=value");
+    row("setting out of range", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=-1"},
+        "spectrogram.windowSeconds = -1: must lie in 0 … 1e+06 s");
+    row("setting that is no number", {"detect", "line.wav", "--summary", "--set", "smd.lnK=nan"},
+        "smd.lnK = nan: must lie in -100 … 100 nat");
+    row("settings that disagree", {"detect", "line.wav", "--summary", "--set", "model.slopeChange=0.5"},
+        "model.slopeChange = 0.5: h(0) + 2·");
+    row("slopes upside down", {"detect", "line.wav", "--summary", "--set", "model.lowestSlope=3"},
+        "model.lowestSlope = 3: must not exceed");
+    row("no output", {"detect", "line.wav"}, "detect: says nothing without at least one of --events");
+    row("comparison without a recording", {"compare"}, "command line: FILE is required");
+    row("comparison in another format", {"compare", "line.wav", "--events", "e.txt"},
+        "e.txt: the kind of file is told by its extension: .csv");
+    row("comparison with a misspelt setting", {"compare", "line.wav", "--set-b", "smd.thresold=3"}, "smd.thresold: is no setting");
+    row("no input", {"detect", "--summary"}, "detect: needs a recording, or --frames");
+    row("two inputs", {"detect", "line.wav", "--frames", "y.npy", "--summary"}, "detect: takes a recording or --frames, not both");
+    row("unknown kind of events", {"detect", "line.wav", "--events", "e.xml"}, "e.xml: the kind of file is told by its extension");
+    row("unknown kind of tracks", {"detect", "line.wav", "--tracks", "t.txt"}, "t.txt: the kind of file is told by its extension");
+    row("no such folder", {"detect", "line.wav", "--statistic", "no/D.npy"}, "no/D.npy: cannot be written: No such file or directory");
+    row("channel", {"detect", "line.wav", "--summary", "--channel", "1"}, "selection.channel = 1: the recording has 1 channel(s)");
+    row("negative channel", {"detect", "line.wav", "--summary", "--channel", "-1"}, "command line: --channel");
+    row("one channel as I/Q", {"detect", "line.wav", "--summary", "--iq"}, "line.wav: has 1 channel(s), but I/Q needs them in pairs");
+    row("behind the end", {"detect", "line.wav", "--summary", "--from", "31"}, "selection.fromSeconds = 31: must lie before");
+    row("before the beginning", {"detect", "line.wav", "--summary", "--from", "-1"}, "selection.fromSeconds = -1: must lie in 0");
+    row("band upside down", {"detect", "line.wav", "--summary", "--low", "50", "--high", "20"}, "selection.lowHz = 50: must not lie above");
+    row("band that is no number", {"detect", "line.wav", "--summary", "--low", "nan"}, "selection.lowHz = nan: must lie in");
+    row("longer than the recording", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=31"},
+        "shorter than one window of 31 s");
+    row("unknown preset", {"detect", "line.wav", "--summary", "--preset", "x"}, "preset x: is not known; there are lines, billon");
+    row("no session", {"detect", "line.wav", "--summary", "--session", "line.wav"}, "line.wav: is not valid JSON");
+    row("no scene", {"simulate", "line.wav", "--out", "x.wav"}, "line.wav: is not valid JSON");
+    row("no kind of recording", {"simulate", "scene.json", "--out", "x.xyz"}, "x.xyz: has no extension that says what to write");
+    row("negative seed", {"simulate", "scene.json", "--out", "x.wav", "--seed", "-1"}, "command line: --seed");
+    row("no model", {"statistic", "--frames", "none.npy", "--model", "m.json", "--out", "x.npy"}, "none.npy: cannot be opened");
+}
+
+void tst_cliMistakes::mistakes()
+{
+    QFETCH(QStringList, arguments);
+    QFETCH(QString, message);
+    const Outcome told = run(arguments);
+    QCOMPARE(told.code, 2);
+    QCOMPARE(told.out, QByteArray());
+    QVERIFY2(told.err.startsWith("error: ") && told.err.endsWith('\n') && told.err.count('\n') == 1, told.err.data());
+    QVERIFY2(QString::fromUtf8(told.err).contains(message), told.err.data());
+    QVERIFY2(told.err.size() < 500, told.err.data());
+    for (const char *name : {"e.xml", "t.txt", "x.wav", "x.xyz", "x.npy"})
+        QVERIFY2(!QFile::exists(path(name)), name);
+    QVERIFY(QDir(folder()).entryList({"*.part"}, QDir::Files | QDir::Hidden).isEmpty());
+}
+
+void tst_cliMistakes::fullDiskIsAFailure()
+{
+    // No file may grow beyond 1000 bytes: what a full disk does, the machine's fault and not the user's.
+    for (const QString name : {"full.wav", "full.caf", "full.flac", "full.sigmf-meta"}) {
+        const Outcome told = run({"simulate", "scene.json", "--out", name}, [] {
+            std::signal(SIGXFSZ, SIG_IGN);
+            const rlimit limit{1000, 1000};
+            setrlimit(RLIMIT_FSIZE, &limit);
+        });
+        QVERIFY2(told.code == 1, told.err.data());
+        QVERIFY2(told.err.startsWith("error: full") && told.err.count('\n') == 1, told.err.data());
+    }
+    QVERIFY(QDir(folder()).entryList({"full*"}, QDir::Files | QDir::Hidden).isEmpty());
+}
+
+void tst_cliMistakes::interruptLeavesNothing_data()
+{
+    QTest::addColumn<QStringList>("arguments");
+    QTest::addColumn<int>("signal");
+    QTest::newRow("simulate") << QStringList{"simulate", "endless.json", "--out", "endless.w64"} << SIGINT;
+    QTest::newRow("detect") << QStringList{"detect", "endless.json", "--statistic", "endless.npy", "--events", "endless.csv"} << SIGINT;
+    QTest::newRow("terminated") << QStringList{"detect", "endless.json", "--statistic", "endless.npy"} << SIGTERM;
+}
+
+void tst_cliMistakes::interruptLeavesNothing()
+{
+    QFETCH(QStringList, arguments);
+    QFETCH(int, signal);
+    // A day of noise: more than any machine makes before it is told to stop.
+    writeBytes(pathOf("endless.json"), R"({"sampleRateHz": 8000, "durationSeconds": 86400})");
+    QProcess process;
+    process.setWorkingDirectory(folder());
+    process.start(program, arguments);
+    QVERIFY(process.waitForStarted(patience));
+    const auto halfWritten = [&] { return QDir(folder()).entryList({"endless*.part", ".endless*"}, QDir::Files | QDir::Hidden); };
+    QTRY_VERIFY_WITH_TIMEOUT(!halfWritten().isEmpty() || process.state() == QProcess::NotRunning, patience);
+    QVERIFY2(process.state() == QProcess::Running, process.readAllStandardError().data());
+    QCOMPARE(::kill(static_cast<pid_t>(process.processId()), signal), 0);
+    QVERIFY(process.waitForFinished(patience));
+    QCOMPARE(process.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(process.exitCode(), 1);
+    QCOMPARE(process.readAllStandardError(), QByteArray("error: interrupted: nothing half-written is left\n"));
+    QCOMPARE(process.readAllStandardOutput(), QByteArray());
+    QCOMPARE(QDir(folder()).entryList({"endless*", ".endless*"}, QDir::Files | QDir::Hidden), QStringList{"endless.json"});
+}
+
+QTEST_GUILESS_MAIN(tst_cliMistakes)
+#include "tst_cliMistakes.moc"

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "app/MainWindow.h"
+
+#include <QFile>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <memory>
+
+namespace faintline::test {
+
+/// How tests of the window begin: a small scene, a window nobody has to answer, and patience.
+
+constexpr int patience = 120'000; ///< ms, for a machine that is busy with other things
+
+/// A file with that text; its path.
+inline QString writeFile(const QTemporaryDir &folder, const QString &name, const QByteArray &text)
+{
+    QFile file(folder.filePath(name));
+    if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size())
+        qFatal("cannot write a test file");
+    return file.fileName();
+}
+
+/// A window that is seen and asks nothing.
+inline std::unique_ptr<MainWindow> newWindow(QSize size = {1400, 900}, std::unique_ptr<QSettings> memory = {},
+                                             const QString &recoveryFolder = {})
+{
+    auto window = std::make_unique<MainWindow>(std::move(memory), recoveryFolder);
+    window->setAsking(false);
+    window->resize(size);
+    window->show();
+    return window;
+}
+
+/// Waits until a part of the window that is busy now has settled.
+template <class Part>
+bool settle(Part &part)
+{
+    QSignalSpy settled(&part, &Part::settled);
+    return !part.isBusy() || settled.wait(patience);
+}
+
+inline bool settle(MainWindow &window)
+{
+    return settle(window.controller());
+}
+
+inline bool openAndSettle(MainWindow &window, const QString &path, const AnalysisController::Adjust &adjust = {})
+{
+    window.open(path, {}, adjust);
+    return settle(window);
+}
+
+} // namespace faintline::test
