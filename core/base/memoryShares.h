@@ -15,9 +15,9 @@ namespace faintline {
 /// keeps states keeps some pings' where that is more than its share (`orSome`).
 namespace memoryShares {
 
-inline constexpr std::size_t documentBytes = std::size_t(432) << 20;
+inline constexpr std::size_t mebibyte = std::size_t(1) << 20;
+inline constexpr std::size_t documentBytes = 432 * mebibyte;
 
-inline constexpr std::size_t mebibyte = documentBytes / 432;
 inline constexpr std::size_t picture = 64 * mebibyte;       ///< of the input, and as much of the statistic; 1.33 a cell
 inline constexpr std::size_t background = 64 * mebibyte;    ///< of the noise; twice while it is estimated, before the pictures are there
 inline constexpr std::size_t checkpoints = 32 * mebibyte;   ///< of the chain, kept of a run for whoever goes through a part of it again
