@@ -24,6 +24,7 @@ private slots:
 
     void sortsByValueNotByText();
     void aNarrowPanelShowsWhereAndHowSure();
+    void numbersAreNotCutShort();
     void filters();
     void nextAndPreviousGoRound();
     void selectionSurvivesNewEvents();
@@ -71,6 +72,19 @@ void tst_EventTable::aNarrowPanelShowsWhereAndHowSure()
         QVERIFY2(right <= table.viewport()->width(),
                  qPrintable(QStringLiteral("%1: %2 of %3").arg(column).arg(right).arg(table.viewport()->width())));
     }
+}
+
+void tst_EventTable::numbersAreNotCutShort()
+{
+    m_table->setEvents({test::event(1, 5.0, 20.0, 20150.25, 31.0), test::event(2, 40000.0, 90000.0, -23999.5, 123456.7)});
+    const QTableView &table = *m_table->table();
+    for (int row = 0; row < 2; ++row)
+        for (int column = 0; column <= EventModel::Drift; ++column) {
+            const QModelIndex index = table.model()->index(row, column);
+            if (!table.isColumnHidden(column))
+                QVERIFY2(table.fontMetrics().horizontalAdvance(index.data().toString()) + 6 <= table.columnWidth(column),
+                         qPrintable(index.data().toString()));
+        }
 }
 
 void tst_EventTable::filters()
