@@ -133,6 +133,11 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     });
     connect(&document.viewport(), &Viewport::spanChanged, this, &StateSlicePanel::takeFrequencies);
     connect(&m_viewport, &Viewport::spanChanged, this, &StateSlicePanel::giveFrequencies);
+    // Whether the view gets its size before its picture or after must make no difference.
+    connect(m_view, &WaterfallView::histogramChanged, this, [this] {
+        if (m_cut && !m_isShowing && m_view->range() == m_givenRange)
+            chooseRange();
+    });
     connect(&document, &Document::shownEventsChanged, this, &StateSlicePanel::placeMarks);
     connect(m_tabs, &QTabBar::currentChanged, this, &StateSlicePanel::layOut);
     connect(m_law, &LawPanel::lawRequested, this, &StateSlicePanel::lawRequested);
@@ -339,13 +344,8 @@ void StateSlicePanel::show(const Cut &cut)
     const bool isOurRange = m_view->isRangeAutomatic() || m_view->range() == m_givenRange;
     m_view->setPicture(cut.picture, columns);
     m_view->updateLayout(); // its axes may have come just now
-    if (isOurRange) {
-        // A followed target's states stand far above the threshold; its hill is what there is to see. Of lines, that under the cursor:
-        // a carrier elsewhere may have gathered a hundred times as much.
-        m_view->setAutomaticRange();
-        m_view->setRange(m_view->range().low, std::max(m_view->range().high, isOfLines() ? scoreAtCursor(cut) : cut.best));
-        m_givenRange = m_view->range();
-    }
+    if (isOurRange)
+        chooseRange();
 
     placeMarks();
     m_sentence->setText(isOfLines() ? tr("Frame %1 at %2: %3")
@@ -354,6 +354,15 @@ void StateSlicePanel::show(const Cut &cut)
                                                            m_document.analysis()->time().step),
                                                bestWords(cut))
                                     : tr("Ping %1: %2; at most %3 nat").arg(cut.frame + 1).arg(otherWords(cut), numberText(cut.best, 1)));
+}
+
+/// A followed target's states stand far above the threshold; its hill is what there is to see. Of lines, that under the cursor: a carrier
+/// elsewhere may have gathered a hundred times as much.
+void StateSlicePanel::chooseRange()
+{
+    m_view->setAutomaticRange();
+    m_view->setRange(m_view->range().low, std::max(m_view->range().high, isOfLines() ? scoreAtCursor(*m_cut) : m_cut->best));
+    m_givenRange = m_view->range();
 }
 
 /// Where the axes that are not shown stand.

@@ -82,6 +82,7 @@ private:
     void placeMarks();
     QString bestWords(const Cut &cut) const;
     double scoreAtCursor(const Cut &cut) const;
+    void chooseRange();
     QString otherWords(const Cut &cut) const;
     void layOut();
     void fillAxes();

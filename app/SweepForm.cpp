@@ -2,7 +2,6 @@
 
 #include "base/Error.h"
 #include "widgets/Theme.h"
-#include "widgets/quantities.h"
 #include "widgets/settingWords.h"
 
 #include <QCheckBox>

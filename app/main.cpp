@@ -5,6 +5,7 @@
 #include "app/comparePictures.h"
 #include "app/renderCommand.h"
 #include "app/replayPicture.h"
+#include "widgets/icon.h"
 
 #include <CLI/CLI.hpp>
 
@@ -194,6 +195,7 @@ namespace {
         QApplication application(argc, argv);
         QApplication::setApplicationName(QStringLiteral("faintline"));
         QApplication::setApplicationDisplayName(QStringLiteral("Faintline"));
+        QApplication::setWindowIcon(programIcon());
         Theme::apply(WindowMemory(WindowMemory::programStore()).theme());
 
         std::vector<std::unique_ptr<MainWindow>> windows;

@@ -2,7 +2,6 @@
 
 #include "widgets/EventModel.h"
 #include "widgets/EventProxy.h"
-#include "widgets/Theme.h"
 
 #include <QHBoxLayout>
 #include <QHeaderView>

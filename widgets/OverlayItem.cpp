@@ -1,6 +1,5 @@
 #include "widgets/OverlayItem.h"
 
-#include "widgets/quantities.h"
 
 #include <qwt_scale_map.h>
 

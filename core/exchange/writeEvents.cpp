@@ -2,7 +2,6 @@
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
-#include "spectrum/NoiseNormaliser.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include "analysis/explain.h"
 
-#include "analysis/chain.h"
 #include "base/Error.h"
 #include "spectrum/SimulatedPings.h"
 

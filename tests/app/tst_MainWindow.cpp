@@ -1,6 +1,5 @@
 // The window from outside: what a person does, and what is to be seen then.
 
-#include "app/ActivityBar.h"
 #include "app/KeysOverlay.h"
 #include "app/MessageBar.h"
 #include "app/ScenarioCard.h"
@@ -112,7 +111,8 @@ private slots:
             });
         });
         QTemporaryDir folder;
-        const QString path = writeFile(folder, "long.json", R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
+        const QString path =
+            writeFile(folder, "long.json", R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
         QVERIFY(openAndSettle(window, path));
         QVERIFY(!window.document().analysis());
         QVERIFY(says("Stopped"));
@@ -384,7 +384,7 @@ private slots:
         auto window = this->window();
         QVERIFY(openAndSettle(*window, m_scene));
         const auto before = window->document().analysis();
-        window->controller().edit("model.snr", 3.0, "Change the SNR");
+        window->controller().edit("model.snr", 2.0, "Change the SNR"); // as above: one calibration less
         QVERIFY(window->controller().isBusy());
         QTest::keyClick(window.get(), Qt::Key_Escape);
         QVERIFY(!window->controller().isBusy());
@@ -512,14 +512,14 @@ private slots:
         QVERIFY(clock.elapsed() < 20000);
     }
 
-    void twoHundredEditsInTheWindowUndoneAreWhatTheyWere()
+    void aHundredEditsInTheWindowUndoneAreWhatTheyWere()
     {
         auto window = this->window();
         QVERIFY(openAndSettle(*window, m_scene));
         std::mt19937 random(9);
         const std::vector<QString> names{"model.snr", "noise.blockWindows", "decide.thresholdNats",
                                          "spectrogram.windowSeconds"};
-        for (int i = 0; i < 200; ++i) {
+        for (int i = 0; i < 100; ++i) {
             window->controller().edit(names[random() % names.size()], 0.25 + 0.01 * static_cast<double>(random() % 100),
                                       "Change");
             if (i % 7 == 0)

@@ -1,6 +1,5 @@
 // Measuring in the window with keys and mouse: a box's area SNR, sidebands in both pictures, the peak.
 
-#include "app/CommandPalette.h"
 #include "app/Workbench.h"
 #include "app/openWindow.h"
 #include "widgets/WaterfallView.h"

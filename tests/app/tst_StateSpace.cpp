@@ -118,6 +118,26 @@ private slots:
         QCOMPARE(viewport.cursor()->seconds, seconds);
     }
 
+    void theRangeIsThatOfTheCanvasAsItIs()
+    {
+        m_window->showStates();
+        QVERIFY(settle(m_window->states()));
+        const WaterfallView &view = *m_window->states().view();
+        const Span large = view.range();
+        m_window->resize(1100, 800);
+        QCoreApplication::processEvents();
+        const Span small = view.range();
+        QVERIFY(!(small == large));
+        // As if the picture had come only now.
+        Viewport &viewport = m_window->document().viewport();
+        const Viewport::Point cursor = *viewport.cursor();
+        for (const double seconds : {cursor.seconds + 1.0, cursor.seconds}) {
+            viewport.setCursor({seconds, cursor.hz});
+            QVERIFY(settle(m_window->states()));
+        }
+        QCOMPARE(view.range(), small);
+    }
+
     void frequenciesAreTheWaterfalls()
     {
         m_window->showStates();

@@ -1,6 +1,5 @@
 #include "evaluate/campaignCharts.h"
 
-#include "base/logmath.h"
 #include "evaluate/peers.h"
 #include "evaluate/theory.h"
 

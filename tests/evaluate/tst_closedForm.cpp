@@ -1,6 +1,5 @@
 #include "evaluate/boxExceedance.h"
 #include "evaluate/closedForm.h"
-#include "evaluate/theory.h"
 
 #include <QtTest>
 

@@ -1,5 +1,4 @@
 #include "base/Error.h"
-#include "base/logmath.h"
 #include "recording/ScanScene.h"
 
 #include <QtTest>
