@@ -14,14 +14,16 @@
 #include "app/ReportWriter.h"
 #include "app/SequentialPanel.h"
 #include "app/SequentialTests.h"
+#include "app/Session.h"
 #include "app/StateSlicePanel.h"
 #include "app/SweepForm.h"
 #include "app/SweepPanel.h"
 #include "app/WhyPanel.h"
 #include "app/Workbench.h"
+#include "app/readPicture.h"
 #include "app/scanScenario.h"
 #include "base/AtomicFile.h"
-#include "base/json.h"
+#include "base/readingJson.h"
 #include "recording/openRecording.h"
 #include "widgets/PingMap.h"
 
@@ -31,7 +33,6 @@
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
-#include <QImageReader>
 #include <QPixmap>
 #include <QTemporaryDir>
 
@@ -501,10 +502,14 @@ void render(const RenderOptions &options)
     }
 }
 
-double scaleOf(const std::string &picture)
+bool isChart(const ReplayOptions &options)
 {
-    const QString text = QImageReader(QString::fromStdString(picture)).text(pictureProvenanceKey());
-    const Json provenance = Json::parse(text.toStdString(), nullptr, false);
+    return QString::fromStdString(options.picture).endsWith(QLatin1String(".csv"), Qt::CaseInsensitive);
+}
+
+double scaleOf(const QImage &picture)
+{
+    const Json provenance = Json::parse(picture.text(pictureProvenanceKey()).toStdString(), nullptr, false);
     const Json::json_pointer place("/render/scale");
     const bool tells = provenance.is_object() && provenance.contains(place) && provenance[place].is_number();
     return tells ? std::clamp(provenance[place].get<double>(), 1.0, 4.0) : 1.0;
@@ -543,7 +548,7 @@ namespace {
             if (!isSame)
                 throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
         } catch (const Json::exception &error) {
-            throw Error(options.picture, std::string("has a provenance that is broken: ") + error.what());
+            throw Error(options.picture, "has a provenance that is broken: " + complaint(error));
         }
     }
 
@@ -552,12 +557,9 @@ namespace {
 void replay(const ReplayOptions &options)
 {
     const QString path = QString::fromStdString(options.picture);
-    if (path.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive))
+    if (isChart(options))
         return replayChart(options);
-    QImageReader reader(path);
-    const QImage kept = reader.read();
-    if (kept.isNull())
-        throw Error(options.picture, "is no picture that can be read: " + reader.errorString().toStdString());
+    const QImage kept = readPicture(path);
     const QString text = kept.text(pictureProvenanceKey());
     if (text.isEmpty())
         throw Error(options.picture, "tells nothing of what it was made from");
@@ -588,6 +590,11 @@ void replay(const ReplayOptions &options)
         again.source = folder.filePath(QStringLiteral("picture.faintline")).toStdString();
         again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
         writeTextFile(again.source, session.dump(2) + "\n");
+        try {
+            readSession(QString::fromStdString(again.source));
+        } catch (const Error &error) { // of a file of which nobody knows
+            throw Error(options.picture, "tells of its making in a broken way: " + std::string(error.what()).substr(again.source.size() + 2));
+        }
         render(again);
         const std::string remade = fileName(again, provenance["render"].at("view").get<std::string>());
         const bool isSame = QImage(QString::fromStdString(remade)).convertToFormat(QImage::Format_RGB32)
@@ -596,14 +603,16 @@ void replay(const ReplayOptions &options)
         if (!isSame)
             throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
     } catch (const Json::exception &error) {
-        throw Error(options.picture, std::string("tells of its making in a broken way: ") + error.what());
+        throw Error(options.picture, "tells of its making in a broken way: " + complaint(error));
     }
 }
 
 void report(const RenderOptions &options)
 {
-    if (isScanScenario(QString::fromStdString(options.source)))
-        throw Error(options.source, "is a radar's scenario; a report is of a recording, of pings, or of a session");
+    const QString source = QString::fromStdString(options.source);
+    if (isScanScenario(source) || isLesson(source))
+        throw Error(options.source, std::string(isLesson(source) ? "is a lesson" : "is a radar's scenario")
+                                        + "; a report is of a recording, of pings, or of a session");
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
     window.setAsking(false);
