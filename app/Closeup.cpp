@@ -1,5 +1,6 @@
 #include "app/Closeup.h"
 
+#include "base/memoryShares.h"
 #include "widgets/WaterfallView.h"
 
 #include <QEvent>
@@ -9,7 +10,7 @@ namespace faintline {
 namespace {
 
     constexpr int pauseMs = 80;
-    constexpr std::size_t byteBudget = std::size_t(24) << 20; ///< of each of the two: more frames than a screen has rows
+    constexpr std::size_t byteBudget = memoryShares::closeup; ///< of each of the two: more frames than a screen has rows
 
 } // namespace
 

@@ -1,7 +1,7 @@
 #include "app/EventReviews.h"
 
 #include "analysis/judgeByBoxes.h"
-#include "exchange/annotationText.h"
+#include "base/oneLine.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeReviewed.h"
 #include "widgets/EventTable.h"

@@ -125,6 +125,13 @@ void LawPanel::show()
     sayWhatItMeans();
 }
 
+void LawPanel::showEvent(QShowEvent *event)
+{
+    QWidget::showEvent(event);
+    if (!m_isSaid)
+        sayWhatItMeans();
+}
+
 QString LawPanel::driftWords(const Analysis &analysis) const
 {
     QStringList drifts;
@@ -177,8 +184,12 @@ QString LawPanel::snrWords(const Analysis &analysis) const
         .arg(numberText(lnK, 2), words(kept), lines, words(changing));
 }
 
+/// Takes tens of milliseconds: of a panel in sight only.
 void LawPanel::sayWhatItMeans()
 {
+    m_isSaid = isVisible();
+    if (!m_isSaid)
+        return;
     const auto &analysis = m_document.analysis();
     if (!analysis || m_laws.empty() || !m_laws.front().plot)
         return m_sentence->clear();

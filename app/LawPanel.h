@@ -29,6 +29,9 @@ signals:
     /// A law was dragged: the setting of that name should be this.
     void lawRequested(const QString &field, const std::vector<double> &law);
 
+protected:
+    void showEvent(QShowEvent *event) override;
+
 private:
     /// A law of the settings, and the axes of the model that it moves.
     struct Law {
@@ -50,6 +53,7 @@ private:
     std::vector<Law> m_laws;
     QVBoxLayout *m_plots;
     QLabel *m_sentence;
+    bool m_isSaid = false; ///< what the laws as they are mean
 };
 
 } // namespace faintline

@@ -1,5 +1,6 @@
 #include "app/MessageBar.h"
 
+#include "base/oneLine.h"
 #include "widgets/Theme.h"
 
 #include <QHBoxLayout>
@@ -39,8 +40,9 @@ void MessageBar::showMessage(Kind kind, const QString &where, const QString &why
                              std::function<void()> action)
 {
     m_kind = kind;
-    m_label->setText(QStringLiteral("<b>%1:</b> %2").arg(where.toHtmlEscaped(), why.toHtmlEscaped()));
-    setAccessibleName(where + QStringLiteral(": ") + why);
+    const auto shown = [](const QString &text) { return QString::fromStdString(oneLine(text.toStdString(), longestMessage)); };
+    m_label->setText(QStringLiteral("<b>%1:</b> %2").arg(shown(where).toHtmlEscaped(), shown(why).toHtmlEscaped()));
+    setAccessibleName(shown(where) + QStringLiteral(": ") + shown(why));
     m_action = std::move(action);
     m_actionButton->setText(actionText);
     m_actionButton->setVisible(!actionText.isEmpty());

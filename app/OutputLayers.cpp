@@ -1,5 +1,6 @@
 #include "app/OutputLayers.h"
 
+#include "analysis/chain.h"
 #include "widgets/LayerItem.h"
 #include "widgets/PingMap.h"
 #include "widgets/PolarLayerItem.h"
@@ -242,13 +243,14 @@ void OutputLayers::compute()
     const LayerWindow wanted = isOfPing ? windowOfPing() : window();
     m_runner.start([this, analysis, cursor = cursor(), wantsPicture, isOfPing, wanted](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
-            m_replay = std::make_shared<LayerReplay>(analysis);
+            m_replay = std::make_shared<LayerReplay>(
+                analysis, memoryShares::orSome(memoryShares::layerReplay, 4 * bytesOfStates(*analysis)));
         Result result{analysis, {}, {}, cursor};
         if (wantsPicture)
             result.picture = std::make_shared<const LayerPicture>(isOfPing ? layerPictureOf(*m_replay, cursor->frame, wanted, context)
                                                                            : layerPicture(*m_replay, wanted, context));
         if (cursor)
-            result.atCursor = readCell(*analysis, m_replay->at(cursor->frame, context), cursor->cell);
+            result.atCursor = readCell(*analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell);
         return [this, result] {
             if (m_document.analysis() != result.analysis)
                 return;

@@ -2,6 +2,7 @@
 
 #include "widgets/Theme.h"
 
+#include <QAbstractScrollArea>
 #include <QEvent>
 #include <QPainter>
 
@@ -39,8 +40,11 @@ void PointerFrame::follow()
     setVisible(isThere);
     if (!isThere)
         return;
-    const QRect round(m_target->mapTo(parentWidget(), QPoint()), m_target->size());
-    setGeometry(round.adjusted(-room, -room, room, room).intersected(parentWidget()->rect()));
+    QRect round = QRect(m_target->mapTo(parentWidget(), QPoint()), m_target->size()).adjusted(-room, -room, room, room);
+    for (QWidget *around = m_target->parentWidget(); around && around != parentWidget(); around = around->parentWidget())
+        if (const auto *area = qobject_cast<QAbstractScrollArea *>(around)) // of a form that scrolls, no more than is in sight
+            round &= QRect(area->viewport()->mapTo(parentWidget(), QPoint()), area->viewport()->size());
+    setGeometry(round.intersected(parentWidget()->rect()));
     raise();
 }
 

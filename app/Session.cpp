@@ -1,7 +1,7 @@
 #include "app/Session.h"
 
 #include "base/AtomicFile.h"
-#include "base/json.h"
+#include "base/readingJson.h"
 
 #include <QDir>
 #include <QFileInfo>
@@ -182,7 +182,7 @@ Session readSession(const QString &path)
     } catch (const Error &error) {
         throw Error(where + ": " + error.where(), error.why());
     } catch (const Json::exception &error) {
-        throw Error(where, std::string("is no session of this program: ") + error.what());
+        throw Error(where, "is no session of this program: " + complaint(error));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "app/StateSlicePanel.h"
 
+#include "analysis/chain.h"
 #include "app/LawPanel.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/ColourBar.h"
@@ -273,7 +274,8 @@ void StateSlicePanel::update()
         slice = {static_cast<std::size_t>(m_rows->currentIndex()), static_cast<std::size_t>(m_columns->currentIndex()), {}};
     m_runner.start([this, analysis, at = *at, isBest, model, slice](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
-            m_replay = std::make_shared<StateReplay>(analysis);
+            m_replay = std::make_shared<StateReplay>(
+                analysis, memoryShares::orSome(memoryShares::stateReplay, 8 * bytesOfStates(*analysis)));
         const auto states = m_replay->at(analysis->time().nearest(at.seconds), model, context);
         if (states->values.empty())
             throw Error("state space", "this detector has no states; the sequential Markov detector has");

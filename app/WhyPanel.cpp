@@ -148,8 +148,9 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
     makeReadingTable(*m_ladder, 20);
     m_ladder->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    m_ladder->horizontalHeader()->setResizeContentsPrecision(0); // of what is in sight
-    m_ladder->horizontalHeader()->setStretchLastSection(true);
+    m_ladder->horizontalHeader()->setResizeContentsPrecision(200); // rows
+    m_ladder->setTextElideMode(Qt::ElideNone);
+    m_ladder->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_ladder->setAccessibleName(tr("The best path, newest step first"));
     auto *splitter = new QSplitter(Qt::Vertical);
     splitter->addWidget(m_plot);
@@ -169,7 +170,8 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     connect(&viewports, &PingViewports::placeChanged, this, &WhyPanel::follow);
     connect(&document, &Document::analysisChanged, this, &WhyPanel::follow);
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
-        if (m_document.hasPings()) // of millions of states it takes seconds
+        constexpr qint64 longMs = 300;
+        if (m_began.elapsed() > longMs) // of millions of states, or far into a long recording, it takes seconds
             m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
     });
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
@@ -230,6 +232,7 @@ void WhyPanel::explainCursor()
     const PingViewports::Place place = m_viewports.place();
     const double seconds = isLines ? cursor->seconds : place.seconds;
     const std::vector<double> position = isLines ? std::vector<double>{cursor->hz} : std::vector<double>{place.range, place.bearing};
+    m_began.start();
     m_runner.start([this, analysis, seconds, position](const RunContext &context) -> JobRunner::Delivery {
         auto explanation = explain(*analysis, seconds, position, context);
         return [this, analysis, explanation = std::move(explanation)] { show(explanation, *analysis); };

@@ -3,6 +3,7 @@
 #include "analysis/explain.h"
 #include "app/JobRunner.h"
 
+#include <QElapsedTimer>
 #include <QWidget>
 
 #include <optional>
@@ -57,6 +58,7 @@ private:
     ChartPlot *m_plot;
     QTableWidget *m_ladder;
     QTimer *m_pause; ///< a cursor on its way is not asked about
+    QElapsedTimer m_began;
     JobRunner m_runner; ///< last, so that its jobs end first
 };
 

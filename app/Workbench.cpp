@@ -195,6 +195,7 @@ void Workbench::showAnalysis()
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.back();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
+    m_statistic->setEmptySentence(tr("Click in a picture: D at that frequency, along time, appears here."));
 
     followExtents(analysis.time(), frequency);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account

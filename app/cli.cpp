@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 
 #include "base/Error.h"
+#include "base/oneLine.h"
 
 #include <CLI/CLI.hpp>
 
@@ -42,7 +43,7 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
 
 int complain(const std::string &message, int code)
 {
-    std::fprintf(stderr, "error: %s\n", message.c_str());
+    std::fprintf(stderr, "error: %s\n", faintline::oneLine(message, faintline::longestMessage).c_str());
     return code;
 }
 
@@ -70,10 +71,7 @@ int main(int argc, char **argv)
     } catch (const CLI::ParseError &error) {
         if (error.get_exit_code() == 0)
             return app.exit(error); // --help, --version
-        std::string message = error.what();
-        for (char &c : message)
-            c = c == '\n' ? ' ' : c;
-        return complain("command line: " + message, 2);
+        return complain(std::string("command line: ") + error.what(), 2);
     } catch (const faintline::Error &error) {
         return complain(error.what(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);
     } catch (const faintline::Cancelled &) {

@@ -1,5 +1,6 @@
 #include "app/comparePictures.h"
 
+#include "app/readPicture.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "widgets/ColourMap.h"
@@ -8,7 +9,6 @@
 #include <QDir>
 #include <QDirIterator>
 #include <QFile>
-#include <QImageReader>
 #include <QMap>
 #include <QPainter>
 #include <QUrl>
@@ -116,15 +116,6 @@ namespace {
     }
 
     // ---- files -------------------------------------------------------------------------------------------------------
-
-    QImage readPicture(const QString &path)
-    {
-        QImageReader reader(path, "png");
-        const QImage image = reader.read();
-        if (image.isNull())
-            throw Error(path.toStdString(), "cannot be read as PNG: " + reader.errorString().toStdString());
-        return image;
-    }
 
     void writePicture(const QImage &image, const QString &path)
     {

@@ -3,15 +3,16 @@
 #include "app/MainWindow.h"
 #include "app/Recovery.h"
 #include "app/comparePictures.h"
+#include "app/readPicture.h"
 #include "app/renderCommand.h"
 #include "app/replayPicture.h"
+#include "base/oneLine.h"
 #include "widgets/icon.h"
 
 #include <CLI/CLI.hpp>
 
 #include <QApplication>
 #include <QFile>
-#include <QImageReader>
 #include <QTemporaryFile>
 
 #include <algorithm>
@@ -23,11 +24,10 @@ namespace faintline {
 
 namespace {
 
-    /// One line, whatever a library had to say.
-    int fail(const std::string &where, std::string why, int exitCode)
+    /// One line, whatever a library or somebody's file had to say.
+    int fail(const std::string &where, const std::string &why, int exitCode)
     {
-        std::replace(why.begin(), why.end(), '\n', ' ');
-        std::fprintf(stderr, "error: %s: %s\n", where.c_str(), why.c_str());
+        std::fprintf(stderr, "error: %s\n", oneLine(where + ": " + why, longestMessage).c_str());
         return exitCode;
     }
 
@@ -170,13 +170,6 @@ namespace {
                 throw Error(name, "must be a finite number");
     }
 
-    /// Of a picture that is to be made again: its own size, as when it was made.
-    QSize screenFor(const std::string &picture)
-    {
-        const QSize size = QImageReader(QString::fromStdString(picture)).size();
-        return size.isValid() ? size : RenderOptions().size;
-    }
-
     /// Draws in a window nobody sees, of at most that size.
     template <class Options>
     int runRender(int argc, char *argv[], const Options &options, QSize size, double scale, void (*draw)(const Options &))
@@ -187,6 +180,16 @@ namespace {
         QApplication application(argc, argv);
         draw(options);
         return 0;
+    }
+
+    /// A picture is made again on a screen as when it was made.
+    int runReplay(int argc, char *argv[], const ReplayOptions &options)
+    {
+        if (isChart(options))
+            return runRender(argc, argv, options, RenderOptions().size, 1.0, replay);
+        qInstallMessageHandler(keepQuiet);
+        const QImage picture = readPicture(QString::fromStdString(options.picture));
+        return runRender(argc, argv, options, picture.size(), scaleOf(picture), replay);
     }
 
     int runWindow(int argc, char *argv[], const std::vector<std::string> &files, const OpenOptions &options)
@@ -241,7 +244,7 @@ namespace {
         if (reportCommand->parsed())
             return runRender(argc, argv, reporting, reporting.size, 1.0, report);
         if (replayCommand->parsed())
-            return runRender(argc, argv, replaying, screenFor(replaying.picture), scaleOf(replaying.picture), replay);
+            return runReplay(argc, argv, replaying);
         if (!renderCommand->parsed())
             return runWindow(argc, argv, files, opening);
         checkNumbers(rendering);

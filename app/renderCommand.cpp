@@ -307,8 +307,10 @@ void render(const RenderOptions &options)
 
 void report(const RenderOptions &options)
 {
-    if (isScanScenario(QString::fromStdString(options.source)))
-        throw Error(options.source, "is a radar's scenario; a report is of a recording, of pings, or of a session");
+    const QString source = QString::fromStdString(options.source);
+    if (isScanScenario(source) || isLesson(source))
+        throw Error(options.source, std::string(isLesson(source) ? "is a lesson" : "is a radar's scenario")
+                                        + "; a report is of a recording, of pings, or of a session");
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
     window.setAsking(false);

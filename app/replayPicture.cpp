@@ -3,16 +3,17 @@
 #include "app/MainWindow.h"
 #include "app/Provenance.h"
 #include "app/SequentialPanel.h"
+#include "app/Session.h"
 #include "app/TrajectoryPage.h"
+#include "app/readPicture.h"
 #include "app/renderCommand.h"
 #include "app/settleViews.h"
 #include "base/AtomicFile.h"
-#include "base/json.h"
+#include "base/readingJson.h"
 
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
-#include <QImageReader>
 #include <QTemporaryDir>
 
 #include <algorithm>
@@ -20,10 +21,14 @@
 
 namespace faintline {
 
-double scaleOf(const std::string &picture)
+bool isChart(const ReplayOptions &options)
 {
-    const QString text = QImageReader(QString::fromStdString(picture)).text(pictureProvenanceKey());
-    const Json provenance = Json::parse(text.toStdString(), nullptr, false);
+    return QString::fromStdString(options.picture).endsWith(QLatin1String(".csv"), Qt::CaseInsensitive);
+}
+
+double scaleOf(const QImage &picture)
+{
+    const Json provenance = Json::parse(picture.text(pictureProvenanceKey()).toStdString(), nullptr, false);
     const Json::json_pointer place("/render/scale");
     const bool tells = provenance.is_object() && provenance.contains(place) && provenance[place].is_number();
     return tells ? std::clamp(provenance[place].get<double>(), 1.0, 4.0) : 1.0;
@@ -62,7 +67,7 @@ namespace {
             if (!isSame)
                 throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
         } catch (const Json::exception &error) {
-            throw Error(options.picture, std::string("has a provenance that is broken: ") + error.what());
+            throw Error(options.picture, "has a provenance that is broken: " + complaint(error));
         }
     }
 
@@ -71,12 +76,9 @@ namespace {
 void replay(const ReplayOptions &options)
 {
     const QString path = QString::fromStdString(options.picture);
-    if (path.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive))
+    if (isChart(options))
         return replayChart(options);
-    QImageReader reader(path);
-    const QImage kept = reader.read();
-    if (kept.isNull())
-        throw Error(options.picture, "is no picture that can be read: " + reader.errorString().toStdString());
+    const QImage kept = readPicture(path);
     const QString text = kept.text(pictureProvenanceKey());
     if (text.isEmpty())
         throw Error(options.picture, "tells nothing of what it was made from");
@@ -107,6 +109,11 @@ void replay(const ReplayOptions &options)
         again.source = folder.filePath(QStringLiteral("picture.faintline")).toStdString();
         again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
         writeTextFile(again.source, session.dump(2) + "\n");
+        try {
+            readSession(QString::fromStdString(again.source));
+        } catch (const Error &error) { // of a file of which nobody knows
+            throw Error(options.picture, "tells of its making in a broken way: " + std::string(error.what()).substr(again.source.size() + 2));
+        }
         render(again);
         const std::string remade = pictureName(again, provenance["render"].at("view").get<std::string>());
         const bool isSame = QImage(QString::fromStdString(remade)).convertToFormat(QImage::Format_RGB32)
@@ -115,7 +122,7 @@ void replay(const ReplayOptions &options)
         if (!isSame)
             throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
     } catch (const Json::exception &error) {
-        throw Error(options.picture, std::string("tells of its making in a broken way: ") + error.what());
+        throw Error(options.picture, "tells of its making in a broken way: " + complaint(error));
     }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <QImage>
+
 #include <string>
 
 namespace faintline {
@@ -10,8 +12,11 @@ struct ReplayOptions {
     std::string recording; ///< where the recording is; empty: beside the picture
 };
 
+/// Whether it is the latter.
+bool isChart(const ReplayOptions &options);
+
 /// Device pixels per pixel that a picture says it was made with, else 1: Qt wants to know before its application begins.
-double scaleOf(const std::string &picture);
+double scaleOf(const QImage &picture);
 
 /// Compares pixels, or bytes; prints whether they are the same. Throws Error where they are not, or where it cannot be made again.
 void replay(const ReplayOptions &options);

@@ -422,7 +422,9 @@ void ChartPlot::placeKey()
     m_keyArea->setMinimumSize(isBelow ? 0 : widest, isBelow ? heightBelow : 0);
     m_keyArea->setMaximumSize(isBelow ? QWIDGETSIZE_MAX : widest, isBelow ? heightBelow : QWIDGETSIZE_MAX);
     const bool isNameless = m_chart.curves.size() == 1 && m_chart.curves.front().name.empty(); // the only one
-    m_keyArea->setVisible(!m_boxes.empty() && !isNameless);
+    constexpr int leastBeside = 170; // px: the curves are worth more than their names, which the read-out tells
+    const bool hasRoom = isBelow || width() - widest >= leastBeside;
+    m_keyArea->setVisible(!m_boxes.empty() && !isNameless && hasRoom);
 }
 
 void ChartPlot::resizeEvent(QResizeEvent *event)

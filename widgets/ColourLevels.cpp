@@ -18,9 +18,9 @@ bool ColourLevels::count(const PeakPyramid &picture, double framesPerPixel, doub
     return true;
 }
 
-Span ColourLevels::suggested(const ByteScale &scale) const
+Span ColourLevels::suggested(const ByteScale &scale, std::optional<double> threshold) const
 {
-    return m_histogram.empty() ? m_range : automaticRange(scale, m_histogram);
+    return m_histogram.empty() ? m_range : automaticRange(scale, m_histogram, threshold);
 }
 
 Span ColourLevels::byHand(double low, double high, const ByteScale *scale) const

@@ -3,6 +3,7 @@
 #include "spectrum/PeakPyramid.h"
 #include "widgets/Span.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,8 +28,8 @@ public:
     void countAgain() { m_key = {-1, 0}; } ///< next time, as the picture is another
     void clearHistogram() { m_histogram.clear(); }
 
-    /// Noise dark, what stands out of it bright; the range as it is where nothing was counted.
-    Span suggested(const ByteScale &scale) const;
+    /// `automaticRange` of the pixels counted; the range as it is where none were.
+    Span suggested(const ByteScale &scale, std::optional<double> threshold) const;
     /// Levels moved by hand: at least ½ apart. Of differences zero stays in the middle of the colours; the end that was moved takes the
     /// other one along.
     Span byHand(double low, double high, const ByteScale *scale) const;

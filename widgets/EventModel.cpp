@@ -105,8 +105,11 @@ int EventModel::columnCount(const QModelIndex &parent) const
 QString EventModel::text(const Event &event, int column) const
 {
     switch (column) {
-    case Id:
-        return QString::number(event.id);
+    case Id: { // in sight however narrow the panel, unlike the review's own column
+        const Verdict verdict = review(event).verdict;
+        const QString mark = verdict == Verdict::Accepted ? QStringLiteral("✓ ") : verdict == Verdict::Rejected ? QStringLiteral("× ") : QString();
+        return mark + QString::number(event.id);
+    }
     case Onset:
         return secondsText(event.onsetSeconds, 0.1);
     case Detection:
@@ -176,24 +179,24 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         return QVariant::fromValue(alignmentOf(section));
     const auto unit = [this](std::size_t axis) { return QString::fromStdString(m_axes[axis].unit); };
     const QString names[] = {tr("№"),
-                             tr("Onset"),
-                             tr("Detected"),
-                             tr("End"),
                              hasBearing() ? tr("Range (%1)").arg(unit(0)) : tr("f (Hz)"),
                              hasBearing() ? tr("Bearing (%1)").arg(unit(1)) : tr("Bearing"),
-                             hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
+                             tr("Onset"),
                              tr("D (%1)").arg(m_statisticUnit),
+                             tr("Detected"),
+                             tr("End"),
+                             hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
                              tr("State"),
                              tr("Review"),
                              tr("Note")};
     const QString tips[] = {tr("Number, in order of detection"),
-                            tr("Where the detecting path was last reset, from the first sample"),
-                            tr("Where the statistic first exceeded the threshold"),
-                            tr("Last frame with evidence"),
                             hasBearing() ? tr("Range at detection") : tr("Frequency at detection"),
                             tr("Bearing at detection"),
-                            tr("Straight-line slope of the track"),
+                            tr("Where the detecting path was last reset, from the first sample"),
                             tr("Largest statistic"),
+                            tr("Where the statistic first exceeded the threshold"),
+                            tr("Last frame with evidence"),
+                            tr("Straight-line slope of the track"),
                             tr("Confirmed or tentative; open where the data ended first"),
                             tr("Accepted or rejected: Y, X, and U to take it back; part of another event's signal"),
                             tr("What you have to say about it: E writes")};

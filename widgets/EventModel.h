@@ -16,7 +16,8 @@ class EventModel : public QAbstractTableModel
     Q_OBJECT
 
 public:
-    enum Column { Id, Onset, Detection, End, Frequency, Bearing, Drift, Statistic, State, Judged, Note, ColumnCount };
+    /// In a narrow panel only the first ones are in sight: where, since when, how sure.
+    enum Column { Id, Frequency, Bearing, Onset, Statistic, Detection, End, Drift, State, Judged, Note, ColumnCount };
     static constexpr int SortRole = Qt::UserRole;
 
     using QAbstractTableModel::QAbstractTableModel;

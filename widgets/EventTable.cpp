@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QStackedLayout>
+#include <QStyle>
 #include <QTableView>
 #include <QVBoxLayout>
 
@@ -91,8 +92,30 @@ void EventTable::setEvents(const std::vector<Event> &events)
     m_model->setEvents(events);
     if (isFirst && !events.empty())
         m_table->resizeColumnsToContents();
+    widenColumns();
     setSelectedEvent(selected);
     updateCount();
+}
+
+/// Numbers are never cut short, be it another recording's: as wide as the least and the largest of each column are.
+void EventTable::widenColumns()
+{
+    const int rows = m_model->rowCount();
+    const int room = 2 * (style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, m_table) + 1) + 2;
+    for (int column = EventModel::Id; rows > 0 && column <= EventModel::Drift; ++column) {
+        const auto value = [&](int row) { return m_model->index(row, column).data(EventModel::SortRole).toDouble(); };
+        int least = 0;
+        int most = 0;
+        for (int row = 1; row < rows; ++row) {
+            least = value(row) < value(least) ? row : least;
+            most = value(row) > value(most) ? row : most;
+        }
+        for (const int row : {least, most}) {
+            const int width = m_table->fontMetrics().horizontalAdvance(m_model->index(row, column).data().toString()) + room;
+            if (!m_table->isColumnHidden(column) && width > m_table->columnWidth(column))
+                m_table->setColumnWidth(column, width);
+        }
+    }
 }
 
 void EventTable::setReviews(const std::vector<EventReview> &reviews)

@@ -64,6 +64,7 @@ private:
     void activate(int proxyRow);
     void applyFilter(const QString &text);
     void updateCount();
+    void widenColumns();
 
     EventModel *m_model;
     EventProxy *m_proxy;

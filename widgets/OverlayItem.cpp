@@ -79,7 +79,7 @@ struct OverlayItem::Canvas {
 
     /// Small text of one or more lines on a dark plate, kept on the canvas.
     void label(const QPointF &corner, const QString &text, const QColor &colour,
-               const QColor &plate = QColor(0, 0, 0, 165), const QFont &font = Theme::plotFont()) const
+               const QColor &plate = QColor(0, 0, 0, 205), const QFont &font = Theme::plotFont()) const
     {
         painter.setFont(font);
         const QFontMetricsF metrics(painter.font());

@@ -306,7 +306,7 @@ void WaterfallView::countHistogram()
 
 Span WaterfallView::automaticRange() const
 {
-    return m_picture ? m_levels.suggested(m_picture->scale()) : range();
+    return m_picture ? m_levels.suggested(m_picture->scale(), m_threshold) : range();
 }
 
 void WaterfallView::applyRange(const Span &range)

@@ -235,7 +235,7 @@ BoxValues boxValues(const PeakPyramid &picture, Index beginFrame, Index endFrame
     return values;
 }
 
-Span automaticRange(const ByteScale &scale, const std::vector<double> &counts)
+Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, std::optional<double> threshold)
 {
     if (scale.kind() == ByteScale::Kind::DifferenceNats)
         return rangeOfDifferences(scale, counts);
@@ -247,7 +247,12 @@ Span automaticRange(const ByteScale &scale, const std::vector<double> &counts)
     }
     // The noise's tail is exponential, so a multiple of the upper quartile's distance is a false-alarm probability.
     const double tail = std::max(quantile(scale, counts, 0.75) - middle, 0.25);
-    return {middle, middle + std::clamp(25.0 * tail, 10.0, 200.0)};
+    const double height = std::clamp(25.0 * tail, 10.0, 200.0);
+    if (!threshold || *threshold <= 0.0)
+        return {middle, middle + height};
+    constexpr double mostThresholds = 5.0; // above the black level: what just exceeds the threshold has a fifth of the colours below it
+    const double low = std::min(middle, 0.5 * *threshold);
+    return {low, std::max(std::min(middle + height, low + mostThresholds * (*threshold - low)), low + 10.0)};
 }
 
 } // namespace faintline

@@ -48,8 +48,9 @@ int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow
 std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel);
 
 /// Black and white level suggested by such counts: dB from somewhat under the noise's middle to 10 … 16 dB above it;
-/// nats from the noise's middle to where only a detection gets; differences as far to either side of zero.
-Span automaticRange(const ByteScale &scale, const std::vector<double> &counts);
+/// nats from the noise's middle to where only a detection gets; differences as far to either side of zero. Where lines fill a band its
+/// middle is no longer the noise's: with a threshold given, what barely exceeds it keeps a colour of its own.
+Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, std::optional<double> threshold = {});
 
 /// What a box of whole cells holds.
 struct BoxValues {

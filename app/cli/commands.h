@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
+#include "base/Error.h"
 #include "base/RunContext.h"
 #include "recording/openRecording.h"
 #include "spectrum/SimulatedPings.h"
@@ -44,6 +45,7 @@ struct AnalysisOptions {
     void addTo(CLI::App &command);
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
+    std::vector<std::string> inputs() const; ///< the files that it all comes from; a SigMF recording is two
 };
 
 void addInfo(CLI::App &app, Common &common);
@@ -70,5 +72,19 @@ std::shared_ptr<const SimulatedPings> openPings(const std::string &path);
 
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);
+
+/// Throws where one of these files cannot be written, before anything is computed that would be lost. Empty names are none.
+void checkOutputs(const std::vector<std::string> &paths);
+
+/// What `make` finds wrong in a file is said with the file's name before it.
+template <class Make>
+auto inFile(const std::string &path, const Make &make)
+{
+    try {
+        return make();
+    } catch (const Error &error) {
+        throw Error(path + ": " + error.where(), error.why(), error.kind());
+    }
+}
 
 } // namespace faintline::cli

@@ -1,6 +1,8 @@
 #include "app/cli/commands.h"
 
+#include "base/AtomicFile.h"
 #include "base/json.h"
+#include "recording/SigmfRecording.h"
 #include "recording/SimulatedRecording.h"
 
 #include <CLI/CLI.hpp>
@@ -88,12 +90,26 @@ RecordingPointer AnalysisOptions::recording() const
     return openAny(file, open);
 }
 
+std::vector<std::string> AnalysisOptions::inputs() const
+{
+    if (open.rawType.empty() && SigmfRecording::isNamedSo(file))
+        return {SigmfRecording::metaPath(file), SigmfRecording::dataPath(file), session};
+    return {file, session};
+}
+
+void checkOutputs(const std::vector<std::string> &paths)
+{
+    for (const std::string &path : paths)
+        if (!path.empty())
+            const AtomicFile probe(path); // goes without a trace
+}
+
 std::shared_ptr<const SimulatedPings> openPings(const std::string &path)
 {
     if (!path.ends_with(".json"))
         return nullptr;
     const Json json = readJsonFile(path);
-    return isPingScene(json) ? std::make_shared<SimulatedPings>(pingSceneFromJson(json)) : nullptr;
+    return isPingScene(json) ? inFile(path, [&] { return std::make_shared<SimulatedPings>(pingSceneFromJson(json)); }) : nullptr;
 }
 
 RecordingPointer openAny(const std::string &path, const OpenOptions &options)
@@ -103,7 +119,7 @@ RecordingPointer openAny(const std::string &path, const OpenOptions &options)
         const Json json = readJsonFile(path);
         if (isPingScene(json))
             throw Error(path, "is a scene of sonar pings, not a recording; 'detect', 'simulate' and 'info' take it");
-        return std::make_shared<SimulatedRecording>(lineSceneFromJson(json));
+        return inFile(path, [&] { return std::make_shared<SimulatedRecording>(lineSceneFromJson(json)); });
     }
     return openRecording(path, options);
 }

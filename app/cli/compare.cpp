@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -80,6 +81,10 @@ namespace {
     {
         if (!options.events.empty())
             checkComparisonPath(options.events);
+        checkOutputs({options.events, options.difference});
+        for (const auto &[name, value] : {std::pair{"--cells", options.tolerance.cells}, std::pair{"--frames", options.tolerance.frames}})
+            if (std::isnan(value)) // which lies in every range
+                throw Error(name, "must be a number");
         const AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
         const AnalysisSettings settingsB = settingsOf(options.common, options.presetB, options.setB);
         const RunContext context = common.context();
@@ -102,7 +107,7 @@ namespace {
                 throw Error("--difference", "is of lines over time; pings have no such picture");
             writeDifference(*difference, options.difference);
         }
-        writeProvenance(common, {options.common.file, options.common.session}, {options.events, options.difference});
+        writeProvenance(common, options.common.inputs(), {options.events, options.difference});
         printSide("A", *a);
         printSide("B", *b);
         printDifferences(settingsA, settingsB);

@@ -145,6 +145,7 @@ namespace {
             checkTracksPath(options.tracks);
         if (!options.conventional.empty())
             checkEventsPath(options.conventional);
+        checkOutputs({options.events, options.tracks, options.statistic, options.conventional});
         if (!options.frames.empty() && !options.analysis.file.empty())
             throw Error("detect", "takes a recording or --frames, not both");
         const RunContext context = common.context();
@@ -194,9 +195,9 @@ namespace {
             writeEvents(conventionally(*analysis), options.conventional);
         if (writer)
             writer->finish();
-        writeProvenance(common,
-                        {options.analysis.file, options.frames, options.grid, options.model, options.analysis.session, options.annotations},
-                        {options.events, options.tracks, options.statistic, options.conventional});
+        std::vector<std::string> inputs = options.analysis.inputs();
+        inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
+        writeProvenance(common, inputs, {options.events, options.tracks, options.statistic, options.conventional});
         if (options.summary)
             printSummary(*analysis);
         if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)
@@ -281,6 +282,7 @@ namespace {
 
     void statistic(const StatisticOptions &options, const Common &common)
     {
+        checkOutputs({options.out, options.projected, options.log});
         const NormalisedFramesPointer frames = readFrames(options.frames, "");
         const ModelFile file = readModelFile(options.model);
         const StateSpace &space = file.model.space;

@@ -110,11 +110,13 @@ void addEvaluate(CLI::App &app, Common &common)
         if (options->files.front() == "merge") {
             if (options->files.size() < 2 || options->out.empty())
                 throw Error("evaluate merge", "needs shards and --out");
+            checkOutputs({options->out});
             mergeFiles({options->files.begin() + 1, options->files.end()}, options->out);
             return;
         }
         if (options->files.size() > 1)
             throw Error("evaluate " + options->files[1], "one experiment at a time; to put shards together: evaluate merge SHARD…");
+        checkOutputs({options->out, options->chart});
         Experiment experiment = experimentFromJson(readJsonFile(options->files.front()), options->files.front());
         if (options->seed >= 0)
             setSeed(experiment, options->seed);
@@ -156,7 +158,10 @@ void addMerge(CLI::App &app, Common &)
     CLI::App *command = app.add_subcommand("merge", "Put the shards of an experiment together: the same bytes as without shards");
     command->add_option("SHARD", options->shards, "Shards, in any order")->required();
     command->add_option("--out", options->out, "Curve to write, .csv")->required();
-    command->callback([options] { mergeFiles(options->shards, options->out); });
+    command->callback([options] {
+        checkOutputs({options->out});
+        mergeFiles(options->shards, options->out);
+    });
 }
 
 } // namespace faintline::cli

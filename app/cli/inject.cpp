@@ -42,6 +42,9 @@ void addInject(CLI::App &app, Common &common)
     command->add_option("--out", options->out, "Recording to write")->required();
     command->add_option("--truth", options->truth, "Write the truth, .json");
     command->callback([options, &common] {
+        if (!(options->line.referenceSeconds >= 0.0))
+            throw Error("--reference " + formatNumber(options->line.referenceSeconds), "must be above 0 s");
+        checkOutputs({options->out, options->truth});
         const RecordingPointer recording = options->analysis.recording();
         const AnalysisSettings settings = options->analysis.settings();
         options->line.fading = options->fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
@@ -50,7 +53,7 @@ void addInject(CLI::App &app, Common &common)
         writeRecording(made, options->out, options->type == "int16" ? WrittenType::Int16 : WrittenType::Float32, common.context().part(0.3, 1.0));
         if (!options->truth.empty())
             writeTextFile(options->truth, toJson(made.truth()).dump(2) + "\n");
-        writeProvenance(common, {options->analysis.file, options->analysis.session}, {options->out, options->truth});
+        writeProvenance(common, options->analysis.inputs(), {options->out, options->truth});
     });
 }
 

@@ -5,7 +5,7 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/json.h"
-#include "recording/openRecording.h"
+#include "recording/fileHash.h"
 
 #include <CLI/CLI.hpp>
 
@@ -150,7 +150,7 @@ namespace {
             throw Error(provenance.folder.string(), "is the folder it was made in, and is not there any more");
         fs::current_path(provenance.folder);
         for (const auto &[file, hash] : provenance.inputs)
-            if (!fs::exists(file) || recordingHash(file) != hash)
+            if (!fs::exists(file) || fileHash(file) != hash)
                 throw Error(file, "is not what " + result + " was made from");
         Common quiet = common;
         quiet.keepsProvenance = false;
@@ -170,13 +170,14 @@ namespace {
 
 void writeProvenance(const Common &common, const std::vector<std::string> &inputs, const std::vector<std::string> &outputs)
 {
-    if (!common.keepsProvenance)
+    const auto isLost = [](const std::string &input) { return !input.empty() && !fs::is_regular_file(input); };
+    if (!common.keepsProvenance || std::any_of(inputs.begin(), inputs.end(), isLost)) // what came through a pipe is not there again
         return;
     Json json = {{"faintline", FAINTLINE_VERSION}, {"folder", fs::current_path().string()}, {"arguments", common.arguments}};
     json["inputs"] = Json::array();
     for (const std::string &input : inputs)
         if (!input.empty())
-            json["inputs"].push_back({{"file", input}, {"hash", recordingHash(input)}});
+            json["inputs"].push_back({{"file", input}, {"hash", fileHash(input)}});
     json["outputs"] = Json::array();
     for (const std::string &output : outputs)
         if (!output.empty() && fs::is_regular_file(output)) // nothing is kept beside /dev/null

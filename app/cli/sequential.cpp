@@ -33,23 +33,12 @@ namespace {
         StageSource source;
     };
 
-    std::string cellsText(const std::vector<Index> &cells)
-    {
-        std::string text;
-        for (const Index n : cells)
-            text += (text.empty() ? "" : " × ") + std::to_string(n);
-        return text;
-    }
-
     Stages readyMade(const Options &options)
     {
         Stages stages;
-        stages.model = readSequentialModel(options.model);
         auto frames = std::make_shared<const DoubleFrames>(readDoubleFrames(options.frames));
-        const std::vector<Index> cells(frames->shape.begin() + 1, frames->shape.end());
-        if (cells != stages.model.reduction.axisCells())
-            throw Error(options.model, "has " + cellsText(stages.model.reduction.axisCells()) + " cells, but the frames of "
-                                           + options.frames + " have " + cellsText(cells));
+        const FrameCells cells{options.frames, {frames->shape.begin() + 1, frames->shape.end()}};
+        stages.model = readSequentialModel(options.model, &cells);
         stages.count = frames->shape.front();
         stages.source = [frames](Index stage, std::span<double> y) {
             std::copy_n(frames->values.begin() + stage * std::ssize(y), std::ssize(y), y.begin());
@@ -71,11 +60,9 @@ namespace {
             const MarkovModel line = makeModel(settings.model, frames->grid());
             stages.model = makeSequentialModel(line.space.axes(), {false}, line.likelihood);
         } else {
-            stages.model = readSequentialModel(options.model);
+            const FrameCells cells{options.analysis.file, {bins}};
+            stages.model = readSequentialModel(options.model, &cells);
         }
-        if (stages.model.reduction.axisCells() != std::vector<Index>{bins})
-            throw Error(options.model, "has " + cellsText(stages.model.reduction.axisCells()) + " cells, but the selection has "
-                                           + std::to_string(bins) + " frequency bins");
         stages.count = frames->time().count;
         stages.source = stagesOf(frames, 0, 0, bins);
         return stages;
@@ -99,6 +86,7 @@ namespace {
     void sequential(const Options &options, const Common &common)
     {
         checkSprt(options.sprt, "sequential");
+        checkOutputs({options.out});
         if (options.frames.empty() == options.analysis.file.empty())
             throw Error("sequential", "takes either a recording or --frames with ready-made frames");
         if (!options.frames.empty() && options.model.empty())

@@ -72,16 +72,17 @@ namespace {
 
     void simulate(const Options &options, const Common &common)
     {
+        checkOutputs({options.out, options.truth});
         const Json json = readJsonFile(options.scene);
         if (json.is_object() && json.value("kind", Json()) == "scans") {
-            simulateScans(scanSceneFromJson(json), options.seed, options.out, options.truth, common.context());
+            simulateScans(inFile(options.scene, [&] { return scanSceneFromJson(json); }), options.seed, options.out, options.truth, common.context());
             return;
         }
         if (isPingScene(json)) {
-            simulatePings(pingSceneFromJson(json), options.seed, options.out, options.truth, common.context());
+            simulatePings(inFile(options.scene, [&] { return pingSceneFromJson(json); }), options.seed, options.out, options.truth, common.context());
             return;
         }
-        LineScene scene = lineSceneFromJson(json);
+        LineScene scene = inFile(options.scene, [&] { return lineSceneFromJson(json); });
         if (options.seed >= 0)
             scene.seed = options.seed;
         const SimulatedRecording recording(scene);

@@ -2,6 +2,7 @@
 
 #include "analysis/Review.h"
 #include "analysis/analyse.h"
+#include "base/readingJson.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
 #include "exchange/writeReviewed.h"
@@ -117,7 +118,7 @@ void remakeWindowExport(const Json &provenance, const std::string &result, const
         if (provenance.contains("recording"))
             return remakeEvents(provenance, result, recording, out, context);
     } catch (const Json::exception &error) {
-        throw Error(result, std::string("has a provenance that is broken: ") + error.what());
+        throw Error(result, "has a provenance that is broken: " + complaint(error));
     }
     throw Error(result, "has a provenance that tells neither of a recording nor of an experiment");
 }

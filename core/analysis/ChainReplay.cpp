@@ -13,34 +13,33 @@ namespace {
 } // namespace
 
 ChainReplay::ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
-    : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)), m_y(static_cast<std::size_t>(m_analysis->grid().size())),
-      m_statistic(m_y.size())
+    : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)),
+      m_y(static_cast<std::size_t>(m_analysis->grid().size())), m_statistic(m_y.size())
 {
-    const std::size_t bytesOfStates = sizeof(float) * static_cast<std::size_t>(stateCount(*m_analysis));
-    const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / bytesOfStates));
-    m_interval = std::max(shortestInterval, (m_analysis->time().count + most - 1) / most);
+    const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / bytesOfStates(*m_analysis)));
+    const Index stretch = m_analysis->checkpoints.empty() ? m_analysis->time().count : m_analysis->checkpoints.front().frame;
+    m_interval = std::max(shortestInterval, (stretch + most - 1) / most);
 }
 
-void ChainReplay::takeCheckpointsOfRun()
+Index ChainReplay::beginningOf(Index frame) const
 {
-    for (const ChainCheckpoint &checkpoint : m_analysis->checkpoints)
-        m_checkpoints.emplace(checkpoint.frame, checkpoint.state);
+    const ChainCheckpoint *checkpoint = checkpointBefore(*m_analysis, frame);
+    return checkpoint ? checkpoint->frame : 0;
 }
 
 void ChainReplay::seek(Index frame)
 {
-    auto nearest = m_checkpoints.upper_bound(frame);
-    const bool hasOne = nearest != m_checkpoints.begin();
-    if (m_next <= frame && (!hasOne || std::prev(nearest)->first <= m_next))
+    const Index beginning = beginningOf(frame);
+    const auto after = m_checkpoints.upper_bound(frame);
+    const Index own = after == m_checkpoints.begin() ? 0 : std::prev(after)->first;
+    const Index nearest = std::max(beginning, own);
+    if (m_next >= nearest && m_next <= frame)
         return;
-    if (!hasOne) {
+    if (nearest == 0)
         m_chain = makeScoringChain(*m_analysis);
-        m_next = 0;
-        return;
-    }
-    --nearest;
-    m_chain->resume(*nearest->second);
-    m_next = nearest->first;
+    else
+        m_chain->resume(own == nearest ? *std::prev(after)->second : *checkpointBefore(*m_analysis, frame)->state);
+    m_next = nearest;
 }
 
 std::span<const float> ChainReplay::step()
@@ -48,7 +47,11 @@ std::span<const float> ChainReplay::step()
     m_analysis->frames->read(m_next, 1, m_y);
     m_chain->update(m_next, m_y, m_statistic);
     ++m_next;
-    if (m_next % m_interval == 0 && !m_checkpoints.contains(m_next))
+    if (const Index beginning = beginningOf(m_next); beginning != m_beginning) {
+        m_checkpoints.clear(); // of another stretch
+        m_beginning = beginning;
+    }
+    if (m_next % m_interval == 0 && m_next != m_beginning && !m_checkpoints.contains(m_next))
         if (auto checkpoint = m_chain->snapshot())
             m_checkpoints.emplace(m_next, std::move(checkpoint));
     return m_statistic;

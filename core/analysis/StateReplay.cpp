@@ -16,11 +16,11 @@ namespace {
 
 } // namespace
 
-StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget) : m_replay(std::move(analysis), byteBudget / 2)
+StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
+    : m_replay(std::move(analysis), byteBudget / 2)
 {
     const std::size_t frameBytes = sizeof(float) * static_cast<std::size_t>(this->analysis()->model.space.stateCount());
     m_mostKept = std::max<std::size_t>(1, byteBudget / 2 / frameBytes);
-    m_replay.takeCheckpointsOfRun(); // a state's score has nothing to do with how it came about
 }
 
 std::shared_ptr<const StateScores> StateReplay::at(Index frame, std::size_t model, const RunContext &context)

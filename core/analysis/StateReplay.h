@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/ChainReplay.h"
+#include "base/memoryShares.h"
 
 #include <cstddef>
 #include <deque>
@@ -20,13 +21,13 @@ struct StateScores {
 /// Looks into an analysis that kept no states: goes through its chain again up to the frame that is asked for.
 ///
 /// From a frame to a later one it goes on from where it stands; the latest frames are kept, so that a few steps back cost nothing;
-/// farther back it goes on from the checkpoint before, which costs an interval at most, and the first look from one of the run's
-/// (ChainReplay). Same bytes as in the run. Memory: one chain, and as many frames' states and as many checkpoints as go into half of
-/// 192 MiB each, at least one. Cost: the detector's per frame. One object per thread.
+/// elsewhere it goes on from the run's checkpoint before, or a nearer one of its own (ChainReplay). Same bytes as in the run. Memory: one
+/// chain, and as many frames' states and as many checkpoints as go into half of the budget each, at least one.
+/// Cost: the detector's per frame. One object per thread.
 class StateReplay
 {
 public:
-    explicit StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget = std::size_t(192) << 20);
+    explicit StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget = memoryShares::stateReplay);
 
     const std::shared_ptr<const Analysis> &analysis() const { return m_replay.analysis(); }
     Index interval() const { return m_replay.interval(); } ///< frames between checkpoints

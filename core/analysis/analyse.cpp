@@ -3,6 +3,7 @@
 #include "analysis/chain.h"
 #include "analysis/knownCalibration.h"
 #include "analysis/regulation.h"
+#include "base/memoryShares.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/glance.h"
 #include "spectrum/pictureCuts.h"
@@ -17,8 +18,6 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t blockBytes = std::size_t(1) << 20;
-    constexpr std::size_t pictureBytes = std::size_t(64) << 20; ///< of each of two: an hour at 48 kHz then takes less than 300 MiB
-    constexpr std::size_t checkpointBytes = std::size_t(32) << 20;
     constexpr Index shortestInterval = 64; ///< of checkpoints, in frames
 
     /// Reads blocks of frames one ahead of their use, on another thread if there is one to spare.
@@ -128,7 +127,7 @@ namespace {
     /// Frames between two checkpoints.
     Index checkpointInterval(const Analysis &analysis)
     {
-        const auto most = static_cast<Index>(checkpointBytes / (sizeof(float) * static_cast<std::size_t>(stateCount(analysis))));
+        const auto most = static_cast<Index>(memoryShares::checkpoints / bytesOfStates(analysis));
         const Index frames = analysis.time().count;
         return most > 0 ? std::max(shortestInterval, (frames + most - 1) / most) : std::max<Index>(frames, 1);
     }
@@ -147,9 +146,9 @@ namespace {
 
         std::shared_ptr<PeakPyramid> input;
         if (!analysis.input)
-            input = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::PowerDb), pictureBytes);
+            input = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::PowerDb), memoryShares::picture);
         const auto statistic =
-            std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
+            std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), memoryShares::picture);
         analysis.statisticCounts.assign(256, 0.0);
         const Index interval = checkpointInterval(analysis);
         std::vector<float> scores;

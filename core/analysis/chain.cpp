@@ -92,6 +92,11 @@ Index stateCount(const Analysis &analysis)
     return states;
 }
 
+std::size_t bytesOfStates(const Analysis &analysis)
+{
+    return sizeof(float) * static_cast<std::size_t>(stateCount(analysis));
+}
+
 std::unique_ptr<Detector> makeDetector(const Analysis &analysis)
 {
     const AnalysisSettings &settings = analysis.settings;
@@ -131,6 +136,13 @@ std::unique_ptr<DetectionChain> makeScoringChain(const Analysis &analysis)
 {
     constexpr bool looksBack = false;
     return makeChain(analysis, makeDetector(analysis), looksBack);
+}
+
+const ChainCheckpoint *checkpointBefore(const Analysis &analysis, Index frame)
+{
+    const auto after = std::upper_bound(analysis.checkpoints.begin(), analysis.checkpoints.end(), frame,
+                                        [](Index wanted, const ChainCheckpoint &checkpoint) { return wanted < checkpoint.frame; });
+    return after == analysis.checkpoints.begin() ? nullptr : &*std::prev(after);
 }
 
 } // namespace faintline

@@ -9,6 +9,8 @@ namespace faintline {
 
 /// States of its model, or of all models of its bank.
 Index stateCount(const Analysis &analysis);
+/// What the scores of all of them take.
+std::size_t bytesOfStates(const Analysis &analysis);
 
 /// The detection chain that an analysis's settings, model, calibration and threshold describe, at its first frame.
 std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis);
@@ -19,5 +21,8 @@ std::unique_ptr<DetectionChain> makeScoringChain(const Analysis &analysis);
 std::unique_ptr<Detector> makeDetector(const Analysis &analysis);
 /// `looksBack`: whether tracks are traced back to their onset, which who only counts them does not need.
 std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector, bool looksBack = true);
+
+/// The latest of the run's checkpoints before that frame is taken; null where it is nearer to begin anew.
+const ChainCheckpoint *checkpointBefore(const Analysis &analysis, Index frame);
 
 } // namespace faintline

@@ -76,12 +76,11 @@ std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, co
 {
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::ScoreNats, byteBudget));
     const std::unique_ptr<DetectionChain> chain = makeScoringChain(analysis);
-    FrameStretch way = stretch;
-    const auto after = std::upper_bound(analysis.checkpoints.begin(), analysis.checkpoints.end(), stretch.begin,
-                                        [](Index frame, const ChainCheckpoint &checkpoint) { return frame < checkpoint.frame; });
-    way.begin = after == analysis.checkpoints.begin() ? 0 : std::prev(after)->frame;
-    if (way.begin > 0)
-        chain->resume(*std::prev(after)->state);
+    FrameStretch way{0, stretch.end};
+    if (const ChainCheckpoint *checkpoint = checkpointBefore(analysis, stretch.begin)) {
+        chain->resume(*checkpoint->state);
+        way.begin = checkpoint->frame;
+    }
 
     const auto cells = static_cast<std::size_t>(analysis.grid().size());
     std::vector<float> statistic(cells);

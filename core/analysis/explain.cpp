@@ -13,15 +13,28 @@ namespace faintline {
 
 namespace {
 
-    /// The chain as it stands after the given frame. The statistic of that frame is left in `statistic`.
-    std::unique_ptr<DetectionChain> runTo(const Analysis &analysis, Index frame, std::vector<float> &statistic, const RunContext &context)
+    /// Puts a chain at the run's latest checkpoint before that frame, and answers which one it takes next.
+    Index resumeBefore(DetectionChain &chain, const Analysis &analysis, Index frame)
+    {
+        const ChainCheckpoint *checkpoint = checkpointBefore(analysis, frame);
+        if (!checkpoint)
+            return 0;
+        chain.resume(*checkpoint->state);
+        return checkpoint->frame;
+    }
+
+    /// The chain as it stands after the given frame, with all of its past that it would remember there, and of trackers what they know since
+    /// `begin`. The statistic of that frame is left in `statistic`.
+    std::unique_ptr<DetectionChain> runTo(const Analysis &analysis, Index begin, Index frame, std::vector<float> &statistic,
+                                          const RunContext &context)
     {
         auto chain = makeChain(analysis);
         std::vector<float> y(static_cast<std::size_t>(analysis.grid().size()));
         statistic.resize(y.size());
-        for (Index t = 0; t <= frame; ++t) {
+        const Index first = resumeBefore(*chain, analysis, std::min(begin, frame + 1 - chain->longestPath()));
+        for (Index t = first; t <= frame; ++t) {
             if (t % 64 == 0)
-                context.checkpoint(static_cast<double>(t) / static_cast<double>(frame + 1), "going through it again");
+                context.checkpoint(static_cast<double>(t - first) / static_cast<double>(frame + 1 - first), "going through it again");
             analysis.frames->read(t, 1, y);
             chain->update(t, y, statistic);
         }
@@ -42,9 +55,10 @@ namespace {
 
     /// The best path into a cell in the newest frame, by the tracker that follows the cell or by the detector.
     struct PathInto {
-        std::vector<PathStep> steps; ///< under a tracker: from the frame it was seeded in
+        std::vector<PathStep> steps; ///< under a tracker: from the frame it was seeded in, as far as it knows
         bool isTracked = false;
         std::size_t model = 0;
+        Index seedFrame = 0; ///< of the tracker
     };
 
     PathInto pathInto(const Analysis &analysis, const DetectionChain &chain, Index cell)
@@ -67,8 +81,8 @@ namespace {
             }
         }
         if (following)
-            return {following->explain(state), true, following->track().model};
-        return {chain.detectorPathInto(state, model), false, model};
+            return {following->explain(state), true, following->track().model, following->track().detectFrame};
+        return {chain.detectorPathInto(state, model), false, model, 0};
     }
 
     /// The chain frame by frame, and what the states it is about to go on from have: what no path can tell of its competitors.
@@ -84,6 +98,8 @@ namespace {
         /// Stands before that frame.
         void goTo(Index frame, const RunContext &context)
         {
+            if (m_next == 0)
+                m_next = resumeBefore(*m_chain, m_analysis, frame);
             for (; m_next < frame; ++m_next) {
                 if (m_next % 64 == 0)
                     context.checkpoint(static_cast<double>(m_next) / static_cast<double>(frame), "looking at what it beat");
@@ -205,8 +221,12 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     Analysis detailed = analysis;
     detailed.settings.track.smoothingFrames = static_cast<int>(std::min<Index>(frame + 1, 1 << 30));
     std::vector<float> statistic;
-    const auto chain = runTo(detailed, frame, statistic, context.part(0.0, 0.5));
-    const PathInto path = pathInto(detailed, *chain, cell);
+    auto chain = runTo(detailed, frame, frame, statistic, context.part(0.0, 0.3));
+    PathInto path = pathInto(detailed, *chain, cell);
+    if (path.isTracked && path.steps.front().frame > path.seedFrame) { // followed for longer than the chain has run
+        chain = runTo(detailed, path.seedFrame, frame, statistic, context.part(0.3, 0.5));
+        path = pathInto(detailed, *chain, cell);
+    }
 
     Explanation explanation;
     explanation.seconds = time.value(static_cast<double>(frame));
@@ -231,7 +251,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     if (path.isTracked) {
         // Before its tracker was seeded, the path is the detector's own.
         const PathStep seed = path.steps.front();
-        const auto before = runTo(detailed, seed.frame, statistic, context.part(0.5, 0.8));
+        const auto before = runTo(detailed, seed.frame, seed.frame, statistic, context.part(0.5, 0.8));
         explanation.steps = before->detectorPathInto(seed.state, path.model);
         ownSteps = explanation.steps.size();
         explanation.offset = offsetOf(detailed, *before, path.model);

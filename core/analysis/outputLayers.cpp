@@ -11,6 +11,8 @@ namespace faintline {
 namespace {
 
     constexpr float unreached = -std::numeric_limits<float>::infinity();
+    constexpr std::int32_t notKnown = 1 << 30; ///< an age: so many frames and those since it was said
+    constexpr Index ageOfSome = 512; ///< of noise's paths, of which most are reset after a few frames, the oldest of many
 
     /// Of a rate of one cell a frame along an axis.
     double rateUnit(const Analysis &analysis, std::size_t axis)
@@ -43,7 +45,8 @@ namespace {
 
 } // namespace
 
-LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget) : m_replay(std::move(analysis), byteBudget / 2)
+LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
+    : m_replay(std::move(analysis), byteBudget / 2)
 {
     for (std::size_t model = 0; model < modelCount(*this->analysis()); ++model) {
         m_models.push_back(modelOf(*this->analysis(), model));
@@ -59,18 +62,33 @@ LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t b
     m_layers.isInhibited.resize(cells);
 }
 
-const CellLayers &LayerReplay::at(Index frame, const RunContext &context)
+const CellLayers &LayerReplay::at(Index frame, const RunContext &context, const Cells &aged)
 {
     frame = std::clamp<Index>(frame, 0, analysis()->time().count - 1);
-    if (frame == m_now)
-        return m_layers;
-    seek(frame);
+    const Index lookback = aged.end - aged.begin > 1 ? ageOfSome : 0;
+    const bool isOnItsWay = m_now >= 0 && m_now < frame && frame - m_now < lookback;
+    if (frame != m_now)
+        walk(isOnItsWay ? m_replay.next() : std::max<Index>(0, frame - lookback), frame, context);
+    while (!knowsAges(aged))
+        walk(std::max<Index>(0, frame - 2 * (frame + 1 - m_ages.since)), frame, context);
+    return m_layers;
+}
+
+bool LayerReplay::knowsAges(const Cells &cells) const
+{
+    const auto begin = m_layers.age.begin() + std::min(cells.begin, std::ssize(m_layers.age));
+    const auto end = m_layers.age.begin() + std::min(cells.end, std::ssize(m_layers.age));
+    return m_ages.since == 0 || std::all_of(begin, end, [](std::int32_t age) { return age < notKnown; });
+}
+
+void LayerReplay::walk(Index begin, Index frame, const RunContext &context)
+{
+    seek(begin);
     const Index first = m_replay.next();
     while (m_replay.next() <= frame) {
         context.checkpoint(static_cast<double>(m_replay.next() - first) / static_cast<double>(frame + 1 - first), "following all paths");
         step();
     }
-    return m_layers;
 }
 
 void LayerReplay::seek(Index frame)
@@ -79,10 +97,21 @@ void LayerReplay::seek(Index frame)
     if (m_replay.next() == m_now + 1)
         return;
     m_now = m_replay.next() - 1;
-    if (m_replay.next() > 0)
-        m_ages = *m_checkpoints.at(m_replay.next());
+    if (const auto known = m_checkpoints.find(m_replay.next()); known != m_checkpoints.end())
+        m_ages = *known->second;
     else
-        m_ages.trackers.clear();
+        forgetAges();
+}
+
+void LayerReplay::forgetAges()
+{
+    m_ages.since = m_replay.next();
+    for (std::vector<std::int32_t> &states : m_ages.states)
+        std::fill(states.begin(), states.end(), notKnown);
+    m_ages.trackers.clear();
+    for (const HmmTracker &tracker : m_replay.chain().trackers())
+        for (const HmmTracker::Origin &origin : tracker.origins())
+            m_ages.trackers[tracker.track().id][origin.state] = notKnown;
 }
 
 /// A model's scores as the next frame's step will find them, what it is about to forget forgotten.
@@ -116,8 +145,16 @@ void LayerReplay::step()
     followTrackers();
     m_now = m_layers.frame = frame;
     project(statistic);
-    if (m_replay.next() % m_replay.interval() == 0 && !m_checkpoints.contains(m_replay.next()))
-        m_checkpoints.emplace(m_replay.next(), std::make_shared<const Ages>(m_ages));
+    if (m_replay.beginning() != m_beginning) {
+        m_checkpoints.clear(); // as the replay's
+        m_beginning = m_replay.beginning();
+    }
+    const Index next = m_replay.next();
+    if (next % m_replay.interval() != 0 || next == m_beginning)
+        return;
+    auto &ages = m_checkpoints[next];
+    if (!ages || ages->since > m_ages.since)
+        ages = std::make_shared<const Ages>(m_ages);
 }
 
 /// One axis's part of the step: of the ways into a state along it, the best, in the order that decides ties.
@@ -310,12 +347,13 @@ namespace {
         Index firstRow() const { return picture.firstRow * picture.perRow; }
         Index endRow() const { return std::min((picture.firstRow + picture.rows) * picture.perRow, m_rows); }
 
+        Index firstColumn() const { return picture.firstColumn * picture.perColumn; }
+        Index endColumn() const { return std::min((picture.firstColumn + picture.columns) * picture.perColumn, m_columns); }
+
         /// One row of the window, whose first cell is `first` of the layers.
         void paintRow(Index row, const CellLayers &layers, Index first)
         {
-            const Index begin = picture.firstColumn * picture.perColumn;
-            const Index end = std::min((picture.firstColumn + picture.columns) * picture.perColumn, m_columns);
-            for (Index column = begin; column < end; ++column)
+            for (Index column = firstColumn(); column < endColumn(); ++column)
                 paint(static_cast<std::size_t>(picture.pixelAt(row, column)), layers, static_cast<std::size_t>(first + column));
         }
 
@@ -354,7 +392,7 @@ LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const 
     for (Index frame = first; frame < end; ++frame) {
         const double done = static_cast<double>(frame - first) / static_cast<double>(end - first);
         context.checkpoint(done, "layers");
-        painter.paintRow(frame, replay.at(frame, context.part(done, done)), 0);
+        painter.paintRow(frame, replay.at(frame, context.part(done, done), {painter.firstColumn(), painter.endColumn()}), 0);
     }
     return std::move(painter.picture);
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "analysis/ChainReplay.h"
+#include "base/memoryShares.h"
 #include "model/MarkovModel.h"
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -20,7 +22,7 @@ struct CellLayers {
     std::vector<float> statistic;     ///< D, as the run showed it
     std::vector<unsigned char> model; ///< of a bank, the one whose state is best
     std::vector<std::int32_t> plane;  ///< of the best state; the lowest among equals
-    std::vector<std::int32_t> age;    ///< frames since the last reset of the best path; 0: it was reset in this frame
+    std::vector<std::int32_t> age;    ///< frames since the last reset of the best path, where asked for; 0: it was reset in this frame
     std::vector<float> resetFraction; ///< of the cell's states, those that were reset in this frame
     std::vector<char> isInhibited;    ///< kept from the detector in this frame, for a track or as a blind place
 };
@@ -32,23 +34,33 @@ struct CellLayers {
 /// Who won is read off two successive frames' scores, m = argmax [ln P(n|m) + u(m, t-1)], reset where ln K + that ≤ 0, ties as the
 /// recursion decides them: the recursion itself runs once, in the chain. Axes move independently, so the maximum is taken one axis after
 /// the other, and a path's age goes along with its score. A tracker's paths go on from those it was seeded with, without reset. Of a bank,
-/// each model's paths are its own. Oracle: tracePath (age + 1 = steps of its path). Lines and pings alike. Cost: the detector's and several
-/// times that a frame; going back costs an interval of checkpoints at most (ChainReplay). One object per thread.
+/// each model's paths are its own. Oracle: tracePath (age + 1 = steps of its path). Lines and pings alike.
+///
+/// It begins at a checkpoint of the run, where no path's age is known; a path that was reset since then has one. While some that are asked
+/// for have none it begins again twice as far back. Cost: the detector's and several times that a frame, over at most twice the age of the
+/// oldest path asked for and an interval of checkpoints (ChainReplay). One object per thread.
 class LayerReplay
 {
 public:
-    explicit LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget = std::size_t(128) << 20);
+    explicit LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget = memoryShares::layerReplay);
 
     const std::shared_ptr<const Analysis> &analysis() const { return m_replay.analysis(); }
 
-    /// Frame 0 … count-1 (clamped), valid until the next call. Throws Cancelled.
-    const CellLayers &at(Index frame, const RunContext &context = {});
+    struct Cells {
+        Index begin = 0;
+        Index end = std::numeric_limits<Index>::max();
+    };
+
+    /// Frame 0 … count-1 (clamped), with the ages of those cells at least; valid until the next call. Throws Cancelled.
+    const CellLayers &at(Index frame, const RunContext &context, const Cells &aged);
+    const CellLayers &at(Index frame, const RunContext &context = {}) { return at(frame, context, {}); }
 
 private:
     using TrackerAges = std::map<int, std::unordered_map<Index, std::int32_t>>; ///< by the track's number, then the state
     struct Ages {
         std::vector<std::vector<std::int32_t>> states; ///< of each model
         TrackerAges trackers;
+        Index since = 0; ///< frame that all paths have been followed from
     };
     /// Scores of all states on their way into the next frame, and the ages of the paths that have them.
     struct Paths {
@@ -56,7 +68,11 @@ private:
         std::vector<std::int32_t> ages;
     };
 
+    /// From `begin` or a checkpoint before it, unless it is on its way already.
+    void walk(Index begin, Index frame, const RunContext &context);
     void seek(Index frame);
+    void forgetAges();
+    bool knowsAges(const Cells &cells) const;
     void step();
     std::vector<float> scoresBefore(std::size_t model) const;
     void followPaths(std::size_t model);
@@ -71,7 +87,8 @@ private:
     std::vector<std::vector<float>> m_before; ///< each model's scores before the step
     Paths m_paths;
     Paths m_moved;
-    std::map<Index, std::shared_ptr<const Ages>> m_checkpoints; ///< by the frame that comes next
+    Index m_beginning = 0;
+    std::map<Index, std::shared_ptr<const Ages>> m_checkpoints; ///< by the frame that comes next, as the replay's own
     CellLayers m_layers;
 };
 

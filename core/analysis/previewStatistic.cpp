@@ -1,6 +1,7 @@
 #include "analysis/previewStatistic.h"
 
 #include "analysis/chain.h"
+#include "base/memoryShares.h"
 
 #include <algorithm>
 
@@ -12,8 +13,6 @@ namespace {
     constexpr Index settlingPings = 16;   ///< the same of pings
     constexpr Index averagedFrames = 48;  ///< of these, the last, whose ln K is taken
     constexpr double settlingGain = 0.3;
-    constexpr std::size_t mostKeptBytes = std::size_t(64) << 20;
-    constexpr std::size_t pictureBytes = std::size_t(100) << 20;
     constexpr Index mostCells = 70'000'000;
     constexpr Index blockFrames = 64;
 
@@ -90,7 +89,7 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
     range.readFirst = std::max<Index>(0, range.first - (frames.grid().axes.size() == 1 ? settlingFrames : settlingPings));
     range.end = std::clamp<Index>(last, range.first, count - 1) + 1;
     const Index cells = (range.end - range.readFirst) * frames.grid().size();
-    range.isKeepable = static_cast<std::size_t>(cells) * sizeof(float) <= mostKeptBytes;
+    range.isKeepable = static_cast<std::size_t>(cells) * sizeof(float) <= memoryShares::previewFrames;
     return cells <= mostCells ? range : FrameRange{};
 }
 
@@ -131,7 +130,7 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
     const Axis &time = before.time();
     const auto statistic = std::make_shared<PeakPyramid>(
         Axis{time.name, time.unit, time.value(static_cast<double>(range.first)), time.step, range.end - range.first, false}, cells,
-        ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
+        ByteScale(ByteScale::Kind::ScoreNats), memoryShares::closeup);
     std::vector<float> scores;
     for (Index frame = range.readFirst; frame < range.end;) {
         context.checkpoint(static_cast<double>(frame - range.readFirst) / static_cast<double>(range.end - range.readFirst), "previewing");

@@ -37,7 +37,7 @@ struct FrameRange {
     Index readFirst = 0;
     Index first = 0;
     Index end = 0;
-    bool isKeepable = false; ///< in 64 MiB; more than that is read as it is needed
+    bool isKeepable = false; ///< in memoryShares::previewFrames; more than that is read as it is needed
 
     bool isEmpty() const { return first >= end; }
 };

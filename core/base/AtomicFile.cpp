@@ -22,6 +22,8 @@ namespace {
     std::string target(const std::string &path)
     {
         namespace fs = std::filesystem;
+        if (path.empty())
+            throw Error("a file to write", "has no name");
         std::error_code code;
         const fs::file_status status = fs::status(path, code);
         if (!fs::exists(status))

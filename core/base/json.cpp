@@ -25,8 +25,7 @@ namespace {
         return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - lineStart + 1);
     }
 
-    /// A value in an error message. Never the inside of an array or object: dumping a hostile one would exhaust the
-    /// stack.
+    /// A value in an error message. Never the inside of an array or object, which may be long.
     std::string shown(const Json &value)
     {
         if (value.is_structured())
@@ -40,8 +39,14 @@ Json parseJson(std::string_view text, const std::string &where)
 {
     if (text.starts_with("\xEF\xBB\xBF"))
         text.remove_prefix(3);
+    constexpr int deepest = 100; // what goes through a value calls itself for every level
+    const auto checkDepth = [&](int depth, Json::parse_event_t, const Json &) {
+        if (depth > deepest)
+            throw Error(where, "is nested more than " + std::to_string(deepest) + " levels deep; nothing that is read here is");
+        return true;
+    };
     try {
-        return Json::parse(text);
+        return Json::parse(text, checkDepth);
     } catch (const Json::parse_error &error) {
         throw Error(where, "is not valid JSON at " + place(text, error.byte));
     } catch (const Json::exception &) {

@@ -7,6 +7,7 @@
 #include <exception>
 #include <list>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -45,8 +46,12 @@ namespace {
             const std::lock_guard lock(m_guard);
             m_jobs.push_back(&job);
             m_wanted += job.wanted;
-            while (std::ssize(m_threads) < job.wanted)
-                m_threads.emplace_back([this](const std::stop_token &stop) { help(stop); });
+            try {
+                while (std::ssize(m_threads) < job.wanted)
+                    m_threads.emplace_back([this](const std::stop_token &stop) { help(stop); });
+            } catch (const std::system_error &) {
+                // As many as the machine gives; whoever offers work does it without any.
+            }
             m_offered.notify_all();
         }
 

@@ -3,7 +3,6 @@
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -15,6 +14,8 @@ namespace {
 
     constexpr Index tileCells = 1024;     ///< of each plane of a tile
     constexpr Index longTileCells = 2048; ///< the same where a single axis needs no second step
+    constexpr Index fewestCells = 256;    ///< the same where planes are so many that the next tile's would not fit into the cache beside them
+    constexpr Index tileBytes = 1 << 19;  ///< of all planes of a tile, read and written
     constexpr Index vectorCells = 32;
     constexpr Index manyFrames = 16;      ///< gone through at a time: then the memory has become as good as free
     constexpr std::size_t fewest = 4;     ///< rates whose maximum is worth sharing
@@ -252,7 +253,10 @@ void Recursion<Semiring>::prepareSlides()
 template <class Semiring>
 void Recursion<Semiring>::prepareTiles()
 {
-    const Index cells = m_planeCount == m_groups && m_later.empty() ? longTileCells : tileCells;
+    const Index fitting = std::clamp(tileBytes / (2 * m_planeCount * static_cast<Index>(sizeof(Real))), fewestCells, tileCells);
+    const bool isSingle = m_planeCount == m_groups && m_later.empty();
+    // Shared maxima need more rows than the tile has: those of a short one would cost too much.
+    const Index cells = isSingle ? longTileCells : m_slideRing > 0 ? tileCells : fitting;
     m_tileRows = std::clamp<Index>(cells / m_first.inner, 1, m_first.cells);
     // Whole vectors, if that can be had.
     for (Index rows = m_tileRows; rows > 0 && m_tileRows < m_first.cells; --rows)
@@ -646,17 +650,15 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
             continued.sum += part.sum;
         });
     };
+    // A stretch of tiles for each thread: each fetches the next tile ahead.
     const Index count = std::ssize(m_tiles);
-    if (context.threads == 1) {
-        for (Index number = 0; number < count; ++number)
-            doTile(number, scratch(0));
-    } else {
-        scratch(static_cast<std::size_t>(context.threads) - 1);
-        std::atomic<std::size_t> taken = 0;
-        parallelFor(count, context, "recursion", [&] {
-            return [&, own = m_scratch[taken++].get()](Index number) { doTile(number, *own); };
-        });
-    }
+    scratch(static_cast<std::size_t>(context.threads) - 1);
+    parallelFor(context.threads, context, "recursion", [&] {
+        return [&](Index thread) {
+            for (Index number = thread * count / context.threads; number < (thread + 1) * count / context.threads; ++number)
+                doTile(number, *m_scratch[static_cast<std::size_t>(thread)]);
+        };
+    });
     Continued all;
     for (const Continued &part : m_tileContinued) { // in this order: a sum in floating point
         all.count += part.count;

@@ -116,6 +116,25 @@ void SlantedTiles::readScores(const Work &work, Index begin, float *window) cons
     }
 }
 
+/// What the next frame reads and writes; of what the next tile begins with and this one ends with, this frame's share.
+void SlantedTiles::listAhead(const Work &work, Index frame, Index first, Index n, std::vector<const float *> &rows) const
+{
+    rows.clear();
+    const auto add = [&](std::span<const float> all, Index row, Index cell) {
+        if (cell >= 0 && cell + n <= m_cells)
+            rows.push_back(all.data() + row * m_cells + cell);
+    };
+    const bool isLast = frame + 1 == work.frames;
+    const Index following = isLast ? 0 : frame + 1;
+    const Index there = isLast ? first + frame * m_reach + m_tileCells : first - m_reach;
+    add(work.y, following, there);
+    add(work.statistic, following, there);
+    for (Index rate = frame * m_rates / work.frames; rate < (frame + 1) * m_rates / work.frames; ++rate) {
+        add(work.scores, rate, first + (frame + 1) * m_reach + m_tileCells);
+        add(work.next, rate, first - (work.frames - 1 - frame) * m_reach);
+    }
+}
+
 void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
 {
     const Index haloSize = m_rates * 2 * m_reach;
@@ -148,6 +167,8 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
             const bool isOwn = part == 1;
             if (n <= 0 || (isLast && !isOwn))
                 continue;
+            listAhead(work, frame, first, n, own.ahead);
+            join.ahead = own.ahead;
             float *const statistic = isOwn ? work.statistic.data() + frame * m_cells + first : own.unused.data();
             s.continued.count += finishMax(list.targets, n, first - begin, isLast ? first : first - begin,
                                            own.lambda.data() + (first - from), join, statistic)

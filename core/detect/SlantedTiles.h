@@ -46,6 +46,7 @@ private:
         std::vector<float> halo;    ///< of every frame: the last columns of the tile before
         std::vector<float> lambda;
         std::vector<float> unused;  ///< a statistic nobody looks at
+        std::vector<const float *> ahead;
     };
 
     struct Work;
@@ -53,6 +54,7 @@ private:
     struct TargetList;
 
     TargetList listTargets(const float *from, float *to, Index toStride) const;
+    void listAhead(const Work &work, Index frame, Index first, Index n, std::vector<const float *> &rows) const;
     void readScores(const Work &work, Index begin, float *window) const;
     void goThrough(const Work &work, Stretch &stretch, Scratch &scratch) const;
 

@@ -160,7 +160,7 @@ void Smd::recall(const Remembrance &remembrance)
 
 void Smd::restore(const Memory &memory)
 {
-    m_scores = memory.scores;
+    m_scores.assign(memory.scores.begin(), memory.scores.end());
     m_lnK = memory.lnK;
     m_offset = memory.offset;
     m_isFirst = memory.isFirst;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/Field.h"
+#include "base/LargeVector.h"
 #include "detect/Detector.h"
 #include "detect/Recursion.h"
 #include "model/MarkovModel.h"
@@ -66,7 +67,7 @@ public:
         double offset = 0.0;
         bool isFirst = true;
     };
-    Memory memory() const { return {m_scores, m_lnK, m_offset, m_isFirst}; }
+    Memory memory() const { return {{m_scores.begin(), m_scores.end()}, m_lnK, m_offset, m_isFirst}; }
     void restore(const Memory &memory);
 
     std::shared_ptr<const Remembrance> remembrance() const override;
@@ -84,8 +85,8 @@ private:
     Likelihood m_likelihood;
     ResetRule m_rule;
     Recursion<MaxPlus<float>> m_recursion;
-    std::vector<float> m_scores;
-    std::vector<float> m_next; ///< the scores being written
+    LargeVector<float> m_scores;
+    LargeVector<float> m_next; ///< the scores being written
     double m_lnK;
     double m_offset = 0.0;
     bool m_isFirst = true;

@@ -51,6 +51,7 @@ struct FrameJoin {
     float floor = 0.0f;       ///< 0, or -∞ for no reset
     Counting counting = Counting::States;
     bool isFresh = false;     ///< D begins at -∞; else at what it holds
+    std::span<const float *const> ahead{}; ///< rows that will be wanted soon: their cell i is fetched while cell i is joined
 };
 
 /// The maximum over the sources of every target, joined with the frame at once, cell by cell for all targets, so that λ and D are

@@ -69,14 +69,14 @@ Experiment experimentFromJson(const Json &json, const std::string &where)
 {
     if (!json.is_object())
         throw Error(where, "must be a JSON object");
-    const std::string kind = json.value("kind", std::string("lines"));
+    const Json kind = json.value("kind", Json("lines"));
     if (kind == "lines")
         return lineExperimentFromJson(json, where);
     if (kind == "injection")
         return injectionExperimentFromJson(json, where);
     if (kind == "sweep")
         return sweepExperimentFromJson(json, where);
-    throw Error(jsonName(where, "kind") + " = " + kind, "must be lines, injection or sweep");
+    throw Error(jsonName(where, "kind") + (kind.is_string() ? " = " + kind.get<std::string>() : ""), "must be lines, injection or sweep");
 }
 
 Json toJson(const Experiment &experiment)

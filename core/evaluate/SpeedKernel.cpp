@@ -1,6 +1,7 @@
 #include "evaluate/SpeedKernel.h"
 
 #include "base/Error.h"
+#include "base/LargeVector.h"
 #include "base/Random.h"
 #include "detect/Smd.h"
 #include "evaluate/plainForms.h"
@@ -79,7 +80,8 @@ namespace {
 
     SpeedForm passOver(const StateSpace &space)
     {
-        const auto values = std::make_shared<std::vector<float>>(exponentials(static_cast<std::size_t>(space.stateCount())));
+        const std::vector<float> some = exponentials(static_cast<std::size_t>(space.stateCount()));
+        const auto values = std::make_shared<LargeVector<float>>(some.begin(), some.end());
         return {pass, static_cast<double>(space.stateCount()), 1, [values] { sweep(*values); }};
     }
 

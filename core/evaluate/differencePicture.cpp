@@ -1,5 +1,7 @@
 #include "evaluate/differencePicture.h"
 
+#include "base/memoryShares.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,6 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t pictureBytes = std::size_t(100) << 20;
     constexpr double rarest = 700.0; ///< nat; smaller probabilities are none in double precision
 
     bool isInNats(const Analysis &analysis)
@@ -86,7 +87,7 @@ std::shared_ptr<const PeakPyramid> differencePicture(const Analysis &a, const An
     const auto rows = cellsWithin(rowsA, rowsB);
 
     const auto result =
-        std::make_shared<PeakPyramid>(rowsB, b.grid().size(), ByteScale(ByteScale::Kind::DifferenceNats), pictureBytes);
+        std::make_shared<PeakPyramid>(rowsB, b.grid().size(), ByteScale(ByteScale::Kind::DifferenceNats), memoryShares::picture);
     std::vector<std::uint8_t> highest;
     std::vector<float> difference(static_cast<std::size_t>(b.grid().size()));
     for (Index row = 0; row < rowsB.count; ++row) {

@@ -2,6 +2,7 @@
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/readingJson.h"
 #include "evaluate/sweepCurve.h"
 
 #include <cerrno>
@@ -160,12 +161,15 @@ Campaign readCampaign(const std::string &path)
     std::ifstream file(path);
     if (!file)
         throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
+    if (std::error_code code; !std::filesystem::is_regular_file(path, code))
+        throw Error(path, "is not a file; the runs of a campaign are one");
     std::string line;
     std::getline(file, line);
     const Json head = parseJson(line, path + ", line 1");
-    if (!head.is_object() || head.value(versionKey, 0) != fileVersion || !head.contains("experiment") || !head.contains("thresholds"))
+    if (!head.is_object() || head.value(versionKey, Json()) != fileVersion || !head.contains("experiment") || !head.contains("thresholds"))
         throw Error(path, "is no campaign: its first line must hold " + std::string(versionKey) + ", experiment and thresholds");
-    Campaign campaign{experimentFromJson(head["experiment"], path), head["thresholds"].get<std::vector<double>>(), {}};
+    Campaign campaign{experimentFromJson(head["experiment"], path), {}, {}};
+    campaign.thresholds = readingJson(path + ", line 1: thresholds", [&] { return head["thresholds"].get<std::vector<double>>(); });
     for (int number = 2; std::getline(file, line); ++number) {
         if (file.eof())
             break; // no line end: cut off

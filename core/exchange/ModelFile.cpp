@@ -96,9 +96,10 @@ namespace {
         if (!step->is_object())
             throw Error(where + ".step", "must be a list of probabilities, \"uniform-admissible\" or {\"gaussian\": cells}");
         checkKeys(*step, where + ".step", {"gaussian"});
+        constexpr double widest = 1e5; // its law is nine times as long
         const double deviation = number(*step, where + ".step", "gaussian", -1.0);
-        if (!(deviation >= 0.0 && deviation <= 1e9))
-            throw Error(where + ".step.gaussian", "must be a standard deviation from 0 on, in cells");
+        if (!(deviation >= 0.0 && deviation <= widest))
+            throw Error(where + ".step.gaussian", "must be a standard deviation of 0 … " + formatNumber(widest) + " cells");
         axis.step = gaussianStep(deviation, axis.cyclic ? (axis.cells + 1) / 2 : axis.cells);
     }
 
@@ -140,6 +141,14 @@ namespace {
         axis.rounding = static_cast<Rounding>(choice(json, where, "round", roundingNames, 0));
         axis.check(where);
         return axis;
+    }
+
+    std::string cellsText(const std::vector<Index> &cells)
+    {
+        std::string text;
+        for (const Index n : cells)
+            text += (text.empty() ? "" : " × ") + std::to_string(n);
+        return text;
     }
 
     Json readModelJson(const std::string &path)
@@ -206,16 +215,20 @@ ModelFile readModelFile(const std::string &path)
     return file;
 }
 
-SequentialModel readSequentialModel(const std::string &path)
+SequentialModel readSequentialModel(const std::string &path, const FrameCells *frames)
 {
     const Json json = readModelJson(path);
     std::vector<KinematicAxis> axes;
     std::vector<bool> isFolded;
+    std::vector<Index> cells;
     for (std::size_t i = 0; i < json["axes"].size(); ++i) {
         const std::string where = path + ": axes[" + std::to_string(i) + "]";
         axes.push_back(readAxis(json["axes"][i], where, true));
         isFolded.push_back(flag(json["axes"][i], where, "integrate"));
+        cells.push_back(axes.back().cells);
     }
+    if (frames && frames->cells != cells)
+        throw Error(path, "has " + cellsText(cells) + " cells, but the frames of " + frames->path + " have " + cellsText(frames->cells));
     std::vector<double> initial;
     if (json.contains("initial") && json["initial"] != "uniform")
         initial = numbers(json, path, "initial");

@@ -32,8 +32,13 @@ ModelFile readModelFile(const std::string &path);
 ///   axes: "step": "uniform-admissible" | {"gaussian": σ in cells}, both shared out among the cells that exist; "integrate": true,
 ///   an axis of the frames without a state; "transition": [[P(from, to)]] in place of a law;   "initial": [P(x1) of every state]
 ///
-/// readModelFile takes the steps and the matrix as well. Throws Error.
-SequentialModel readSequentialModel(const std::string &path);
+/// readModelFile takes the steps and the matrix as well. Throws Error; also where the cells are not those of the frames, if these are known,
+/// and before anything is made as large as the file says.
+struct FrameCells {
+    std::string path;
+    std::vector<Index> cells; ///< of every axis
+};
+SequentialModel readSequentialModel(const std::string &path, const FrameCells *frames = nullptr);
 
 /// Ready-made frames in double precision, cell after cell, stage after stage, checked as readFrames does.
 struct DoubleFrames {

@@ -12,7 +12,4 @@ std::string annotationText(const std::string &label, Verdict verdict, const std:
 /// Takes such a text apart; one without brackets is all label.
 void takeApart(const std::string &text, Annotation &annotation);
 
-/// On one line and valid UTF-8, without tabs and other control characters: what goes into a row of a table.
-std::string oneLine(const std::string &text);
-
 } // namespace faintline

@@ -1,10 +1,15 @@
 #include "exchange/readAnnotations.h"
 
+#include "base/oneLine.h"
+#include "base/readingJson.h"
 #include "exchange/annotationText.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -25,7 +30,9 @@ namespace {
     {
         std::ifstream file(path, std::ios::binary);
         if (!file)
-            throw Error(path, "cannot be read");
+            throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
+        if (std::error_code code; std::filesystem::is_directory(path, code))
+            throw Error(path, "is a folder; annotations are a file");
         std::string text;
         std::vector<char> block(1 << 20);
         while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
@@ -243,37 +250,44 @@ namespace {
         return all;
     }
 
+    /// The boxes that `boxOf` makes of a list's members, each of which is `name` and its number in messages.
+    template <class BoxOf>
+    std::vector<Annotation> fromList(const Json &list, const std::string &name, const BoxOf &boxOf)
+    {
+        std::vector<Annotation> all;
+        for (const Json &one : list) {
+            const std::string number = std::to_string(all.size() + 1);
+            readingJson(name + " " + number, [&] { add(all, boxOf(one, number), name + " " + number); });
+        }
+        return all;
+    }
+
     std::vector<Annotation> fromSigmf(const Json &json, const std::string &path, const RecordingInfo &info)
     {
         double rate = info.sampleRateHz;
         if (json.contains("global"))
-            rate = json["global"].value("core:sample_rate", rate);
+            rate = readingJson(path + ": global", [&] { return json["global"].value("core:sample_rate", rate); });
         if (!(rate > 0.0) || !std::isfinite(rate))
             throw Error(path, "tells no sample rate");
-        const double centre = info.centreHz;
-        std::vector<Annotation> all;
-        for (const Json &one : json.at("annotations")) {
-            const std::string place = path + ", annotation " + std::to_string(all.size() + 1);
+        return fromList(json["annotations"], path + ", annotation", [&](const Json &one, const std::string &) {
             Annotation box;
             const double start = one.at("core:sample_start").get<double>();
             box.startSeconds = start / rate;
             box.endSeconds = (start + one.value("core:sample_count", 0.0)) / rate;
             if (one.contains("core:freq_lower_edge"))
-                box.lowHz = one["core:freq_lower_edge"].get<double>() - centre;
+                box.lowHz = one["core:freq_lower_edge"].get<double>() - info.centreHz;
             if (one.contains("core:freq_upper_edge"))
-                box.highHz = one["core:freq_upper_edge"].get<double>() - centre;
+                box.highHz = one["core:freq_upper_edge"].get<double>() - info.centreHz;
             box.label = oneLine(one.value("core:label", std::string()));
             box.note = oneLine(one.value("core:comment", std::string()));
             box.verdict = verdictNamed(one.value("faintline:review", std::string()));
-            add(all, std::move(box), place);
-        }
-        return all;
+            return box;
+        });
     }
 
     std::vector<Annotation> fromEventsJson(const Json &json, const std::string &path)
     {
-        std::vector<Annotation> all;
-        for (const Json &one : json.at("events")) {
+        return fromList(json["events"], path + ", event", [](const Json &one, const std::string &number) {
             Annotation box;
             box.startSeconds = one.at("t_onset").get<double>();
             box.endSeconds = one.at("t_end").get<double>();
@@ -283,25 +297,20 @@ namespace {
                 box.lowHz = one[low].get<double>();
                 box.highHz = one[high].get<double>();
             }
-            box.label = oneLine(one.value("label", "event " + std::to_string(all.size() + 1)));
+            box.label = oneLine(one.value("label", "event " + number));
             box.note = oneLine(one.value("note", std::string()));
             box.verdict = verdictNamed(one.value("review", std::string()));
-            add(all, std::move(box), path + ", event " + std::to_string(all.size() + 1));
-        }
-        return all;
+            return box;
+        });
     }
 
     std::vector<Annotation> fromJson(const std::string &path, const std::string &text, const RecordingInfo &info)
     {
         const Json json = parseJson(text, path);
-        try {
-            if (json.contains("annotations"))
-                return fromSigmf(json, path, info);
-            if (json.contains("events"))
-                return fromEventsJson(json, path);
-        } catch (const Json::exception &error) {
-            throw Error(path, "an annotation holds something else than expected: " + oneLine(error.what()));
-        }
+        if (json.contains("annotations"))
+            return fromSigmf(json, path, info);
+        if (json.contains("events"))
+            return fromEventsJson(json, path);
         throw Error(path, "holds neither SigMF's \"annotations\" nor \"events\"");
     }
 

@@ -1,6 +1,7 @@
 #include "exchange/writeReviewed.h"
 
 #include "base/AtomicFile.h"
+#include "base/oneLine.h"
 #include "exchange/annotationText.h"
 #include "exchange/csvText.h"
 

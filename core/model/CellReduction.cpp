@@ -1,5 +1,6 @@
 #include "model/CellReduction.h"
 
+#include "base/Error.h"
 #include "base/logmath.h"
 
 #include <algorithm>
@@ -10,6 +11,8 @@ namespace faintline {
 CellReduction::CellReduction(std::vector<Index> cells, const std::vector<bool> &isFolded) : m_cells(std::move(cells)), m_isFolded(isFolded)
 {
     for (std::size_t axis = 0; axis < m_cells.size(); ++axis) {
+        if (static_cast<double>(m_frameCells) * static_cast<double>(m_cells[axis]) > 0x1p31) // before the product can overflow
+            throw Error("model.axes", "give more than 2³¹ cells");
         m_frameCells *= m_cells[axis];
         if (!isFolded[axis])
             m_stateCells *= m_cells[axis];

@@ -48,7 +48,10 @@ SequentialModel makeSequentialModel(const std::vector<KinematicAxis> &frameAxes,
         axes.emplace_back();
         axes.back().cells = 1;
     }
-    SequentialModel model{{StateSpace(std::move(axes)), likelihood, 1.0}, CellReduction(std::move(cells), isFolded), std::move(initial)};
+    // Each by itself: GCC 12 loses its way out of a list in which a later member throws.
+    StateSpace space(std::move(axes));
+    CellReduction reduction(std::move(cells), isFolded);
+    SequentialModel model{{std::move(space), likelihood, 1.0}, std::move(reduction), std::move(initial)};
     model.check("model");
     return model;
 }

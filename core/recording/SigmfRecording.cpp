@@ -94,9 +94,14 @@ std::string SigmfRecording::dataPath(const std::string &path)
     return readMeta(path).dataPath;
 }
 
+std::string SigmfRecording::metaPath(const std::string &path)
+{
+    return withEnding(path, metaEnding);
+}
+
 SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
 {
-    const std::string metaPath = withEnding(path, metaEnding);
+    const std::string metaPath = SigmfRecording::metaPath(path);
     if (!std::filesystem::exists(metaPath))
         throw Error(path, metaPath == path ? "there is no such file"
                                            : "its metadata, " + metaPath

@@ -18,8 +18,9 @@ public:
     /// Whether a name is one of the two.
     static bool isNamedSo(const std::string &path);
 
-    /// The file that holds the samples.
+    /// The file that holds the samples, and the one that says what they are.
     static std::string dataPath(const std::string &path);
+    static std::string metaPath(const std::string &path);
 
 private:
     struct Meta;

@@ -1,5 +1,6 @@
 #include "spectrum/NoiseBackground.h"
 
+#include "base/memoryShares.h"
 #include "base/multiversion.h"
 #include "spectrum/levels.h"
 #include "spectrum/medians.h"
@@ -19,7 +20,7 @@ namespace {
     constexpr Index fewestFramesPerBlock = 64;
     constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
-    constexpr Index largestValueCount = Index(1) << 24; ///< of blocks × cells: 64 MiB, nine hours at 48 kHz; beyond that blocks are longer
+    constexpr Index largestValueCount = memoryShares::background / sizeof(float); ///< nine hours at 48 kHz; beyond that blocks are longer
     constexpr float silence = NoiseBackground::silence;
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
     constexpr double roundingFloor = 1e-13;

@@ -1,5 +1,6 @@
 #include "track/DetectionChain.h"
 
+#include "base/memoryShares.h"
 #include "track/joinTracks.h"
 
 #include <algorithm>
@@ -9,18 +10,26 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t recordBytes = std::size_t(32) << 20; ///< of frames, and as many of checkpoints
     constexpr Index checkpointFrames = 32; ///< from one to the next
     constexpr int framesUntilDuplicate = 3;
     constexpr double skirtLevel = 8.0; ///< y that noise seldom reaches
     constexpr Index largestSkirtSteps = 16;
 
-    std::size_t checkpointsOf(const std::vector<MarkovModel> &models)
+    /// Frames to remember: the newest one where nobody looks back.
+    std::size_t framesOf(const Grid &grid, const ChainSettings &settings)
     {
+        const std::size_t most = memoryShares::pathRecord / (sizeof(float) * static_cast<std::size_t>(grid.size()));
+        return settings.onsetFrames == 1 ? 1 : std::clamp<std::size_t>(most, 16, 4096);
+    }
+
+    std::size_t checkpointsOf(const std::vector<MarkovModel> &models, const ChainSettings &settings)
+    {
+        if (settings.onsetFrames == 1)
+            return 0;
         std::size_t states = 0;
         for (const MarkovModel &model : models)
             states += static_cast<std::size_t>(model.space.stateCount());
-        return recordBytes / (sizeof(float) * states);
+        return memoryShares::pathRecord / (sizeof(float) * states);
     }
 
     /// A path usually comes to its signal over some frames of noise that happened to suit it. The signal begins where the score
@@ -51,8 +60,7 @@ DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::
 DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<Detector> detector,
                                ChainSettings settings)
     : m_models(std::move(models)), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
-      m_seenLimit(std::clamp<std::size_t>(recordBytes / (sizeof(float) * static_cast<std::size_t>(grid.size())), 16, 4096)),
-      m_checkpointLimit(checkpointsOf(m_models)), m_lambda(static_cast<std::size_t>(grid.size()))
+      m_seenLimit(framesOf(grid, m_settings)), m_checkpointLimit(checkpointsOf(m_models, m_settings)), m_lambda(static_cast<std::size_t>(grid.size()))
 {
     for (const MarkovModel &model : m_models)
         m_trackerModels.push_back(std::make_unique<TrackerModel>(model, grid, m_settings.track, m_settings.threshold));

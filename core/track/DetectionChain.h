@@ -26,7 +26,8 @@ struct ChainSettings {
     /// Cells where no signal is looked for, by coordinates: kept from the detector as if a track were there all the time.
     std::vector<std::vector<Index>> blind;
     TrackSettings track;
-    Index onsetFrames = 0;            ///< how far back the beginning of a new track is looked for; 0: as far as its path goes
+    /// How far back the beginning of a new track is looked for; 0: as far as its path goes. 1: nobody looks back, no past is remembered.
+    Index onsetFrames = 0;
     bool feedback = true;             ///< false: detector only, no reset, no inhibition, no tracks
     bool resets = true;               ///< the detector forgets what a track has taken over
     bool inhibits = true;             ///< y is kept from the detector round the tracks
@@ -65,6 +66,8 @@ public:
 
     /// The detector's best path into a state of the newest frame, by one of its models.
     std::vector<PathStep> detectorPathInto(Index state, std::size_t model = 0) const;
+    /// So many frames back at most, the newest included: all that is remembered.
+    Index longestPath() const { return static_cast<Index>(m_seenLimit); }
 
     /// What the next frames' statistic depends on; null where the detector cannot tell.
     struct Snapshot;

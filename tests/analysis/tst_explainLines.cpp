@@ -16,13 +16,16 @@ constexpr Index frameCount = 90;
 constexpr Index cellCount = 48;
 
 /// Noise with a line that climbs a cell every third frame from frame 20 to 59.
-std::shared_ptr<const Analysis> lineInNoise(double thresholdNats, double linkCells = 3.0)
+std::shared_ptr<const Analysis> lineInNoise(double thresholdNats, double linkCells = 3.0, Index frames = frameCount)
 {
-    std::vector<float> y(static_cast<std::size_t>(frameCount * cellCount));
+    std::vector<float> y(static_cast<std::size_t>(frames * cellCount));
     Random random(8, 1);
     random.exponentials(y);
     for (Index frame = 20; frame < 60; ++frame)
         y[static_cast<std::size_t>(frame * cellCount + 15 + (frame - 20) / 3)] += 5.0f;
+    for (Index frame = frames - 300; frame < frames; ++frame)
+        if (frames > frameCount)
+            y[static_cast<std::size_t>(frame * cellCount + 30)] += 4.0f;
     AnalysisSettings settings;
     settings.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.6};
     settings.decide.by = DecideSettings::By::Nats;
@@ -30,7 +33,7 @@ std::shared_ptr<const Analysis> lineInNoise(double thresholdNats, double linkCel
     settings.decide.linkCells = {linkCells};
     settings.model.slopeChange = {0.5, 0.2, 0.05};
     const Grid grid{{{"frequency", "Hz", 100.0, 0.5, cellCount, false}}};
-    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frameCount, false}, grid, std::move(y)), settings);
+    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false}, grid, std::move(y)), settings);
 }
 
 Explanation at(const Analysis &analysis, Index frame, Index cell)
@@ -132,6 +135,42 @@ private slots:
         const TrackPoint &point = track.points.back();
         QCOMPARE(at(*analysis, point.frame, point.cell).inhibitedFor, std::optional(track.id));
         QVERIFY(!at(*analysis, point.frame, (point.cell + 20) % cellCount).inhibitedFor);
+    }
+
+    void farIntoALongOneItGoesOnFromTheRunsCheckpoints()
+    {
+        constexpr Index frames = 4096 + 400; // more than a chain remembers
+        const auto analysis = lineInNoise(14.0, 3.0, frames);
+        QVERIFY(analysis->checkpoints.size() > 60);
+        const Track &last = analysis->tracks.back();
+        QVERIFY(last.detectFrame > frames - 300 && last.endFrame > frames - 10); // so one is followed past several checkpoints
+        Analysis withoutAny = *analysis;
+        withoutAny.checkpoints.clear();
+        int tracked = 0;
+        const std::pair<Index, Index> places[]{{frames - 1, 30}, {frames - 1, 5}, {4200, 40}};
+        for (const auto &[frame, cell] : places) {
+            const double seconds = analysis->time().value(static_cast<double>(frame));
+            const double hz = analysis->grid().axes[0].value(static_cast<double>(cell));
+            const Explanation with = explain(*analysis, seconds, {hz});
+            const Explanation without = explain(withoutAny, seconds, {hz});
+            QCOMPARE(with.statistic, without.statistic);
+            QCOMPARE(with.displayed, without.displayed);
+            QCOMPARE(with.isTracked, without.isTracked);
+            QCOMPARE(with.inhibitedFor, without.inhibitedFor);
+            QCOMPARE(with.otherState, without.otherState);
+            QCOMPARE(with.otherMargin, without.otherMargin);
+            QCOMPARE(with.reset.kind, without.reset.kind);
+            QCOMPARE(with.reset.lost, without.reset.lost);
+            QCOMPARE(with.steps.size(), without.steps.size());
+            for (std::size_t i = 0; i < with.steps.size(); ++i) {
+                QCOMPARE(with.steps[i].frame, without.steps[i].frame);
+                QCOMPARE(with.steps[i].state, without.steps[i].state);
+                QCOMPARE(with.steps[i].score, without.steps[i].score);
+                QCOMPARE(with.steps[i].runnerUp, without.steps[i].runnerUp);
+            }
+            tracked += with.isTracked;
+        }
+        QCOMPARE(tracked, 1);
     }
 };
 

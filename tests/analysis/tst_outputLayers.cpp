@@ -208,6 +208,38 @@ private slots:
         }
     }
 
+    void farIntoARunItBeginsWhereTheRunLeftACheckpoint()
+    {
+        const auto &analysis = analysed();
+        QCOMPARE(analysis->checkpoints.size(), std::size_t(1)); // before frame 64
+        Analysis alone = *analysis;
+        alone.checkpoints.clear();
+        LayerReplay straight(std::make_shared<const Analysis>(alone));
+        int once = 0;
+        int twice = 0;
+        const auto compare = [&](Index frame, Index cell) {
+            LayerReplay replay(analysis);
+            int steps = 0;
+            RunContext context;
+            context.progress = [&](double, std::string_view) { ++steps; };
+            const CellLayers &layers = replay.at(frame, context, {cell, cell + 1});
+            const auto i = static_cast<std::size_t>(cell);
+            const CellLayers &expected = straight.at(frame);
+            QCOMPARE(layers.age[i], expected.age[i]);
+            QCOMPARE(layers.plane, expected.plane);
+            QCOMPARE(layers.statistic, expected.statistic);
+            QCOMPARE(layers.resetFraction, expected.resetFraction);
+            QCOMPARE(layers.isInhibited, expected.isInhibited);
+            const bool isOlder = expected.age[i] > frame - 64; // once more, from the start
+            QCOMPARE(Index(steps), frame + 1 - 64 + (isOlder ? frame + 1 : 0));
+            ++(isOlder ? twice : once);
+        };
+        for (Index frame = 64; frame < frameCount; frame += 5)
+            for (Index cell = 0; cell < cellCount; cell += 9)
+                compare(frame, cell);
+        QVERIFY2(once > 0 && twice > 0, qPrintable(QStringLiteral("%1 %2").arg(once).arg(twice)));
+    }
+
     void resetFractionsAddUpToTheRuns()
     {
         // No track, nothing inhibited: the mean over all cells is what the run counted.

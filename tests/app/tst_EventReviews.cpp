@@ -42,7 +42,7 @@ class tst_EventReviews : public QObject
         QTableView *table = m_window->eventTable().table();
         for (int id : ids)
             for (int row = 0; row < table->model()->rowCount(); ++row)
-                if (table->model()->index(row, EventModel::Id).data().toInt() == id)
+                if (table->model()->index(row, EventModel::Id).data(EventModel::SortRole).toInt() == id)
                     table->selectionModel()->select(table->model()->index(row, 0), QItemSelectionModel::Select | QItemSelectionModel::Rows);
     }
 

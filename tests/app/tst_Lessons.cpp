@@ -17,6 +17,7 @@
 #include "widgets/WaterfallView.h"
 #include "widgets/WalkPlot.h"
 
+#include <QAbstractScrollArea>
 #include <QButtonGroup>
 #include <QComboBox>
 #include <QDockWidget>
@@ -229,6 +230,11 @@ void tst_Lessons::everyLessonIsTrueAndCanBeDone()
         QCoreApplication::processEvents();
         QVERIFY2(target && target->isVisible() && !target->visibleRegion().isEmpty(), where + "nothing to point at");
         QVERIFY2(guide.frame().isVisible() && guide.frame().testAttribute(Qt::WA_TransparentForMouseEvents), where);
+        for (QWidget *around = target->parentWidget(); around != window.get(); around = around->parentWidget())
+            if (const auto *area = qobject_cast<QAbstractScrollArea *>(around)) {
+                const QRect inSight(area->viewport()->mapTo(window.get(), QPoint()), area->viewport()->size());
+                QVERIFY2(inSight.contains(guide.frame().geometry()), where + "the frame leaves the form");
+            }
 
         if (step.question) {
             QVERIFY2(!panel.text().contains(step.question->why), where + "the answer is there before the choice");

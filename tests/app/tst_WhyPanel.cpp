@@ -21,6 +21,7 @@ private slots:
 
     void termsAddUp_data();
     void termsAddUp();
+    void noNumberIsCutShort();
     void otherDetectorsSayThatTheyHaveNoPath();
 
 private:
@@ -73,6 +74,20 @@ void tst_WhyPanel::termsAddUp()
     QCOMPARE(why.ladder()->item(0, 5)->text().replace(QChar(0x2212), '-').toDouble(),
              std::round(100.0 * explanation.steps.back().score) / 100.0);
     QCOMPARE(why.plot().chart().curves.size(), std::size_t(2));
+}
+
+void tst_WhyPanel::noNumberIsCutShort()
+{
+    askAt(40.0, 120.0);
+    const QTableWidget &ladder = *m_window->why().ladder();
+    QCoreApplication::processEvents();
+    QVERIFY(ladder.rowCount() > 20);
+    const QFontMetrics metrics(ladder.font());
+    for (int row = 0; row < ladder.rowCount(); ++row)
+        for (int column = 0; column < ladder.columnCount(); ++column)
+            QVERIFY2(metrics.horizontalAdvance(ladder.item(row, column)->text()) < ladder.columnWidth(column),
+                     qPrintable(ladder.item(row, column)->text()));
+    QCOMPARE(ladder.textElideMode(), Qt::ElideNone);
 }
 
 void tst_WhyPanel::otherDetectorsSayThatTheyHaveNoPath()

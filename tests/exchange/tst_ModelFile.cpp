@@ -146,6 +146,8 @@ void tst_ModelFile::sequentialModel()
     writeBytes(path("m.json"), R"({"axes": [{"cells": 4, "integrate": true}], "likelihood": {"kind": "linear"}})");
     const SequentialModel folded = readSequentialModel(path("m.json"));
     QCOMPARE(folded.initialLaw(), (std::vector<double>{1.0}));
+    const FrameCells frames{"y.npy", {2, 3}};
+    QVERIFY(contains(errorOf([&] { readSequentialModel(path("m.json"), &frames); }), "has 4 cells, but the frames of y.npy have 2 × 3"));
 }
 
 void tst_ModelFile::sequentialRefusals_data()
@@ -157,6 +159,9 @@ void tst_ModelFile::sequentialRefusals_data()
     };
     row("unknown step", R"("axes": [{"cells": 5, "step": "uniform"}])", "axes[0].step: must be a list of probabilities, \"uniform-admissible\"");
     row("negative deviation", R"("axes": [{"cells": 5, "step": {"gaussian": -1}}])", "axes[0].step.gaussian: must be a standard deviation");
+    row("law without end", R"("axes": [{"cells": 1000000000, "step": {"gaussian": 1e9}}])", "axes[0].step.gaussian: must be a standard deviation of 0");
+    row("more cells than there is memory", R"("axes": [{"cells": 1000000000, "integrate": true}, {"cells": 1000000000, "integrate": true}])",
+        "axes: give more than 2³¹ cells");
     row("unknown law", R"("axes": [{"cells": 5, "step": {"laplace": 1}}])", "axes[0].step.laplace: is not known");
     row("matrix of another size", R"("axes": [{"cells": 3, "transition": [[1, 0], [0, 1]]}])", "as many rows and columns as the axis has cells, 3");
     row("ragged matrix", R"("axes": [{"cells": 2, "transition": [[1, 0], [1]]}])", "axes[0].transition: must have as many columns as rows");

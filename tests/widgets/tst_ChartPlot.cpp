@@ -31,6 +31,7 @@ private slots:
     void keysWalkFromPointToPoint();
     void logarithmicAxesPlaceDecadesEvenly();
     void growsWithoutLosingItsKey();
+    void inANarrowPanelCurvesComeBeforeTheirNames();
     void emptySaysWhatToDo();
     void anyWidthSettles();
 
@@ -158,6 +159,21 @@ void tst_ChartPlot::growsWithoutLosingItsKey()
     QVERIFY(box);
     QCOMPARE(item("integrator")->dataSize(), std::size_t(4));
     QVERIFY(m_view->canvasPosition(0, 3).x() > m_view->canvasPosition(0, 2).x());
+}
+
+void tst_ChartPlot::inANarrowPanelCurvesComeBeforeTheirNames()
+{
+    m_view->resize(280, 130);
+    QCoreApplication::processEvents();
+    QVERIFY(!m_view->findChild<QCheckBox *>()->isVisible());
+    QVERIFY(m_view->plot()->width() > 260);
+    m_view->resize(280, 400); // the names below
+    QCoreApplication::processEvents();
+    QVERIFY(m_view->findChild<QCheckBox *>()->isVisible());
+    QVERIFY(m_view->plot()->width() > 260);
+    m_view->resize(640, 360);
+    QCoreApplication::processEvents();
+    QVERIFY(m_view->findChild<QCheckBox *>()->isVisible());
 }
 
 void tst_ChartPlot::emptySaysWhatToDo()

@@ -23,6 +23,8 @@ private slots:
     void init();
 
     void sortsByValueNotByText();
+    void aNarrowPanelShowsWhereAndHowSure();
+    void numbersAreNotCutShort();
     void filters();
     void nextAndPreviousGoRound();
     void selectionSurvivesNewEvents();
@@ -58,6 +60,31 @@ void tst_EventTable::sortsByValueNotByText()
     QCOMPARE(m_table->shownIds(), (std::vector<int>{2, 1, 3})); // 9.5, 31, 101
     m_table->table()->sortByColumn(EventModel::Frequency, Qt::DescendingOrder);
     QCOMPARE(m_table->shownIds(), (std::vector<int>{2, 1, 3}));
+}
+
+void tst_EventTable::aNarrowPanelShowsWhereAndHowSure()
+{
+    m_table->resize(280, 250);
+    QCoreApplication::processEvents();
+    const QTableView &table = *m_table->table();
+    for (const int column : {EventModel::Id, EventModel::Frequency, EventModel::Onset, EventModel::Statistic}) {
+        const int right = table.columnViewportPosition(column) + table.columnWidth(column);
+        QVERIFY2(right <= table.viewport()->width(),
+                 qPrintable(QStringLiteral("%1: %2 of %3").arg(column).arg(right).arg(table.viewport()->width())));
+    }
+}
+
+void tst_EventTable::numbersAreNotCutShort()
+{
+    m_table->setEvents({test::event(1, 5.0, 20.0, 20150.25, 31.0), test::event(2, 40000.0, 90000.0, -23999.5, 123456.7)});
+    const QTableView &table = *m_table->table();
+    for (int row = 0; row < 2; ++row)
+        for (int column = 0; column <= EventModel::Drift; ++column) {
+            const QModelIndex index = table.model()->index(row, column);
+            if (!table.isColumnHidden(column))
+                QVERIFY2(table.fontMetrics().horizontalAdvance(index.data().toString()) + 6 <= table.columnWidth(column),
+                         qPrintable(index.data().toString()));
+        }
 }
 
 void tst_EventTable::filters()
@@ -115,7 +142,7 @@ void tst_EventTable::selectingFromOutsideIsSilent()
 void tst_EventTable::clickAndEnterActivate()
 {
     const QTableView *table = m_table->table();
-    QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, table->visualRect(table->model()->index(1, 2)).center());
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, table->visualRect(table->model()->index(1, EventModel::Onset)).center());
     QCOMPARE(m_activated, (std::vector<int>{3}));
     QTest::keyClick(m_table->table(), Qt::Key_Return);
     QCOMPARE(m_activated, (std::vector<int>{3, 3}));

@@ -22,6 +22,7 @@ private slots:
     void theLastFrameIsShown();
     void emptyPicture();
     void rangeOfNoise();
+    void rangeOfABandFullOfLines();
     void valuesOfABox();
 
 private:
@@ -131,6 +132,22 @@ void tst_rasterise::rangeOfNoise()
     QVERIFY(quiet.high > 8.0 && quiet.high < 15.0);
     QVERIFY(std::abs(quiet.low - loud.low) <= 0.5);
     QVERIFY(loud.high <= 15.0);
+}
+
+void tst_rasterise::rangeOfABandFullOfLines()
+{
+    const auto rangeWith = [](int lineEvery, std::optional<double> threshold) {
+        const auto picture = test::picture(100, 300, [=](Index f, Index c) { // noise of about 1 nat, lines of hundreds
+            return lineEvery > 0 && c % lineEvery != 0 ? float(200 + f) : float(f % 4);
+        });
+        return automaticRange(picture->scale(), countPixels(*picture, 1.0, 1.0), threshold);
+    };
+    const Span full = rangeWith(4, 14.0);
+    QVERIFY(rangeWith(4, {}).low > 150.0);           // what the picture alone would say
+    QVERIFY(full.low <= 7.0 && full.high <= 7.0 + 35.0); // 14 nat is no longer black
+    QVERIFY(full.high >= 28.0);
+    QCOMPARE(rangeWith(0, 14.0), rangeWith(0, {})); // of noise the range is as before
+    QCOMPARE(rangeWith(4, -1.0), rangeWith(4, {}));
 }
 
 void tst_rasterise::valuesOfABox()
