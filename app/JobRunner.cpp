@@ -17,6 +17,7 @@ namespace {
 
     constexpr std::chrono::milliseconds progressInterval(40);
     constexpr std::chrono::milliseconds longJob(500);
+    constexpr std::chrono::milliseconds restAfterJob(300);
 
     /// The C library keeps what a job's threads freed for those threads, which for an hour of recording are 170 MiB.
     void giveBackMemory()
@@ -82,15 +83,25 @@ void JobRunner::deliver(std::function<void()> part)
 void JobRunner::work(const std::stop_token &quit)
 {
     std::unique_lock lock(m_mutex);
-    while (m_wake.wait(lock, quit, [this] { return bool(m_request.job); })) {
+    const auto isAsked = [this] { return bool(m_request.job); };
+    bool owesMemory = false;
+    for (;;) {
+        // Not while the delivery is taken: who frees what it replaces would wait for it, and it goes with the rest then.
+        if (owesMemory && !m_wake.wait_for(lock, quit, restAfterJob, isAsked) && !quit.stop_requested()) {
+            lock.unlock();
+            giveBackMemory();
+            lock.lock();
+            owesMemory = false;
+        }
+        if (!m_wake.wait(lock, quit, isAsked))
+            return;
         const auto begin = std::chrono::steady_clock::now();
         {
             const Request request = {m_request.number, std::exchange(m_request.job, {}), m_request.stop};
             lock.unlock();
             run(request);
         }
-        if (std::chrono::steady_clock::now() - begin > longJob)
-            giveBackMemory();
+        owesMemory = owesMemory || std::chrono::steady_clock::now() - begin > longJob;
         lock.lock();
     }
 }

@@ -1,5 +1,6 @@
 #include "app/LawPanel.h"
 
+#include "app/Sight.h"
 #include "base/logmath.h"
 #include "model/transitionLaw.h"
 #include "widgets/LawPlot.h"
@@ -40,7 +41,7 @@ namespace {
 } // namespace
 
 LawPanel::LawPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_plots(new QVBoxLayout), m_sentence(new QLabel)
+    : QWidget(parent), m_document(document), m_plots(new QVBoxLayout), m_sentence(new QLabel), m_sight(new Sight(*this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -53,6 +54,10 @@ LawPanel::LawPanel(const Document &document, QWidget *parent)
     layout->setSpacing(2);
     layout->addLayout(m_plots, 1);
     layout->addWidget(m_sentence);
+    connect(m_sight, &Sight::came, this, [this] {
+        if (!m_isSaid)
+            sayWhatItMeans();
+    });
     connect(&document, &Document::analysisChanged, this, &LawPanel::show);
     connect(&document, &Document::settingsChanged, this, &LawPanel::show);
 }
@@ -125,13 +130,6 @@ void LawPanel::show()
     sayWhatItMeans();
 }
 
-void LawPanel::showEvent(QShowEvent *event)
-{
-    QWidget::showEvent(event);
-    if (!m_isSaid)
-        sayWhatItMeans();
-}
-
 QString LawPanel::driftWords(const Analysis &analysis) const
 {
     QStringList drifts;
@@ -187,7 +185,7 @@ QString LawPanel::snrWords(const Analysis &analysis) const
 /// Takes tens of milliseconds: of a panel in sight only.
 void LawPanel::sayWhatItMeans()
 {
-    m_isSaid = isVisible();
+    m_isSaid = m_sight->isOn();
     if (!m_isSaid)
         return;
     const auto &analysis = m_document.analysis();

@@ -12,6 +12,7 @@ class QVBoxLayout;
 namespace faintline {
 
 class LawPlot;
+class Sight;
 
 /// The laws of the model's changes of rate, one for each that the settings hold, to be dragged; what they mean in words below.
 class LawPanel : public QWidget
@@ -28,9 +29,6 @@ public:
 signals:
     /// A law was dragged: the setting of that name should be this.
     void lawRequested(const QString &field, const std::vector<double> &law);
-
-protected:
-    void showEvent(QShowEvent *event) override;
 
 private:
     /// A law of the settings, and the axes of the model that it moves.
@@ -53,6 +51,7 @@ private:
     std::vector<Law> m_laws;
     QVBoxLayout *m_plots;
     QLabel *m_sentence;
+    Sight *m_sight;
     bool m_isSaid = false; ///< what the laws as they are mean
 };
 

@@ -2,6 +2,7 @@
 
 #include "analysis/Calibration.h"
 #include "app/Document.h"
+#include "app/Sight.h"
 #include "app/readingTable.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/quantities.h"
@@ -81,7 +82,7 @@ namespace {
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_sentence(new QLabel(tr("Open a recording to measure its noise."))),
-      m_plot(new ChartPlot), m_table(new QTableWidget(0, 4))
+      m_plot(new ChartPlot), m_table(new QTableWidget(0, 4)), m_sight(new Sight(*this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -109,6 +110,7 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     layout->addWidget(m_sentence);
     layout->addWidget(splitter, 1);
 
+    connect(m_sight, &Sight::came, this, &NoiseFitPanel::measure);
     connect(&document, &Document::analysisChanged, this, &NoiseFitPanel::measure);
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
         m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
@@ -125,16 +127,10 @@ QString NoiseFitPanel::sentence() const
     return m_sentence->text();
 }
 
-void NoiseFitPanel::showEvent(QShowEvent *event)
-{
-    QWidget::showEvent(event);
-    measure();
-}
-
 void NoiseFitPanel::measure()
 {
     const auto &analysis = m_document.analysis();
-    if (!analysis || !isVisible() || m_measured == analysis)
+    if (!analysis || !m_sight->isOn() || m_measured == analysis)
         return;
     m_measured = analysis;
     m_runner.start([this, analysis](const RunContext &context) -> JobRunner::Delivery {

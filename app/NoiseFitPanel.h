@@ -16,6 +16,7 @@ namespace faintline {
 struct Analysis;
 class ChartPlot;
 class Document;
+class Sight;
 
 /// Whether the selection's normalised noise follows the law that thresholds rest on, and what it costs where it does not: quantiles
 /// against quantiles, Kolmogorov and Smirnov's distance, and the false-alarm probability at the threshold, band by band. Measured by
@@ -37,9 +38,6 @@ public:
 signals:
     void settled();
 
-protected:
-    void showEvent(QShowEvent *event) override;
-
 private:
     struct Fit {
         std::shared_ptr<const Analysis> analysis;
@@ -56,6 +54,7 @@ private:
     QLabel *m_sentence;
     ChartPlot *m_plot;
     QTableWidget *m_table;
+    Sight *m_sight;
     JobRunner m_runner; ///< last, so that its jobs end first
 };
 

@@ -117,6 +117,7 @@ void Panels::show(QWidget *panel)
     const bool wasHidden = dock->isHidden();
     dock->show();
     dock->raise();
+    m_window.layout()->activate(); // in its place from now on, not later
     if (wasHidden && m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
         raiseFromBottom(dock, 36);
 }

@@ -2,6 +2,7 @@
 
 #include "analysis/chain.h"
 #include "app/LawPanel.h"
+#include "app/Sight.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/ColourBar.h"
 #include "widgets/SliceMarks.h"
@@ -61,7 +62,7 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
       m_others(new QComboBox), m_model(new QComboBox), m_sentence(new QLabel),
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
-      m_law(new LawPanel(document)), m_marks(std::make_unique<SliceMarks>(*m_view))
+      m_law(new LawPanel(document)), m_sight(new Sight(*this)), m_marks(std::make_unique<SliceMarks>(*m_view))
 {
     m_others->addItems({tr("others at the cursor"), tr("best of the others")});
     m_others->setToolTip(tr("The axes that are not shown: at the cursor's cell with its best rates, or the maximum over all of them"));
@@ -124,6 +125,7 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     connect(m_columns, &QComboBox::activated, this, [this] { chooseAxes(*m_columns, *m_rows); });
     for (QComboBox *box : {m_others, m_model})
         connect(box, &QComboBox::currentIndexChanged, this, &StateSlicePanel::update);
+    connect(m_sight, &Sight::came, this, &StateSlicePanel::update);
     connect(&document, &Document::analysisChanged, this, &StateSlicePanel::fillAxes);
     connect(&m_viewport, &Viewport::cursorChanged, this, &StateSlicePanel::followCursor);
     connect(&viewports, &PingViewports::placeChanged, this, &StateSlicePanel::update);
@@ -254,18 +256,12 @@ void StateSlicePanel::layOut()
     m_sentence->setVisible(hasSlice);
 }
 
-void StateSlicePanel::showEvent(QShowEvent *event)
-{
-    QWidget::showEvent(event);
-    update();
-}
-
 void StateSlicePanel::update()
 {
     const auto &analysis = m_document.analysis();
     const bool isLines = isOfLines();
     const std::optional<Place> at = analysis ? place() : std::nullopt;
-    if (!isVisible() || !at || !(isLines || (m_document.hasPings() && m_rows->currentIndex() != m_columns->currentIndex())))
+    if (!m_sight->isOn() || !at || !(isLines || (m_document.hasPings() && m_rows->currentIndex() != m_columns->currentIndex())))
         return;
     const bool isBest = isMaximised();
     const std::size_t model = analysis->bank.empty() ? 0 : static_cast<std::size_t>(m_model->currentIndex());

@@ -16,6 +16,7 @@ class QTabBar;
 namespace faintline {
 
 class LawPanel;
+class Sight;
 class SliceMarks;
 class WaterfallView;
 
@@ -54,7 +55,6 @@ signals:
     void settled(); ///< the slice belongs to the cursor, or there was a failure
 
 protected:
-    void showEvent(QShowEvent *event) override;
     /// The law stands beside the slice where there is width, below where there is height, otherwise behind a tab.
     void resizeEvent(QResizeEvent *event) override;
 
@@ -103,6 +103,7 @@ private:
     QTabBar *m_tabs;
     QWidget *m_pane; ///< the slice and its colour bar
     LawPanel *m_law;
+    Sight *m_sight;
     QBoxLayout *m_body;
     std::unique_ptr<SliceMarks> m_marks;
     std::optional<Cut> m_cut; ///< the one shown

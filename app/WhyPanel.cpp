@@ -1,6 +1,7 @@
 #include "app/WhyPanel.h"
 
 #include "app/Document.h"
+#include "app/Sight.h"
 #include "app/readingTable.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/PingViewports.h"
@@ -139,7 +140,7 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(new QLabel), m_plot(new ChartPlot),
       m_ladder(new QTableWidget),
-      m_pause(new QTimer(this))
+      m_sight(new Sight(*this)), m_pause(new QTimer(this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -166,6 +167,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_pause->setSingleShot(true);
     m_pause->setInterval(pauseMs);
     connect(m_pause, &QTimer::timeout, this, &WhyPanel::explainCursor);
+    connect(m_sight, &Sight::came, this, &WhyPanel::follow);
     connect(&document.viewport(), &Viewport::cursorChanged, this, &WhyPanel::follow);
     connect(&viewports, &PingViewports::placeChanged, this, &WhyPanel::follow);
     connect(&document, &Document::analysisChanged, this, &WhyPanel::follow);
@@ -186,12 +188,6 @@ QString WhyPanel::sentence() const
     return m_sentence->text();
 }
 
-void WhyPanel::showEvent(QShowEvent *event)
-{
-    QWidget::showEvent(event);
-    follow();
-}
-
 void WhyPanel::resizeEvent(QResizeEvent *event)
 {
     constexpr int enoughForBoth = 400;
@@ -201,7 +197,7 @@ void WhyPanel::resizeEvent(QResizeEvent *event)
 
 void WhyPanel::follow()
 {
-    if (!isVisible())
+    if (!m_sight->isOn())
         return;
     m_runner.cancel(); // of the cell before: it would be taken for this one's
     m_pause->start();

@@ -68,6 +68,7 @@ void EventTable::setUpTable()
     m_table->verticalHeader()->hide();
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->horizontalHeader()->setHighlightSections(false);
+    m_table->horizontalHeader()->setResizeContentsPrecision(20); // rows; numbers of all of them: widenColumns
     m_table->horizontalHeader()->setStretchLastSection(true);
     m_table->horizontalHeader()->setMinimumSectionSize(34);
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);

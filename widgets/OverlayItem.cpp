@@ -205,8 +205,8 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
     drawBoxes(canvas);
     drawHarmonics(canvas);
     drawSidebands(canvas);
-    drawSelection(canvas);
     drawCursor(canvas);
+    drawSelection(canvas); // over the cursor, which would cross its figures out
     if (hasEvents)
         drawEvents(canvas);
     painter->restore();
@@ -367,7 +367,7 @@ void OverlayItem::drawSelection(const Canvas &canvas) const
     if (selection) {
         const QRectF rect = drawBox(*selection);
         if (rect.intersects(canvas.rect))
-            canvas.label(rect.bottomLeft() + QPointF(0.0, 4.0), selectionText, colours.cursor);
+            canvas.label(rect.bottomLeft() + QPointF(0.0, 4.0), selectionText, colours.cursor, QColor(0, 0, 0));
     }
     if (rubber)
         drawBox(*rubber);

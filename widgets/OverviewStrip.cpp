@@ -42,7 +42,7 @@ void OverviewStrip::setViewport(Viewport *viewport)
         m_viewport->disconnect(this);
     m_viewport = viewport;
     if (viewport) {
-        connect(viewport, &Viewport::extentsChanged, this, &OverviewStrip::render);
+        connect(viewport, &Viewport::extentsChanged, this, &OverviewStrip::renew);
         connect(viewport, &Viewport::spanChanged, this, [this] {
             setAccessibleDescription(
                 tr("Visible: %1 to %2")
@@ -50,7 +50,7 @@ void OverviewStrip::setViewport(Viewport *viewport)
             update();
         });
     }
-    render();
+    renew();
 }
 
 void OverviewStrip::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
@@ -59,13 +59,13 @@ void OverviewStrip::setPicture(std::shared_ptr<const PeakPyramid> picture, const
         return;
     m_picture = std::move(picture);
     m_frequency = frequency;
-    render();
+    renew();
 }
 
 void OverviewStrip::setColourMap(const ColourMap &map)
 {
     m_map = &map;
-    render();
+    renew();
 }
 
 void OverviewStrip::setEvents(const std::vector<Event> &events)
@@ -102,8 +102,16 @@ QRectF OverviewStrip::boxRect() const
     return {left - thin, rect.top(), right - left + 2.0 * thin, rect.height()};
 }
 
+/// Drawn when it is seen: whoever hands over a picture does not wait for it.
+void OverviewStrip::renew()
+{
+    m_isStale = true;
+    update();
+}
+
 void OverviewStrip::render()
 {
+    m_isStale = false;
     m_image = {};
     const QRectF rect = pictureRect();
     if (m_picture && m_picture->frameCount() > 0 && rect.width() > 1.0 && rect.height() > 1.0) {
@@ -119,11 +127,12 @@ void OverviewStrip::render()
         raster.setColours(*m_map, automaticRange(m_picture->scale(), countPixels(*m_picture, frames, cells)));
         m_image = raster.image(box.time, box.frequency, true, size);
     }
-    update();
 }
 
 void OverviewStrip::paintEvent(QPaintEvent *)
 {
+    if (m_isStale)
+        render();
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const QRectF rect = pictureRect();
@@ -197,7 +206,7 @@ void OverviewStrip::paintBox(QPainter &painter) const
 
 void OverviewStrip::resizeEvent(QResizeEvent *)
 {
-    render();
+    renew();
 }
 
 OverviewStrip::Grip OverviewStrip::gripAt(const QPointF &position) const

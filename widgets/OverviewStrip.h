@@ -55,6 +55,7 @@ private:
     double secondsAt(double x) const;
     QRectF boxRect() const;
     Grip gripAt(const QPointF &position) const;
+    void renew();
     void render();
     void paintTicks(QPainter &painter) const;
     void paintBox(QPainter &painter) const;
@@ -66,6 +67,7 @@ private:
     const ColourMap *m_map;
     std::vector<Event> m_events;
     QImage m_image;
+    bool m_isStale = false;
     Grip m_grip = Grip::None;
     double m_gripSeconds = 0.0;
     Span m_gripSpan;

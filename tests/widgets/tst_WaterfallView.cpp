@@ -30,6 +30,7 @@ private slots:
     void hoverReadsOut();
     void doubleClickActivatesAnEvent();
     void measuring();
+    void theCursorDoesNotCrossOutWhatWasMeasured();
     void theMeasuredBoxSnapsToPeaks();
     void theCursorGoesToThePeak();
     void sidebandsAreDragged();
@@ -232,6 +233,23 @@ void tst_WaterfallView::measuring()
     QVERIFY(m_viewport.showsAll());
     QTest::keyClick(m_view.get(), Qt::Key_M);
     QVERIFY(!m_viewport.selection());
+}
+
+void tst_WaterfallView::theCursorDoesNotCrossOutWhatWasMeasured()
+{
+    QTest::keyClick(m_view.get(), Qt::Key_M);
+    drag(pixel(60.0, 200.0), pixel(90.0, 300.0));
+    const Viewport::Box box = *m_viewport.selection();
+    // Its figures stand below its lower left corner, in time upwards; the cursor's line goes through them, its crossing is elsewhere.
+    const QPoint corner = pixel(box.time.low, box.frequency.low);
+    const QRect figures(m_view->canvas()->mapTo(m_view.get(), corner) + QPoint(6, 10), QSize(40, 8));
+    const auto grab = [&] { return m_view->grab().toImage(); };
+    m_viewport.setCursor({95.0, 480.0});
+    const QImage without = grab();
+    m_viewport.setCursor({95.0, box.frequency.low + 12.0});
+    const QImage with = grab();
+    QVERIFY(with.copy(figures) == without.copy(figures));
+    QVERIFY(with != without);
 }
 
 void tst_WaterfallView::theMeasuredBoxSnapsToPeaks()
