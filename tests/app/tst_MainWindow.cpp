@@ -512,14 +512,14 @@ private slots:
         QVERIFY(clock.elapsed() < 20000);
     }
 
-    void aHundredEditsInTheWindowUndoneAreWhatTheyWere()
+    void twoHundredEditsInTheWindowUndoneAreWhatTheyWere()
     {
         auto window = this->window();
         QVERIFY(openAndSettle(*window, m_scene));
         std::mt19937 random(9);
         const std::vector<QString> names{"model.snr", "noise.blockWindows", "decide.thresholdNats",
                                          "spectrogram.windowSeconds"};
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < 200; ++i) {
             window->controller().edit(names[random() % names.size()], 0.25 + 0.01 * static_cast<double>(random() % 100),
                                       "Change");
             if (i % 7 == 0)
