@@ -144,11 +144,13 @@ namespace {
         detector->useThreads(context.threads);
         const auto chain = makeChain(analysis, std::move(detector));
 
+        const std::size_t pictureBytes =
+            memoryShares::inTheEnd(memoryShares::picture, static_cast<std::size_t>(frameCount), static_cast<std::size_t>(cells));
         std::shared_ptr<PeakPyramid> input;
         if (!analysis.input)
-            input = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::PowerDb), memoryShares::picture);
+            input = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::PowerDb), pictureBytes);
         const auto statistic =
-            std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), memoryShares::picture);
+            std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
         analysis.statisticCounts.assign(256, 0.0);
         const Index interval = checkpointInterval(analysis);
         std::vector<float> scores;

@@ -35,6 +35,20 @@ constexpr std::size_t orSome(std::size_t share, std::size_t bytesOfSome)
     return share > bytesOfSome ? share : bytesOfSome;
 }
 
+/// What a picture within a share has grown to when all of its frames are in it. Given that much it is the same picture, and was never larger.
+constexpr std::size_t inTheEnd(std::size_t share, std::size_t frames, std::size_t cells)
+{
+    constexpr std::size_t branching = 4; ///< frames to a row, rows to a row of the next level
+    for (std::size_t merged = 1; merged <= frames; merged *= branching) {
+        std::size_t bytes = 0;
+        for (std::size_t rows = frames / merged; rows > 0; rows /= branching)
+            bytes += rows * cells;
+        if (bytes <= share)
+            return bytes;
+    }
+    return share;
+}
+
 } // namespace memoryShares
 
 } // namespace faintline

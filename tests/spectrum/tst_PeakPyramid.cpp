@@ -1,9 +1,11 @@
 #include "spectrum/PeakPyramid.h"
 
 #include "base/Random.h"
+#include "base/memoryShares.h"
 
 #include <QtTest>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace faintline;
@@ -28,6 +30,7 @@ private slots:
     void budgetKeepsMaximaAndGeometry_data();
     void budgetKeepsMaximaAndGeometry();
     void soFarIsAPictureOfItsOwn();
+    void roomForWhatItIsInTheEndIsEnough();
     void levelForAZoom();
     void oneFrameAndNone();
 };
@@ -312,6 +315,33 @@ void tst_PeakPyramid::oneFrameAndNone()
     QCOMPARE(none.levelCount(), 1);
     QCOMPARE(none.rowCount(0), Index(0));
     QCOMPARE(none.frameCount(), Index(0));
+}
+
+void tst_PeakPyramid::roomForWhatItIsInTheEndIsEnough()
+{
+    constexpr Index cells = 3;
+    for (const std::size_t share : {1, 40, 100, 1000, 5000})
+        for (const Index frames : {1, 7, 64, 100, 333, 1024, 1500}) {
+            const Axis time{"time", "s", 0.0, 1.0, frames, false};
+            const std::size_t least = memoryShares::inTheEnd(share, static_cast<std::size_t>(frames), cells);
+            QVERIFY(least <= share);
+            PeakPyramid with(time, cells, ByteScale(ByteScale::Kind::ScoreNats), share);
+            PeakPyramid within(time, cells, ByteScale(ByteScale::Kind::ScoreNats), least);
+            for (Index frame = 0; frame < frames; ++frame) {
+                const std::uint8_t row[cells] = {std::uint8_t(frame * 37), std::uint8_t(frame * frame), std::uint8_t(frame / 5)};
+                with.appendBytes(row);
+                within.appendBytes(row);
+            }
+            with.finish();
+            within.finish();
+            QCOMPARE(within.levelCount(), with.levelCount());
+            QCOMPARE(within.framesPerRow(0), with.framesPerRow(0));
+            for (int level = 0; level < with.levelCount(); ++level) {
+                QCOMPARE(within.rowCount(level), with.rowCount(level));
+                for (Index row = 0; row < with.rowCount(level); ++row)
+                    QVERIFY(std::ranges::equal(within.row(level, row), with.row(level, row)));
+            }
+        }
 }
 
 QTEST_APPLESS_MAIN(tst_PeakPyramid)
