@@ -82,8 +82,10 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
     const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
     const double mantissa = wanted / decade;
     double chosen = decade * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
-    // At least 16 samples, so that there is a spectrum at all; never more than a quarter of the recording.
-    chosen = std::max(chosen, 16.0 / info.sampleRateHz);
+    // At least 16 samples, so that there is a spectrum at all; never more than a quarter of the recording, nor than memory bears.
+    constexpr double fewest = 16.0;
+    constexpr double most = 4e6;
+    chosen = std::clamp(chosen, fewest / info.sampleRateHz, most / info.sampleRateHz);
     return std::min(chosen, std::max(info.durationSeconds() / 4.0, 1.0 / info.sampleRateHz));
 }
 

@@ -204,7 +204,7 @@ void tst_SigmfRecording::deepMetadataIsRefused()
 {
     const QByteArray deep = QByteArray(200000, '[') + QByteArray(200000, ']');
     QVERIFY(contains(errorOf([&] { openRecording(write("{\"global\": {\"core:datatype\": " + deep + "}}")); }),
-                     "must be a text"));
+                     "is nested more than 100 levels deep"));
     QVERIFY(contains(errorOf([&] { openRecording(write(QByteArray(1000000, '{'))); }), "is not valid JSON"));
 }
 

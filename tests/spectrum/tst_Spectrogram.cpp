@@ -422,6 +422,7 @@ void tst_Spectrogram::automaticWindow_data()
     QTest::newRow("an hour at 1 Hz") << 3600.0 << 1.0 << 200.0;          // 180
     QTest::newRow("a second of radio") << 1.0 << 2e6 << 0.002;           // 0.0021
     QTest::newRow("at least 16 samples") << 0.1 << 1000.0 << 0.02;       // 0.03 is 30 samples
+    QTest::newRow("at most four million") << 1e9 << 50000.0 << 80.0;     // 424, of 31 years
     QTest::newRow("no more than a quarter") << 0.05 << 100.0 << 0.0125;  // 0.067, but the recording is short
 }
 
