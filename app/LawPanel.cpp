@@ -76,9 +76,12 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
         for (std::size_t axis = 0; axis < analysis.grid().axes.size(); ++axis)
             axes.push_back(axis);
         return {{QStringLiteral("model.slopeChange"),
-                 m_document.hasPings() ? tr("Change of either rate from ping to ping (cells/ping)")
-                                       : tr("Change of slope from frame to frame (bins/frame)"),
-                 model.slopeChange, model.highestSlope - model.lowestSlope, axes}};
+                 m_document.hasPings()
+                     ? tr("Change of either rate from ping to ping (cells/ping)")
+                     : (model.slopesPerBin == 1
+                            ? tr("Change of slope from frame to frame (bins/frame)")
+                            : tr("Change of slope from frame to frame (1/%1 bin/frame)").arg(model.slopesPerBin)),
+                 model.slopeChange, analysis.model.space.axes().front().rateCount - 1, axes}};
     }
     if (analysis.grid().axes.size() != 2)
         return {};
@@ -137,8 +140,8 @@ QString LawPanel::driftWords(const Analysis &analysis) const
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const Axis &axis = analysis.grid().axes[i];
         const double unit = axis.step / analysis.time().step;
-        const int lowest = axes[i].firstRate;
-        const int highest = lowest + axes[i].rateCount - 1;
+        const double lowest = axes[i].rate(0);
+        const double highest = axes[i].rate(axes[i].rateCount - 1);
         const QString name = QString::fromStdString(axis.unit);
         const QString cells = m_document.hasPings() ? tr("cells/ping") : tr("bins/frame");
         const QString words = lowest == -highest

@@ -65,7 +65,7 @@ namespace {
     QString rateWords(Index state, const Explanation &explanation, const Analysis &analysis)
     {
         const StateSpace &space = spaceOf(explanation, analysis);
-        const std::vector<int> rates = space.ratesOfPlane(space.planeOf(state));
+        const std::vector<double> rates = space.ratesOfPlane(space.planeOf(state));
         QStringList words;
         for (std::size_t axis = 0; axis < rates.size(); ++axis) {
             const Axis &along = analysis.grid().axes[axis];

@@ -40,6 +40,7 @@ QString settingLabel(const QString &name)
         {"noise.followLevel", "Follow level changes"},
         {"model.lowestSlope", "Lowest slope"},
         {"model.highestSlope", "Highest slope"},
+        {"model.slopesPerBin", "Slopes per bin"},
         {"model.slopeChange", "Slope change law"},
         {"model.rangeRateChange", "Range rate change law"},
         {"model.bearingRateChange", "Bearing rate change law"},

@@ -5,6 +5,7 @@
 #include "model/sonarModels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace faintline {
@@ -85,6 +86,35 @@ namespace {
         }
     }
 
+    int slopeIndex(double slope, int slopesPerBin)
+    {
+        return static_cast<int>(std::lround(slope * slopesPerBin));
+    }
+
+    int slopeCount(const ModelSettings &model)
+    {
+        return slopeIndex(model.highestSlope, model.slopesPerBin) - slopeIndex(model.lowestSlope, model.slopesPerBin)
+               + 1;
+    }
+
+    void checkSlopes(const ModelSettings &model)
+    {
+        const auto check = [&](const char *name, double slope) {
+            const double inSteps = slope * model.slopesPerBin;
+            if (std::abs(inSteps - std::round(inSteps)) > 1e-6)
+                throw Error(std::string("model.") + name + " = " + formatNumber(slope),
+                            "must be a multiple of 1/" + std::to_string(model.slopesPerBin)
+                                + " bin/frame (model.slopesPerBin)");
+        };
+        check("lowestSlope", model.lowestSlope);
+        check("highestSlope", model.highestSlope);
+        if (model.lowestSlope > model.highestSlope)
+            throw Error("model.lowestSlope = " + formatNumber(model.lowestSlope), "must not exceed model.highestSlope");
+        if (slopeCount(model) > 1001)
+            throw Error("model.slopesPerBin = " + std::to_string(model.slopesPerBin),
+                        "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
+    }
+
     SonarMotion turning(const ModelSettings &settings)
     {
         SonarMotion motion = manoeuvring();
@@ -121,20 +151,55 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
     using S = ModelSettings;
     static const std::vector<Field<S>> table{
         field(&S::motion, "motion", motionNames,
-              "How signals move: slopes as given here, or a sonar's targets that keep their rates, that turn, or both kinds in parallel."),
+              "How signals move: slopes as given here, or a sonar's targets that keep their rates, that turn, or both "
+              "kinds in parallel."),
         field(&S::lowestSlope, "lowestSlope", "bins/frame", -100.0, 100.0, "Most negative slope a line may have."),
         field(&S::highestSlope, "highestSlope", "bins/frame", -100.0, 100.0, "Most positive slope a line may have."),
+        field(&S::slopesPerBin, "slopesPerBin", "", 1.0, 64.0,
+              "Number of slopes per bin/frame: 8 means steps of 1/8 bin/frame."),
         field(&S::slopeChange, "slopeChange", "", 0.0, 1.0,
-              "Law h(0), h(1), … of the slope's change from frame to frame; h(0) + 2·(h(1) + …) = 1."),
+              "Law h(0), h(1), … of the slope's change from frame to frame, in steps of the slope set; h(0) + 2·(h(1) "
+              "+ …) = 1."),
         field(&S::rangeRateChange, "rangeRateChange", "", 0.0, 1.0,
-              "Law h(0), h(1), … of a manoeuvring target's change of range rate from ping to ping; h(0) + 2·(h(1) + …) = 1."),
+              "Law h(0), h(1), … of a manoeuvring target's change of range rate from ping to ping; h(0) + 2·(h(1) + …) "
+              "= 1."),
         field(&S::bearingRateChange, "bearingRateChange", "", 0.0, 1.0, "The same of its bearing rate."),
         field(&S::rounding, "rounding", roundingNames, "How half a bin of movement is rounded."),
         field(&S::likelihood, "likelihood", likelihoodNames,
               "The signal's law: constant amplitude, fluctuating, or the plain power."),
-        field(&S::snr, "snr", "", 1e-6, 1e6, "Signal-to-noise ratio r0 the likelihood is designed for, as a power ratio in one frame."),
+        field(&S::snr, "snr", "", 1e-6, 1e6,
+              "Signal-to-noise ratio r0 the likelihood is designed for, as a power ratio in one frame."),
     };
     return table;
+}
+
+ModelSettings laws::billon()
+{
+    ModelSettings model;
+    model.lowestSlope = -2.0;
+    model.highestSlope = 2.0;
+    model.slopesPerBin = 1;
+    model.slopeChange = {1.0 / 3.0, 1.0 / 3.0};
+    return model;
+}
+
+ModelSettings laws::steady()
+{
+    ModelSettings model;
+    model.lowestSlope = model.highestSlope = 0.0;
+    model.slopesPerBin = 1;
+    model.slopeChange = {1.0};
+    return model;
+}
+
+ModelSettings laws::glide()
+{
+    ModelSettings model;
+    model.lowestSlope = -4.0;
+    model.highestSlope = 4.0;
+    model.slopesPerBin = 2;
+    model.slopeChange = {0.8, 0.1};
+    return model;
 }
 
 const std::vector<Field<DecideSettings>> &DecideSettings::fields()
@@ -214,11 +279,10 @@ void checkSettings(const AnalysisSettings &settings)
     for (const auto &f : AnalysisSettings::fields())
         if (const auto value = f.get(settings))
             checkFieldValue(f, *value);
-    if (settings.model.lowestSlope > settings.model.highestSlope)
-        throw Error("model.lowestSlope = " + std::to_string(settings.model.lowestSlope), "must not exceed model.highestSlope");
+    checkSlopes(settings.model);
     if (settings.conventional.hits > settings.conventional.window)
         throw Error("conventional.hits = " + std::to_string(settings.conventional.hits), "must not exceed conventional.window");
-    checkLaw("model.slopeChange", settings.model.slopeChange, settings.model.highestSlope - settings.model.lowestSlope + 1);
+    checkLaw("model.slopeChange", settings.model.slopeChange, slopeCount(settings.model));
     checkLaw("model.rangeRateChange", settings.model.rangeRateChange, 1);
     checkLaw("model.bearingRateChange", settings.model.bearingRateChange, 1);
 }
@@ -265,16 +329,18 @@ const std::vector<Preset> &presets()
 {
     static const std::vector<Preset> list = [] {
         std::vector<Preset> all;
-        all.push_back({"lines", "Lines that drift and wander: Billon's five slopes, window chosen from the recording.", {}});
+        all.push_back({"lines",
+                       "Lines that drift and wander: slopes of 1/8 bin with inertia, window chosen from the recording.",
+                       {}});
 
         AnalysisSettings billon;
+        billon.model = laws::billon();
         billon.spectrogram.window = WindowShape::Rectangular;
         billon.spectrogram.binsPerCell = 4;
         all.push_back({"billon", "The settings of Billon's tables: rectangular window, k_t = 2, k_f = 4, five slopes.", billon});
 
         AnalysisSettings steady;
-        steady.model.lowestSlope = steady.model.highestSlope = 0;
-        steady.model.slopeChange = {1.0};
+        steady.model = laws::steady();
         all.push_back({"steady", "Lines that stay within their bin: one slope, the longest integration.", steady});
 
         AnalysisSettings strong;
@@ -282,8 +348,7 @@ const std::vector<Preset> &presets()
         all.push_back({"strong", "Faint lines beside very strong ones: a window with side lobes below -92 dB.", strong});
 
         AnalysisSettings whistles;
-        whistles.model.lowestSlope = -4;
-        whistles.model.highestSlope = 4;
+        whistles.model = laws::glide();
         AnalysisSettings sonar = sonarSettings();
         all.push_back({"sonar", "Active sonar, targets that turn: Parsons' manoeuvring model.", sonar});
         sonar.model.motion = Motion::NonManoeuvring;
@@ -293,7 +358,9 @@ const std::vector<Preset> &presets()
         sonar.model.motion = Motion::Bank;
         all.push_back({"sonarBank", "Active sonar, both models in parallel at equal false-alarm probability.", sonar});
 
-        all.push_back({"whistles", "Fast sweeps such as whistles and calls: nine slopes.", whistles});
+        all.push_back({"whistles",
+                       "Fast sweeps such as whistles and calls: slopes of half a bin up to four bins a frame.",
+                       whistles});
         return all;
     }();
     return list;
@@ -316,8 +383,16 @@ MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
         return sonarModel(grid, settings.motion == Motion::Manoeuvring ? turning(settings) : nonManoeuvring());
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)
-        axes.push_back({axis.name, axis.count, axis.cyclic, settings.lowestSlope, settings.highestSlope - settings.lowestSlope + 1,
-                        settings.slopeChange, {}, settings.rounding});
+        axes.push_back({axis.name,
+                        axis.count,
+                        axis.cyclic,
+                        slopeIndex(settings.lowestSlope, settings.slopesPerBin),
+                        slopeCount(settings),
+                        settings.slopeChange,
+                        {},
+                        settings.rounding,
+                        false,
+                        settings.slopesPerBin});
     return {StateSpace(std::move(axes)), Likelihood(settings.likelihood, settings.snr), 1.0};
 }
 

@@ -27,9 +27,11 @@ inline constexpr std::array<std::string_view, 4> motionNames{"slopes", "nonManoe
 /// What a signal is taken to do: how its slope changes, and how it differs from noise.
 struct ModelSettings {
     Motion motion = Motion::Slopes;
-    int lowestSlope = -2;  ///< slope set, in bins per frame
-    int highestSlope = 2;
-    std::vector<double> slopeChange{1.0 / 3.0, 1.0 / 3.0}; ///< h(0), h(1), …; h(0) + 2 Σ h(i) = 1
+    double lowestSlope = -1.0; ///< slope set, in bins per frame, whole multiples of 1/slopesPerBin
+    double highestSlope = 1.0;
+    int slopesPerBin = 8; ///< neighbouring slopes differ by 1/slopesPerBin bin per frame
+    std::vector<double> slopeChange{0.9,
+                                    0.05}; ///< h(0), h(1), …, of a change by one slope, two, …; h(0) + 2 Σ h(i) = 1
     std::vector<double> rangeRateChange = std::vector<double>(5, 1.0 / 9.0); ///< h of manoeuvring targets, as Parsons has it
     std::vector<double> bearingRateChange{0.5, 0.25};
     Rounding rounding = Rounding::HalfDown;
@@ -58,6 +60,17 @@ struct DecideSettings {
     static const std::vector<Field<DecideSettings>> &fields();
     bool operator==(const DecideSettings &) const = default;
 };
+
+/// The laws of motion that presets are made of. Coarse slopes that change freely suit lines that turn at any moment; fine slopes with
+/// inertia suit everything that does not: a path must not follow noise for nothing, nor pay for a slope between two whole bins.
+namespace laws {
+    /// Billon 2005: five slopes a bin apart, h = (1/3, 1/3).
+    ModelSettings billon();
+    /// One slope: lines that stay within their bin.
+    ModelSettings steady();
+    /// Fast signals: slopes of half a bin up to four bins a frame, h = (0.8, 0.1).
+    ModelSettings glide();
+} // namespace laws
 
 /// Everything that determines a result besides the recording: one value, saved, undone, compared and passed as a whole.
 struct AnalysisSettings {

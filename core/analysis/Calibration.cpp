@@ -380,7 +380,7 @@ namespace {
         };
         for (const KinematicAxis &axis : model.space.axes()) {
             add({static_cast<double>(axis.cells), axis.cyclic ? 1.0 : 0.0, static_cast<double>(axis.firstRate), static_cast<double>(axis.rateCount),
-                 static_cast<double>(axis.rounding), axis.renormalised ? 1.0 : 0.0});
+                 static_cast<double>(axis.ratesPerCell), static_cast<double>(axis.rounding), axis.renormalised ? 1.0 : 0.0});
             add(axis.rateChange);
             add(axis.step);
             add(axis.transition);

@@ -78,7 +78,7 @@ std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model)
     const std::vector<KinematicAxis> &kinematic = modelOf(analysis, model).space.axes();
     for (std::size_t i = 0; i < kinematic.size(); ++i) {
         const Axis &axis = analysis.grid().axes[i];
-        const double rate = axis.step / analysis.time().step;
+        const double rate = axis.step / analysis.time().step / kinematic[i].ratesPerCell;
         axes.push_back({axis.name + " rate", axis.unit + "/s", kinematic[i].firstRate * rate, rate, kinematic[i].rateCount, false});
     }
     return axes;

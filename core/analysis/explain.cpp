@@ -114,12 +114,12 @@ namespace {
             double remembered = minusInfinity; ///< the best with all of it
             std::optional<int> track;          ///< for which the remembered one was forgotten
         };
-        Ways into(Index state) const
+        Ways into(Index state, Index frame) const
         {
             Ways ways;
             const auto *smd = dynamic_cast<const Smd *>(&m_detector);
             const double background = std::max(0.0, smd ? -smd->offset() : 0.0);
-            for (const StateSpace::Predecessor &p : m_model.space.predecessors(state)) {
+            for (const StateSpace::Predecessor &p : m_model.space.predecessors(state, frame)) {
                 const double ln = p.lnProbability * m_model.transitionScale;
                 const auto score = static_cast<double>(m_detector.scores()[static_cast<std::size_t>(p.state)]);
                 const std::optional<int> track = forgottenFor(m_model.space.cellOf(p.state));
@@ -167,7 +167,7 @@ namespace {
             if (step.frame == 0)
                 continue;
             competitors.goTo(step.frame, context);
-            const Competitors::Ways ways = competitors.into(step.state);
+            const Competitors::Ways ways = competitors.into(step.state, step.frame);
             if (i > 0) {
                 step.runnerUp = ways.best - ways.second;
                 continue;

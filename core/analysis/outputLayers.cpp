@@ -141,7 +141,7 @@ void LayerReplay::step()
         if (isFirst)
             std::fill(m_ages.states[model].begin(), m_ages.states[model].end(), 0);
         else
-            followPaths(model);
+            followPaths(model, frame);
     followTrackers();
     m_now = m_layers.frame = frame;
     project(statistic);
@@ -158,7 +158,7 @@ void LayerReplay::step()
 }
 
 /// One axis's part of the step: of the ways into a state along it, the best, in the order that decides ties.
-void LayerReplay::move(const MarkovModel &model, std::size_t axis, const Paths &from, Paths &to)
+void LayerReplay::move(const MarkovModel &model, std::size_t axis, Index step, const Paths &from, Paths &to)
 {
     const std::vector<KinematicAxis> &axes = model.space.axes();
     const KinematicAxis &own = axes[axis];
@@ -188,7 +188,7 @@ void LayerReplay::move(const MarkovModel &model, std::size_t axis, const Paths &
             best[i] = isBetter ? other : best[i];
         }
     };
-    for (const KinematicAxis::Move &move : own.moves()) {
+    for (const KinematicAxis::Move &move : own.moves(step)) {
         const auto ln = static_cast<float>(move.lnProbability * model.transitionScale);
         const Index shift = move.cells;
         if (std::abs(shift) >= own.cells)
@@ -209,12 +209,12 @@ void LayerReplay::move(const MarkovModel &model, std::size_t axis, const Paths &
     }
 }
 
-void LayerReplay::followPaths(std::size_t model)
+void LayerReplay::followPaths(std::size_t model, Index frame)
 {
     std::swap(m_paths.scores, m_before[model]);
     std::swap(m_paths.ages, m_ages.states[model]);
     for (std::size_t axis = m_models[model].space.axes().size(); axis-- > 0;) { // the last one first: rates of the first decide ties
-        move(m_models[model], axis, m_paths, m_moved);
+        move(m_models[model], axis, frame, m_paths, m_moved);
         std::swap(m_paths, m_moved);
     }
     const auto lnK = static_cast<float>(m_replay.chain().detector().member(model).regulation().stepLnK);
@@ -410,18 +410,18 @@ LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &
 
 double largestRate(const Analysis &analysis, std::size_t axis)
 {
-    int cellsPerFrame = 1;
+    double cellsPerFrame = 0.0;
     for (std::size_t model = 0; model < modelCount(analysis); ++model) {
         const KinematicAxis &own = modelOf(analysis, model).space.axes()[axis];
-        cellsPerFrame = std::max({cellsPerFrame, std::abs(own.firstRate), std::abs(own.firstRate + own.rateCount - 1)});
+        cellsPerFrame = std::max({cellsPerFrame, std::abs(own.rate(0)), std::abs(own.rate(own.rateCount - 1))});
     }
-    return cellsPerFrame * rateUnit(analysis, axis);
+    return (cellsPerFrame > 0.0 ? cellsPerFrame : 1.0) * rateUnit(analysis, axis);
 }
 
 CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell)
 {
     const auto i = static_cast<std::size_t>(cell);
-    const std::vector<int> rates = modelOf(analysis, layers.model[i]).space.ratesOfPlane(layers.plane[i]);
+    const std::vector<double> rates = modelOf(analysis, layers.model[i]).space.ratesOfPlane(layers.plane[i]);
     return {rates[0] * rateUnit(analysis, 0), rates.size() > 1 ? rates[1] * rateUnit(analysis, 1) : 0.0,
             static_cast<double>(layers.age[i]) * analysis.time().step, layers.isInhibited[i] != 0,
             static_cast<double>(layers.statistic[i])};

@@ -75,10 +75,10 @@ private:
     bool knowsAges(const Cells &cells) const;
     void step();
     std::vector<float> scoresBefore(std::size_t model) const;
-    void followPaths(std::size_t model);
+    void followPaths(std::size_t model, Index frame);
     void followTrackers();
     void project(std::span<const float> statistic);
-    static void move(const MarkovModel &model, std::size_t axis, const Paths &from, Paths &to);
+    static void move(const MarkovModel &model, std::size_t axis, Index step, const Paths &from, Paths &to);
 
     ChainReplay m_replay;
     Index m_now = -1; ///< frame that ages and layers belong to; -1: none

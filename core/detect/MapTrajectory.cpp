@@ -32,7 +32,7 @@ MapEstimator::Scores MapEstimator::start(const Evidence &evidence)
 MapEstimator::Scores MapEstimator::next(const Scores &before, Index stage, const Evidence &evidence)
 {
     evidence(stage, m_lambda);
-    const std::span<const double> predicted = m_recursion.predict(before);
+    const std::span<const double> predicted = m_recursion.predict(before, stage);
     Scores scores(predicted.begin(), predicted.end());
     for (std::size_t n = 0; n < scores.size(); n += m_lambda.size())
         for (std::size_t cell = 0; cell < m_lambda.size(); ++cell)
@@ -40,13 +40,13 @@ MapEstimator::Scores MapEstimator::next(const Scores &before, Index stage, const
     return scores;
 }
 
-Index MapEstimator::origin(Index state, const Scores &before)
+Index MapEstimator::origin(Index state, Index stage, const Scores &before)
 {
     if (m_predecessors.size() > keptStates)
         m_predecessors.clear();
-    const auto [found, isNew] = m_predecessors.try_emplace(state);
+    const auto [found, isNew] = m_predecessors.try_emplace({state, stage % m_space.phaseCount()});
     if (isNew)
-        found->second = m_space.predecessors(state);
+        found->second = m_space.predecessors(state, stage);
     if (found->second.empty()) // of a trajectory that cannot be
         return state;
     Index best = -1;
@@ -88,14 +88,14 @@ MapTrajectory MapEstimator::estimate(Index stages, const Evidence &evidence, con
         for (; stage >= first; --stage) {
             map.states[static_cast<std::size_t>(stage)] = state;
             if (stage > first)
-                state = origin(state, block[static_cast<std::size_t>(stage - first - 1)]);
+                state = origin(state, stage, block[static_cast<std::size_t>(stage - first - 1)]);
         }
         if (first == 0)
             break;
         block.assign(1, std::move(milestones[static_cast<std::size_t>(first / stride - 1)]));
         for (Index again = first - stride + 1; again < first; ++again)
             block.push_back(next(block.back(), again, evidence));
-        state = origin(state, block.back());
+        state = origin(state, first, block.back());
     }
     return map;
 }

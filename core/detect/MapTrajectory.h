@@ -5,8 +5,9 @@
 #include "model/SequentialModel.h"
 
 #include <functional>
+#include <map>
 #include <span>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace faintline {
@@ -40,14 +41,15 @@ private:
 
     Scores start(const Evidence &evidence);
     Scores next(const Scores &before, Index stage, const Evidence &evidence);
-    Index origin(Index state, const Scores &before);
+    Index origin(Index state, Index stage, const Scores &before);
 
     StateSpace m_space;
     double m_transitionScale;
     std::vector<double> m_initial;
     Recursion<MaxPlus<double>> m_recursion;
     std::vector<double> m_lambda;
-    std::unordered_map<Index, std::vector<StateSpace::Predecessor>> m_predecessors; ///< of the states trajectories came through
+    std::map<std::pair<Index, Index>, std::vector<StateSpace::Predecessor>>
+        m_predecessors; ///< of states trajectories came through, by phase
 };
 
 } // namespace faintline

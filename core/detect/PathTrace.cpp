@@ -98,10 +98,11 @@ namespace {
         {
             Index least = 0;
             Index most = 0;
-            for (const KinematicAxis::Move &move : axis.moves()) {
-                least = std::min<Index>(least, move.cells);
-                most = std::max<Index>(most, move.cells);
-            }
+            for (Index phase = 0; phase < axis.phaseCount(); ++phase)
+                for (const KinematicAxis::Move &move : axis.moves(phase)) {
+                    least = std::min<Index>(least, move.cells);
+                    most = std::max<Index>(most, move.cells);
+                }
             Index from = m_origin[i] - length * most;
             Index to = m_origin[i] - length * least;
             if (axis.cyclic && to - from + 1 >= axis.cells) {
@@ -218,7 +219,7 @@ namespace {
                 FrameJoin join;
                 join.counting = Counting::Nothing;
                 join.lnK = static_cast<float>(record.lnK(frame));
-                recursion.advance(history.at(frame - 1), scores, {y, statistic}, model.likelihood, join);
+                recursion.advance(history.at(frame - 1), scores, {y, statistic, frame}, model.likelihood, join);
             }
             if (frame < last)
                 for (const CellBox &box : record.forgotten(frame))
@@ -228,12 +229,12 @@ namespace {
     }
 
     /// Where a step's maximum came from, or -1 if the path was reset there.
-    Index origin(const MarkovModel &model, const Corridor &corridor, std::span<const float> before, Index state, double lnK,
-                 double &lnTransition)
+    Index origin(const MarkovModel &model, const Corridor &corridor, std::span<const float> before, Index frame,
+                 Index state, double lnK, double &lnTransition)
     {
         Index best = -1;
         float bestScore = unreached;
-        for (const StateSpace::Predecessor &p : corridor.space.predecessors(state)) {
+        for (const StateSpace::Predecessor &p : corridor.space.predecessors(state, frame)) {
             const double ln = p.lnProbability * model.transitionScale;
             const float score = before[static_cast<std::size_t>(p.state)] + static_cast<float>(ln);
             if (score > bestScore) {
@@ -278,8 +279,9 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
             step.state = corridor.toGlobal(model.space, local);
             const Index cell = model.space.cellOf(step.state);
             step.logLikelihoodRatio = model.likelihood.at(static_cast<double>(record.frame(frame)[static_cast<std::size_t>(cell)]));
-            const Index before =
-                frame == first ? -1 : origin(model, corridor, history.at(frame - 1), local, record.lnK(frame), step.lnTransition);
+            const Index before = frame == first ? -1
+                                                : origin(model, corridor, history.at(frame - 1), frame, local,
+                                                         record.lnK(frame), step.lnTransition);
             if (before < 0)
                 step.lnTransition = 0.0;
             else

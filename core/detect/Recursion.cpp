@@ -109,24 +109,15 @@ Recursion<Semiring> &Recursion<Semiring>::operator=(Recursion &&) noexcept = def
 template <class Semiring>
 Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
     : m_planeSize(space.cellCount()), m_planeCount(space.planeCount()), m_groups(space.axes().front().rateCount),
-      m_groupSize(m_planeCount / m_groups)
+      m_groupSize(m_planeCount / m_groups), m_rows(space.axes().front().cells), m_inner(m_planeSize / m_rows),
+      m_isCyclic(space.axes().front().cyclic)
 {
-    Index inner = space.cellCount();
-    Index before = 1; // rate combinations within a group: of the later axes before this one …
-    Index after = m_groupSize; // … and after it
-    for (std::size_t axis = 0; axis < space.axes().size(); ++axis) {
-        const KinematicAxis &a = space.axes()[axis];
-        inner /= a.cells;
-        if (axis == 0) {
-            addFirstAxis(a, inner, transitionScale);
-            continue;
-        }
-        after /= a.rateCount;
-        addLaterAxis(a, inner, before, after, transitionScale);
-        before *= a.rateCount;
-    }
+    for (Index number = 0; number < space.phaseCount(); ++number)
+        addPhase(space, number, transitionScale);
+    m_slides.resize(static_cast<std::size_t>(m_groups));
     if constexpr (Semiring::logarithmic)
-        prepareSlides();
+        if (m_phases.size() == 1)
+            prepareSlides();
     prepareTiles();
     preparePlaces(space, transitionScale);
     if constexpr (std::same_as<Semiring, MaxPlus<float>>)
@@ -135,28 +126,52 @@ Recursion<Semiring>::Recursion(const StateSpace &space, double transitionScale)
 }
 
 template <class Semiring>
-void Recursion<Semiring>::addFirstAxis(const KinematicAxis &axis, Index inner, double transitionScale)
+void Recursion<Semiring>::addPhase(const StateSpace &space, Index number, double transitionScale)
 {
-    m_first = {axis.cells, inner, axis.cyclic, {}};
-    const std::vector<KinematicAxis::Move> moves = axis.moves();
-    m_slides.resize(static_cast<std::size_t>(axis.rateCount));
-    if (isIdentity(moves))
-        return;
-    m_first.shifts.resize(static_cast<std::size_t>(axis.rateCount));
-    for (const KinematicAxis::Move &move : moves) {
-        m_first.shifts[static_cast<std::size_t>(move.toRate)].push_back(
-            {move.fromRate, move.cells, weightOf<Semiring>(move.lnProbability * transitionScale)});
-        m_reach = std::max<Index>(m_reach, std::abs(move.cells));
+    Phase phase;
+    Index inner = space.cellCount();
+    Index before = 1; // rate combinations within a group: of the later axes before this one …
+    Index after = m_groupSize; // … and after it
+    for (std::size_t axis = 0; axis < space.axes().size(); ++axis) {
+        const KinematicAxis &a = space.axes()[axis];
+        inner /= a.cells;
+        if (axis == 0) {
+            phase.first = firstAxis(a, number, inner, transitionScale);
+            continue;
+        }
+        after /= a.rateCount;
+        if (!isIdentity(a.moves(number)))
+            phase.later.push_back(laterAxis(a, number, inner, before, after, transitionScale));
+        before *= a.rateCount;
     }
+    m_isSingle = m_isSingle && phase.later.empty();
+    m_phases.push_back(std::move(phase));
 }
 
 template <class Semiring>
-void Recursion<Semiring>::addLaterAxis(const KinematicAxis &axis, Index inner, Index before, Index after, double transitionScale)
+typename Recursion<Semiring>::AxisStep Recursion<Semiring>::firstAxis(const KinematicAxis &axis, Index number,
+                                                                      Index inner, double transitionScale)
 {
-    const std::vector<KinematicAxis::Move> moves = axis.moves();
+    AxisStep step{axis.cells, inner, axis.cyclic, {}};
+    const std::vector<KinematicAxis::Move> moves = axis.moves(number);
     if (isIdentity(moves))
-        return;
+        return step;
+    step.shifts.resize(static_cast<std::size_t>(axis.rateCount));
+    for (const KinematicAxis::Move &move : moves) {
+        step.shifts[static_cast<std::size_t>(move.toRate)].push_back(
+            {move.fromRate, move.cells, weightOf<Semiring>(move.lnProbability * transitionScale)});
+        m_reach = std::max<Index>(m_reach, std::abs(move.cells));
+    }
+    return step;
+}
+
+template <class Semiring>
+typename Recursion<Semiring>::AxisStep Recursion<Semiring>::laterAxis(const KinematicAxis &axis, Index number,
+                                                                      Index inner, Index before, Index after,
+                                                                      double transitionScale) const
+{
     AxisStep step{axis.cells, inner, axis.cyclic, std::vector<std::vector<Shift>>(static_cast<std::size_t>(m_groupSize))};
+    const std::vector<KinematicAxis::Move> moves = axis.moves(number);
     for (Index b = 0; b < before; ++b)
         for (const KinematicAxis::Move &move : moves)
             for (Index c = 0; c < after; ++c) {
@@ -165,14 +180,14 @@ void Recursion<Semiring>::addLaterAxis(const KinematicAxis &axis, Index inner, I
                 if (move.cells != 0) {
                     const auto same = [&](const Shift &copy) { return copy.from == shift.from && copy.cells == shift.cells; };
                     const auto found = std::find_if(step.copies.begin(), step.copies.end(), same);
-                    const Index number = m_groupSize + (found - step.copies.begin());
+                    const Index copyNumber = m_groupSize + (found - step.copies.begin());
                     if (found == step.copies.end())
                         step.copies.push_back(shift);
-                    shift = {number, 0, shift.weight};
+                    shift = {copyNumber, 0, shift.weight};
                 }
                 step.shifts[static_cast<std::size_t>(plane(move.toRate))].push_back(shift);
             }
-    m_later.push_back(std::move(step));
+    return step;
 }
 
 /// Replaces runs of sources of equal weight, each two rates and a cell on from the one before, by maxima over two and four of them.
@@ -181,6 +196,7 @@ template <class Semiring>
 void Recursion<Semiring>::prepareSlides()
 {
     const Index rates = m_groups;
+    AxisStep &first = m_phases.front().first;
     std::vector<Slide> wanted(static_cast<std::size_t>(2 * rates), {-1, 0, 0, 0, 0, 0});
     const auto want = [&](Index number, Index of, Index other, Index back, Index shift) {
         Slide &slide = wanted[static_cast<std::size_t>(number - rates)];
@@ -197,7 +213,7 @@ void Recursion<Semiring>::prepareSlides()
         want(2 * rates + rate, rates + rate, rates + rate + 4, 2, shift);
         return 2 * rates + rate;
     };
-    std::vector<std::vector<Shift>> replaced = m_first.shifts;
+    std::vector<std::vector<Shift>> replaced = first.shifts;
     for (std::vector<Shift> &shifts : replaced) {
         const bool isUniform = std::all_of(shifts.begin(), shifts.end(), [&](const Shift &s) { return s.weight == shifts.front().weight; });
         if (shifts.size() < fewest || !isUniform)
@@ -215,11 +231,11 @@ void Recursion<Semiring>::prepareSlides()
                 }
             const std::size_t length = run.size() >= 4 ? 4 : run.size() >= 2 ? 2 : 1;
             for (std::size_t at = 0; at < run.size(); at += length) {
-                const Shift &first = run[std::min(at, run.size() - length)];
-                Index from = first.from;
+                const Shift &begin = run[std::min(at, run.size() - length)];
+                Index from = begin.from;
                 if (length > 1)
-                    from = length == 4 ? ofFour(first.from, first.cells) : ofTwo(first.from, first.cells);
-                shifts.push_back({from, first.cells, first.weight});
+                    from = length == 4 ? ofFour(begin.from, begin.cells) : ofTwo(begin.from, begin.cells);
+                shifts.push_back({from, begin.cells, begin.weight});
             }
         }
     }
@@ -243,50 +259,50 @@ void Recursion<Semiring>::prepareSlides()
     if (std::none_of(m_slides.begin(), m_slides.end(), [](const std::vector<Slide> &slides) { return !slides.empty(); }))
         return;
     for (std::size_t rate = 0; rate < replaced.size(); ++rate)
-        for (const Shift &shift : m_first.shifts[rate])
+        for (const Shift &shift : first.shifts[rate])
             m_slideRing = std::max(m_slideRing, 2 * std::abs(shift.from - static_cast<Index>(rate)) + 1);
-    if (m_later.empty()) // then all targets are finished together
+    if (m_isSingle) // then all targets are finished together
         m_slideRing = rates;
-    m_first.shifts = std::move(replaced);
+    first.shifts = std::move(replaced);
 }
 
 template <class Semiring>
 void Recursion<Semiring>::prepareTiles()
 {
     const Index fitting = std::clamp(tileBytes / (2 * m_planeCount * static_cast<Index>(sizeof(Real))), fewestCells, tileCells);
-    const bool isSingle = m_planeCount == m_groups && m_later.empty();
+    const bool isSingle = m_planeCount == m_groups && m_isSingle;
     // Shared maxima need more rows than the tile has: those of a short one would cost too much.
     const Index cells = isSingle ? longTileCells : m_slideRing > 0 ? tileCells : fitting;
-    m_tileRows = std::clamp<Index>(cells / m_first.inner, 1, m_first.cells);
+    m_tileRows = std::clamp<Index>(cells / m_inner, 1, m_rows);
     // Whole vectors, if that can be had.
-    for (Index rows = m_tileRows; rows > 0 && m_tileRows < m_first.cells; --rows)
-        if (rows * m_first.inner % vectorCells == 0) {
+    for (Index rows = m_tileRows; rows > 0 && m_tileRows < m_rows; --rows)
+        if (rows * m_inner % vectorCells == 0) {
             m_tileRows = rows;
             break;
         }
     // Of a wide law only those sources count that exist for some row of a tile.
-    if (4 * m_reach > m_first.cells)
+    if (4 * m_reach > m_rows)
         m_tileRows = std::min<Index>(m_tileRows, 8);
-    m_edgeRows = 2 * m_reach + 2 * m_tileRows >= m_first.cells ? m_first.cells : m_reach;
+    m_edgeRows = 2 * m_reach + 2 * m_tileRows >= m_rows ? m_rows : m_reach;
     const auto cut = [&](Index from, Index to) {
         for (; from < to; from += m_tileRows)
             m_tiles.push_back({from, std::min(m_tileRows, to - from)});
     };
-    if (m_edgeRows == m_first.cells) {
-        cut(0, m_first.cells);
+    if (m_edgeRows == m_rows) {
+        cut(0, m_rows);
     } else {
         cut(0, m_edgeRows);
-        cut(m_edgeRows, m_first.cells - m_edgeRows);
-        cut(m_first.cells - m_edgeRows, m_first.cells);
+        cut(m_edgeRows, m_rows - m_edgeRows);
+        cut(m_rows - m_edgeRows, m_rows);
     }
     Index slideRows = 0;
     for (const std::vector<Slide> &slides : m_slides)
         for (const Slide &s : slides)
             slideRows = std::max(slideRows, s.largest - s.smallest);
-    m_slotSize = (m_tileRows + slideRows) * m_first.inner;
+    m_slotSize = (m_tileRows + slideRows) * m_inner;
     if (m_reach > 0) {
-        const Index rows = m_edgeRows == m_first.cells ? m_first.cells + 2 * m_reach : 2 * (m_edgeRows + 2 * m_reach);
-        m_margins.resize(static_cast<std::size_t>(m_planeCount * rows * m_first.inner));
+        const Index rows = m_edgeRows == m_rows ? m_rows + 2 * m_reach : 2 * (m_edgeRows + 2 * m_reach);
+        m_margins.resize(static_cast<std::size_t>(m_planeCount * rows * m_inner));
     }
 }
 
@@ -294,18 +310,21 @@ template <class Semiring>
 void Recursion<Semiring>::prepareSlantedTiles()
     requires std::same_as<Semiring, MaxPlus<float>>
 {
-    if (m_first.cyclic || m_slideRing > 0 || !m_departures.empty() || !m_matrices.empty())
+    if (m_isCyclic || m_slideRing > 0 || !m_departures.empty() || !m_matrices.empty())
         return;
-    std::vector<std::vector<SlantedTiles::Source>> sources(static_cast<std::size_t>(m_groups));
-    for (Index rate = 0; rate < m_groups; ++rate) {
-        std::vector<SlantedTiles::Source> &ofTarget = sources[static_cast<std::size_t>(rate)];
-        if (m_first.shifts.empty())
-            ofTarget.push_back({rate, 0, 0.0f});
-        else
-            for (const Shift &shift : m_first.shifts[static_cast<std::size_t>(rate)])
-                ofTarget.push_back({shift.from, shift.cells, shift.weight});
+    std::vector<SlantedTiles::Targets> phases;
+    for (const Phase &phase : m_phases) {
+        SlantedTiles::Targets &targets = phases.emplace_back(static_cast<std::size_t>(m_groups));
+        for (Index rate = 0; rate < m_groups; ++rate) {
+            std::vector<SlantedTiles::Source> &sources = targets[static_cast<std::size_t>(rate)];
+            if (phase.first.shifts.empty())
+                sources.push_back({rate, 0, 0.0f});
+            else
+                for (const Shift &shift : phase.first.shifts[static_cast<std::size_t>(rate)])
+                    sources.push_back({shift.from, shift.cells, shift.weight});
+        }
     }
-    if (SlantedTiles tiles(m_first.cells, std::move(sources)); tiles.areWorthwhile())
+    if (SlantedTiles tiles(m_rows, std::move(phases)); tiles.areWorthwhile())
         m_slanted = std::move(tiles);
 }
 
@@ -377,10 +396,11 @@ typename Recursion<Semiring>::Scratch &Recursion<Semiring>::scratch(std::size_t 
     while (m_scratch.size() <= number) {
         auto made = std::make_unique<Scratch>();
         const auto planes = static_cast<std::size_t>(m_groupSize);
-        const auto size = static_cast<std::size_t>(m_tileRows * m_first.inner);
+        const auto size = static_cast<std::size_t>(m_tileRows * m_inner);
         std::size_t copies = 0;
-        for (const AxisStep &step : m_later)
-            copies = std::max(copies, step.copies.size());
+        for (const Phase &phase : m_phases)
+            for (const AxisStep &step : phase.later)
+                copies = std::max(copies, step.copies.size());
         made->tile.resize(planes * size);
         made->otherTile.resize(planes * size);
         made->copies.resize(copies * size);
@@ -392,28 +412,28 @@ typename Recursion<Semiring>::Scratch &Recursion<Semiring>::scratch(std::size_t 
 }
 
 template <class Semiring>
-std::span<typename Semiring::Real> Recursion<Semiring>::predict(std::span<const Real> scores)
+std::span<typename Semiring::Real> Recursion<Semiring>::predict(std::span<const Real> scores, Index step)
 {
     m_result.resize(static_cast<std::size_t>(m_planeSize * m_planeCount));
-    predict(scores, [this](Index plane, Index firstCell, std::span<const Real> predicted) {
+    predict(scores, step, [this](Index plane, Index firstCell, std::span<const Real> predicted) {
         std::copy(predicted.begin(), predicted.end(), m_result.begin() + plane * m_planeSize + firstCell);
     });
     return m_result;
 }
 
 template <class Semiring>
-void Recursion<Semiring>::predict(std::span<const Real> scores, const Tile &take)
+void Recursion<Semiring>::predict(std::span<const Real> scores, Index step, const Tile &take)
 {
     scores = prepare(scores);
     fillMargins(scores);
     Scratch &own = scratch(0);
-    std::vector<Real> predicted(static_cast<std::size_t>(m_tileRows * m_first.inner));
+    std::vector<Real> predicted(static_cast<std::size_t>(m_tileRows * m_inner));
     for (const TileRows &rows : m_tiles)
-        goThroughTile(scores, rows, own, [&](Index firstPlane) {
-            const std::span<Real> to = std::span(predicted).first(static_cast<std::size_t>(rows.count * m_first.inner));
+        goThroughTile(phaseOf(step), scores, rows, own, [&](Index firstPlane) {
+            const std::span<Real> to = std::span(predicted).first(static_cast<std::size_t>(rows.count * m_inner));
             for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
                 joinSources<Semiring>(to.data(), std::ssize(to), own.sourcesOf(k));
-                take(firstPlane + static_cast<Index>(k), rows.first * m_first.inner, to);
+                take(firstPlane + static_cast<Index>(k), rows.first * m_inner, to);
             }
         });
 }
@@ -424,8 +444,8 @@ void Recursion<Semiring>::fillMargins(std::span<const Real> scores)
 {
     if (m_reach == 0)
         return;
-    const Index cells = m_first.cells;
-    const Index inner = m_first.inner;
+    const Index cells = m_rows;
+    const Index inner = m_inner;
     Real *to = m_margins.data();
     const auto copyRows = [&](const Real *plane, Index from, Index end) {
         for (Index row = from; row < end;) {
@@ -435,7 +455,7 @@ void Recursion<Semiring>::fillMargins(std::span<const Real> scores)
             const Index n = (next - row) * inner;
             if (isInside)
                 std::copy_n(plane + row * inner, n, to);
-            else if (m_first.cyclic)
+            else if (m_isCyclic)
                 std::copy_n(plane + wrapped * inner, n, to);
             else
                 std::fill_n(to, n, nothing<Semiring>());
@@ -458,15 +478,15 @@ void Recursion<Semiring>::fillMargins(std::span<const Real> scores)
 template <class Semiring>
 const typename Semiring::Real *Recursion<Semiring>::rowsOf(std::span<const Real> scores, Index plane, Index firstRow) const
 {
-    const Index cells = m_first.cells;
+    const Index cells = m_rows;
     const bool isLow = firstRow < m_edgeRows;
     if (m_reach == 0 || (!isLow && firstRow < cells - m_edgeRows))
-        return scores.data() + plane * m_planeSize + firstRow * m_first.inner;
+        return scores.data() + plane * m_planeSize + firstRow * m_inner;
     const bool isWhole = m_edgeRows == cells;
     const Index rows = m_edgeRows + 2 * m_reach;
     const Index block = isWhole || isLow ? 0 : rows;
     const Index begin = isWhole || isLow ? -m_reach : cells - m_edgeRows - m_reach;
-    return m_margins.data() + (plane * (isWhole ? rows : 2 * rows) + block + firstRow - begin) * m_first.inner;
+    return m_margins.data() + (plane * (isWhole ? rows : 2 * rows) + block + firstRow - begin) * m_inner;
 }
 
 /// Where a maximum is kept: those of the same rates as many targets on as a law reaches take the place of those of before.
@@ -482,7 +502,7 @@ template <class Semiring>
 void Recursion<Semiring>::slide(std::span<const Real> scores, const Slide &slide, Index group, TileRows rows, Scratch &own) const
 {
     if constexpr (Semiring::logarithmic) {
-        const Index inner = m_first.inner;
+        const Index inner = m_inner;
         const auto place = [&](Index number) { return own.slides.data() + slotOf(number, group) * m_slotSize; };
         const Index firstRow = -slide.largest; // relative to the tile
         const auto from = [&](Index number, Index back) -> const Real * {
@@ -497,19 +517,20 @@ void Recursion<Semiring>::slide(std::span<const Real> scores, const Slide &slide
 
 /// The sources of one target plane of the first axis, for the rows of a tile.
 template <class Semiring>
-void Recursion<Semiring>::listFirst(std::span<const Real> scores, Index rate, Index group, TileRows rows, Scratch &own) const
+void Recursion<Semiring>::listFirst(const AxisStep &first, std::span<const Real> scores, Index rate, Index group,
+                                    TileRows rows, Scratch &own) const
 {
-    const Index inner = m_first.inner;
-    if (m_first.shifts.empty()) {
+    const Index inner = m_inner;
+    if (first.shifts.empty()) {
         own.sources.push_back({rowsOf(scores, rate * m_groupSize + group, rows.first), weightOf<Semiring>(0.0)});
         return;
     }
-    for (const Shift &shift : m_first.shifts[static_cast<std::size_t>(rate)]) {
+    for (const Shift &shift : first.shifts[static_cast<std::size_t>(rate)]) {
         if (shift.from >= m_groups) {
             const auto number = static_cast<std::size_t>(shift.from - m_groups);
             const Real *maxima = own.slides.data() + slotOf(shift.from, group) * m_slotSize;
             own.sources.push_back({maxima + (m_largest[number] - shift.cells) * inner, shift.weight});
-        } else if (m_first.cyclic || (rows.first - shift.cells < m_first.cells && rows.first + rows.count - shift.cells > 0)) {
+        } else if (m_isCyclic || (rows.first - shift.cells < m_rows && rows.first + rows.count - shift.cells > 0)) {
             own.sources.push_back({rowsOf(scores, shift.from * m_groupSize + group, rows.first) - shift.cells * inner, shift.weight});
         }
     }
@@ -548,27 +569,28 @@ void Recursion<Semiring>::makeCopies(const AxisStep &step, Index size, Scratch &
 /// All axes' steps for the rows of a tile. `finish(plane)` is called with the first of the target planes whose sources have been listed.
 template <class Semiring>
 template <class Finish>
-void Recursion<Semiring>::goThroughTile(std::span<const Real> scores, TileRows rows, Scratch &own, Finish finish) const
+void Recursion<Semiring>::goThroughTile(const Phase &phase, std::span<const Real> scores, TileRows rows, Scratch &own,
+                                        Finish finish) const
 {
-    const Index bytes = rows.count * m_first.inner * static_cast<Index>(sizeof(Real));
+    const Index bytes = rows.count * m_inner * static_cast<Index>(sizeof(Real));
     own.clearSources();
     for (Index rate = 0; rate < m_groups; ++rate) {
         for (const Slide &s : m_slides[static_cast<std::size_t>(rate)])
             for (Index group = 0; group < m_groupSize; ++group)
                 slide(scores, s, group, rows, own);
-        if (!m_later.empty())
+        if (!phase.later.empty())
             own.clearSources();
         for (Index group = 0; group < m_groupSize; ++group) {
-            if (const Index ahead = rows.first + rows.count; ahead + rows.count <= m_first.cells)
-                fetch<false>(scores.data() + (rate * m_groupSize + group) * m_planeSize + ahead * m_first.inner, bytes);
-            listFirst(scores, rate, group, rows, own);
+            if (const Index ahead = rows.first + rows.count; ahead + rows.count <= m_rows)
+                fetch<false>(scores.data() + (rate * m_groupSize + group) * m_planeSize + ahead * m_inner, bytes);
+            listFirst(phase.first, scores, rate, group, rows, own);
             own.endTarget();
         }
-        if (m_later.empty())
+        if (phase.later.empty())
             continue;
-        const Index size = rows.count * m_first.inner;
-        for (const AxisStep &step : m_later) {
-            joinListed(size, own);
+        const Index size = rows.count * m_inner;
+        for (const AxisStep &step : phase.later) {
+            joinListed(phase.later.size() == 1, size, own);
             makeCopies(step, size, own);
             own.clearSources();
             for (const std::vector<Shift> &shifts : step.shifts) {
@@ -579,19 +601,19 @@ void Recursion<Semiring>::goThroughTile(std::span<const Real> scores, TileRows r
         }
         finish(rate * m_groupSize);
     }
-    if (m_later.empty())
+    if (phase.later.empty())
         finish(0);
 }
 
 /// Joins the sources of each target that has been listed to a plane; one that would be but a copy is the plane itself.
 template <class Semiring>
-void Recursion<Semiring>::joinListed(Index size, Scratch &own) const
+void Recursion<Semiring>::joinListed(bool isOnlyStep, Index size, Scratch &own) const
 {
     std::swap(own.tile, own.otherTile);
     own.planes.clear();
     for (Index group = 0; group < m_groupSize; ++group) {
         const std::span<const Source> sources = own.sourcesOf(static_cast<std::size_t>(group));
-        if (sources.size() == 1 && sources.front().weight == weightOf<Semiring>(0.0) && m_later.size() == 1) {
+        if (sources.size() == 1 && sources.front().weight == weightOf<Semiring>(0.0) && isOnlyStep) {
             own.planes.push_back(sources.front().from);
             continue;
         }
@@ -616,7 +638,8 @@ Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<
     const Index work = std::ssize(frames.y) * m_planeCount;
     context.threads = static_cast<int>(std::clamp<Index>(work / worthAThread, 1, m_threads));
     if (std::ssize(frames.y) > m_planeSize)
-        return m_slanted->advance(scores, next, frames.y, frames.statistic, likelihood, join, context);
+        return m_slanted->advance(scores, next, frames.y, frames.statistic, frames.firstStep, likelihood, join,
+                                  context);
     return advanceOne(scores, next, frames, likelihood, join, context);
 }
 
@@ -628,14 +651,15 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
     scores = prepare(scores);
     fillMargins(scores);
     m_tileContinued.assign(m_tiles.size(), {});
+    const Phase &phase = phaseOf(frames.firstStep);
     const auto doTile = [&](Index number, Scratch &own) {
         const TileRows rows = m_tiles[static_cast<std::size_t>(number)];
-        const Index firstCell = rows.first * m_first.inner;
-        const Index n = rows.count * m_first.inner;
+        const Index firstCell = rows.first * m_inner;
+        const Index n = rows.count * m_inner;
         likelihood.apply(frames.y.subspan(static_cast<std::size_t>(firstCell), static_cast<std::size_t>(n)),
                          std::span(own.lambda).first(static_cast<std::size_t>(n)));
         Continued &continued = m_tileContinued[static_cast<std::size_t>(number)];
-        goThroughTile(scores, rows, own, [&](Index firstPlane) {
+        goThroughTile(phase, scores, rows, own, [&](Index firstPlane) {
             own.targets.clear();
             for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
                 float *const to = next.data() + (firstPlane + static_cast<Index>(k)) * m_planeSize;

@@ -42,6 +42,8 @@ struct SumProduct {
 ///
 /// Along one bounded axis, several frames can be gone through at once (`SlantedTiles`).
 ///
+/// Where rates are fractions of a cell, displacements differ from step to step and repeat after `phaseCount` steps: each phase has tables of its own.
+///
 /// What differs from cell to cell (a renormalised walk's departures, a full matrix) is ⊗-joined to the scores beforehand: P of an
 /// axis is (departure of the source) ⊗ (law of the displacement), and the departures of one axis do not mind the moves of another.
 ///
@@ -58,19 +60,20 @@ public:
     Recursion(Recursion &&) noexcept;
     Recursion &operator=(Recursion &&) noexcept;
 
-    /// ⊕ over predecessors of `scores` (stateCount values). The answer stays valid until the next call.
-    std::span<Real> predict(std::span<const Real> scores);
+    /// ⊕ over predecessors of `scores` (stateCount values) in step number `step`. The answer stays valid until the next call.
+    std::span<Real> predict(std::span<const Real> scores, Index step = 0);
 
     /// Takes M of the states of one plane in cells firstCell, firstCell + 1, …
     using Tile = std::function<void(Index plane, Index firstCell, std::span<const Real> predicted)>;
 
     /// The same, handed over tile by tile: each state once, tiles ascending. `scores` must stay as they are until the end.
-    void predict(std::span<const Real> scores, const Tile &take);
+    void predict(std::span<const Real> scores, Index step, const Tile &take);
 
     /// Frames to go through: as many as y holds.
     struct Frames {
         std::span<const float> y;
         std::span<float> statistic; ///< D of every frame and cell
+        Index firstStep = 0;        ///< number of the step into the first of them
     };
 
     /// M joined with frames at once: u = λ + max(M + ln K, floor), D = max over rates. `scores` → `next`, which are not the same memory.
@@ -119,6 +122,12 @@ private:
         std::vector<Shift> copies{};            ///< of a later axis: planes that are wanted shifted, numbered on from the planes
     };
 
+    /// How all axes move in the steps of one phase.
+    struct Phase {
+        AxisStep first;
+        std::vector<AxisStep> later{};
+    };
+
     /// Cells of the first axis that are dealt with at a time.
     struct TileRows {
         Index first;
@@ -127,8 +136,11 @@ private:
 
     struct Scratch;
 
-    void addFirstAxis(const KinematicAxis &axis, Index inner, double transitionScale);
-    void addLaterAxis(const KinematicAxis &axis, Index inner, Index before, Index after, double transitionScale);
+    void addPhase(const StateSpace &space, Index number, double transitionScale);
+    AxisStep firstAxis(const KinematicAxis &axis, Index number, Index inner, double transitionScale);
+    AxisStep laterAxis(const KinematicAxis &axis, Index number, Index inner, Index before, Index after,
+                       double transitionScale) const;
+    const Phase &phaseOf(Index step) const { return m_phases[static_cast<std::size_t>(step % std::ssize(m_phases))]; }
     void prepareSlides();
     void prepareTiles();
     void prepareSlantedTiles()
@@ -139,27 +151,33 @@ private:
 
     void fillMargins(std::span<const Real> scores);
     const Real *rowsOf(std::span<const Real> scores, Index plane, Index firstRow) const;
-    void listFirst(std::span<const Real> scores, Index rate, Index group, TileRows rows, Scratch &scratch) const;
+    void listFirst(const AxisStep &first, std::span<const Real> scores, Index rate, Index group, TileRows rows,
+                   Scratch &scratch) const;
     Index slotOf(Index number, Index group) const;
     void slide(std::span<const Real> scores, const Slide &slide, Index group, TileRows rows, Scratch &scratch) const;
     void makeCopies(const AxisStep &step, Index size, Scratch &scratch) const;
     template <class Finish>
-    void goThroughTile(std::span<const Real> scores, TileRows rows, Scratch &scratch, Finish finish) const;
+    void goThroughTile(const Phase &phase, std::span<const Real> scores, TileRows rows, Scratch &scratch,
+                       Finish finish) const;
     Scratch &scratch(std::size_t number);
 
     Continued advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames, const Likelihood &likelihood,
                          const FrameJoin &join, const RunContext &context)
         requires std::same_as<Semiring, MaxPlus<float>>;
-    void joinListed(Index size, Scratch &scratch) const;
+    void joinListed(bool isOnlyStep, Index size, Scratch &scratch) const;
 
     Index m_planeSize;
     Index m_planeCount;
     Index m_groups;    ///< rates of the first axis
     Index m_groupSize; ///< planes that share one of them
     Index m_reach = 0; ///< largest displacement along the first axis
-    AxisStep m_first;
-    std::vector<AxisStep> m_later;
-    std::vector<std::vector<Slide>> m_slides; ///< before each target rate, in the order they are made in
+    Index m_rows;      ///< cells of the first axis …
+    Index m_inner;     ///< … and of all after it
+    bool m_isCyclic;   ///< the first axis
+    bool m_isSingle = true; ///< no later axis moves
+    std::vector<Phase> m_phases;
+    std::vector<std::vector<Slide>>
+        m_slides;          ///< before each target rate, in the order they are made in; of a single phase
     Index m_slideRing = 0; ///< rates whose maxima are kept at a time; 0: there are none
     Index m_slotSize = 0;
     std::vector<Index> m_largest; ///< shift that each maximum is wanted at

@@ -27,6 +27,7 @@ struct SlantedTiles::Work {
     std::span<float> next;
     std::span<const float> y;
     std::span<float> statistic;
+    Index firstStep;
     const Likelihood &likelihood;
     const FrameJoin &join;
     Index frames;
@@ -46,12 +47,13 @@ struct SlantedTiles::TargetList {
     std::vector<TargetPlane> targets;
 };
 
-SlantedTiles::SlantedTiles(Index cells, std::vector<std::vector<Source>> sources)
-    : m_cells(cells), m_sources(std::move(sources)), m_rates(std::ssize(m_sources))
+SlantedTiles::SlantedTiles(Index cells, std::vector<Targets> phases)
+    : m_cells(cells), m_phases(std::move(phases)), m_rates(std::ssize(m_phases.front()))
 {
-    for (const std::vector<Source> &ofTarget : m_sources)
-        for (const Source &source : ofTarget)
-            m_reach = std::max(m_reach, std::abs(source.displacement));
+    for (const Targets &targets : m_phases)
+        for (const std::vector<Source> &sources : targets)
+            for (const Source &source : sources)
+                m_reach = std::max(m_reach, std::abs(source.displacement));
     const Index fitting = cacheBytes / (2 * m_rates * static_cast<Index>(sizeof(float))) - 2 * m_reach;
     m_tileCells = std::min(longest, fitting / vectorCells * vectorCells);
     // Targets lie on whole cache lines, and rates not a power of two apart.
@@ -65,9 +67,10 @@ bool SlantedTiles::areWorthwhile() const
 }
 
 Continued SlantedTiles::advance(std::span<const float> scores, std::span<float> next, std::span<const float> y,
-                                std::span<float> statistic, const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
+                                std::span<float> statistic, Index firstStep, const Likelihood &likelihood,
+                                const FrameJoin &join, const RunContext &context)
 {
-    const Work work{scores, next, y, statistic, likelihood, join, std::ssize(y) / m_cells};
+    const Work work{scores, next, y, statistic, firstStep, likelihood, join, std::ssize(y) / m_cells};
     const Index overlap = (work.frames - 1) * m_reach;
     std::vector<Stretch> stretches;
     for (Index i = 0; i < context.threads; ++i) {
@@ -86,15 +89,16 @@ Continued SlantedTiles::advance(std::span<const float> scores, std::span<float> 
 }
 
 /// Sources 2R cells before the targets' first, which is that of their own frame's tile, R cells on.
-SlantedTiles::TargetList SlantedTiles::listTargets(const float *from, float *to, Index toStride) const
+SlantedTiles::TargetList SlantedTiles::listTargets(const Targets &targets, const float *from, float *to,
+                                                   Index toStride) const
 {
     TargetList list;
-    for (const std::vector<Source> &ofTarget : m_sources)
+    for (const std::vector<Source> &ofTarget : targets)
         for (const Source &source : ofTarget)
             list.sources.push_back({from + source.rate * m_stride - m_reach - source.displacement, source.weight});
     std::size_t begin = 0;
     for (Index rate = 0; rate < m_rates; ++rate) {
-        const std::size_t count = m_sources[static_cast<std::size_t>(rate)].size();
+        const std::size_t count = targets[static_cast<std::size_t>(rate)].size();
         list.targets.push_back({std::span<const ShiftedPlane<float>>(list.sources).subspan(begin, count), to + rate * toStride});
         begin += count;
     }
@@ -146,14 +150,17 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
     float *const windows = own.windows.data() + (lineFloats - address % lineFloats) % lineFloats + m_margin;
     const auto windowOf = [&](Index frame) { return windows + (frame + 1) % 2 * m_rates * m_stride; }; // the scores are of frame -1
 
-    std::array<TargetList, 2> between;
-    for (Index frame = 0; frame < 2; ++frame)
-        between[static_cast<std::size_t>(frame)] = listTargets(windowOf(frame - 1), windowOf(frame), m_stride);
-    const TargetList last = listTargets(windowOf(work.frames - 2), work.next.data(), m_cells);
+    std::vector<TargetList> lists;
+    for (Index frame = 0; frame < work.frames; ++frame) {
+        const Targets &targets = m_phases[static_cast<std::size_t>((work.firstStep + frame) % std::ssize(m_phases))];
+        const bool isLast = frame + 1 == work.frames;
+        lists.push_back(listTargets(targets, windowOf(frame - 1), isLast ? work.next.data() : windowOf(frame),
+                                    isLast ? m_cells : m_stride));
+    }
 
     const auto goThroughFrame = [&](Index frame, Index begin, Index from, Index end) {
         const bool isLast = frame + 1 == work.frames;
-        const TargetList &list = isLast ? last : between[static_cast<std::size_t>(frame % 2)];
+        const TargetList &list = lists[static_cast<std::size_t>(frame)];
         FrameJoin join = work.join;
         join.isFresh = true;
         join.counting = isLast ? join.counting : Counting::Nothing;

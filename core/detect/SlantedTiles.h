@@ -29,15 +29,18 @@ public:
         float weight;       ///< ln P
     };
 
-    /// The sources of every target rate.
-    SlantedTiles(Index cells, std::vector<std::vector<Source>> sources);
+    /// The sources of every target rate in the steps of one phase.
+    using Targets = std::vector<std::vector<Source>>;
+    SlantedTiles(Index cells, std::vector<Targets> phases);
 
     /// Whether two frames of a tile fit into the cache.
     bool areWorthwhile() const;
 
-    /// u = λ + max(M + ln K, floor) of as many frames as `y` holds, D of each in `statistic`; answers what went on in the last.
-    Continued advance(std::span<const float> scores, std::span<float> next, std::span<const float> y, std::span<float> statistic,
-                      const Likelihood &likelihood, const FrameJoin &join, const RunContext &context);
+    /// u = λ + max(M + ln K, floor) of as many frames as `y` holds, D of each in `statistic`; answers what went on in the last. `firstStep`:
+    /// number of the step into the first of them.
+    Continued advance(std::span<const float> scores, std::span<float> next, std::span<const float> y,
+                      std::span<float> statistic, Index firstStep, const Likelihood &likelihood, const FrameJoin &join,
+                      const RunContext &context);
 
 private:
     /// Of one thread.
@@ -53,13 +56,13 @@ private:
     struct Stretch;
     struct TargetList;
 
-    TargetList listTargets(const float *from, float *to, Index toStride) const;
+    TargetList listTargets(const Targets &targets, const float *from, float *to, Index toStride) const;
     void listAhead(const Work &work, Index frame, Index first, Index n, std::vector<const float *> &rows) const;
     void readScores(const Work &work, Index begin, float *window) const;
     void goThrough(const Work &work, Stretch &stretch, Scratch &scratch) const;
 
     Index m_cells;
-    std::vector<std::vector<Source>> m_sources;
+    std::vector<Targets> m_phases;
     Index m_rates;
     Index m_reach = 0;
     Index m_tileCells; ///< of each rate

@@ -20,7 +20,7 @@ Smd::Smd(const MarkovModel &model, const ResetRule &rule)
 
 void Smd::update(std::span<const float> y, std::span<float> statistic)
 {
-    if (m_isFirst) {
+    if (m_frames == 0) {
         start(y, statistic);
         return;
     }
@@ -43,7 +43,7 @@ void Smd::start(std::span<const float> y, std::span<float> statistic)
     m_likelihood.apply(y, statistic);
     for (auto plane = m_scores.begin(); plane != m_scores.end(); plane += m_space.cellCount())
         std::copy(statistic.begin(), statistic.end(), plane);
-    m_isFirst = false;
+    m_frames = 1;
     m_regulation = {m_lnK, 0.0, m_lnK};
     if (m_rule.law == ResetLaw::Mean) {
         // W(0) = 0 everywhere, so K(0) = K0.
@@ -62,7 +62,7 @@ void Smd::updateBlock(std::span<const float> y, std::span<float> statistic, Inde
     for (std::size_t done = 0; done < y.size();) {
         const auto frames = static_cast<std::size_t>(std::min<Index>(m_recursion.framesAtOnce(), std::ssize(y) / cells));
         const std::size_t count = std::min(frames, (y.size() - done) / size);
-        if (m_isFirst || isRegulated || count < 2 || !m_inhibited.empty()) {
+        if (m_frames == 0 || isRegulated || count < 2 || !m_inhibited.empty()) {
             update(y.subspan(done, size), statistic.subspan(done, size));
             done += size;
             continue;
@@ -79,8 +79,9 @@ Continued Smd::advance(std::span<const float> y, std::span<float> statistic)
     join.lnK = static_cast<float>(m_lnK);
     join.floor = m_rule.law == ResetLaw::None ? unreached : 0.0f;
     join.counting = m_rule.law == ResetLaw::Mean ? Counting::StatesAndSum : Counting::States;
-    Continued continued = m_recursion.advance(m_scores, m_next, {y, statistic}, m_likelihood, join);
+    Continued continued = m_recursion.advance(m_scores, m_next, {y, statistic, m_frames}, m_likelihood, join);
     std::swap(m_scores, m_next);
+    m_frames += std::ssize(y) / m_space.cellCount();
     if (m_rule.law == ResetLaw::None)
         continued.count = m_space.stateCount();
     return continued;
@@ -163,7 +164,7 @@ void Smd::restore(const Memory &memory)
     m_scores.assign(memory.scores.begin(), memory.scores.end());
     m_lnK = memory.lnK;
     m_offset = memory.offset;
-    m_isFirst = memory.isFirst;
+    m_frames = memory.frames;
 }
 
 } // namespace faintline

@@ -65,9 +65,9 @@ public:
         std::vector<float> scores;
         double lnK = 0.0;
         double offset = 0.0;
-        bool isFirst = true;
+        Index frames = 0; ///< taken so far
     };
-    Memory memory() const { return {{m_scores.begin(), m_scores.end()}, m_lnK, m_offset, m_isFirst}; }
+    Memory memory() const { return {{m_scores.begin(), m_scores.end()}, m_lnK, m_offset, m_frames}; }
     void restore(const Memory &memory);
 
     std::shared_ptr<const Remembrance> remembrance() const override;
@@ -89,7 +89,7 @@ private:
     LargeVector<float> m_next; ///< the scores being written
     double m_lnK;
     double m_offset = 0.0;
-    bool m_isFirst = true;
+    Index m_frames = 0; ///< taken so far; the step into frame n is step number n
     std::vector<Index> m_inhibited;
     Regulation m_regulation;
 };

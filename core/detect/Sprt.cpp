@@ -55,7 +55,8 @@ LikelihoodRatio::LikelihoodRatio(const SequentialModel &model)
 double LikelihoodRatio::update(std::span<const double> lambda)
 {
     const auto cells = static_cast<std::size_t>(m_cells);
-    const std::span<const double> predicted = m_stages == 0 ? std::span<const double>(m_initial) : m_recursion.predict(m_posterior);
+    const std::span<const double> predicted =
+        m_stages == 0 ? std::span<const double>(m_initial) : m_recursion.predict(m_posterior, m_stages);
     ++m_stages;
     double highest = minusInfinity; // among the cells that can be reached: the others must not push these below the smallest number
     for (std::size_t n = 0; n < predicted.size(); ++n)

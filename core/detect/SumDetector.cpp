@@ -25,14 +25,14 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
         lambda[cell] = m_likelihood.at(static_cast<double>(y[cell]));
     const double highest = *std::max_element(lambda.begin(), lambda.end());
 
-    if (!m_isFirst) {
-        const std::span<const double> predicted = m_recursion.predict(m_weights);
+    if (m_frames > 0) {
+        const std::span<const double> predicted = m_recursion.predict(m_weights, m_frames);
         const double factor = m_rule.law == ResetLaw::Fixed ? std::exp(m_rule.lnK) : 1.0;
         const double fresh = m_rule.law == ResetLaw::Fixed ? std::exp(-m_scale) : 0.0;
         for (std::size_t n = 0; n < m_weights.size(); ++n)
             m_weights[n] = factor * predicted[n] + fresh;
     }
-    m_isFirst = false;
+    ++m_frames;
     double largest = 0.0;
     for (std::size_t n = 0; n < m_weights.size(); ++n) {
         m_weights[n] *= std::exp(lambda[n % cells] - highest);

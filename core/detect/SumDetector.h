@@ -38,7 +38,7 @@ private:
     std::vector<double> m_weights; ///< A·e^(-scale)
     double m_scale = 0.0;
     double m_lnMean = 0.0;
-    bool m_isFirst = true;
+    Index m_frames = 0; ///< taken so far
     std::vector<float> m_scores;
 };
 

@@ -9,6 +9,7 @@ namespace {
     Contestant contestant(const char *name, const DetectorSettings &detector)
     {
         Contestant result{name, {}};
+        result.settings.model = laws::billon();
         result.settings.detector = detector;
         return result;
     }
@@ -26,9 +27,7 @@ std::vector<Contestant> peers(double durationWindows)
         contestant("energy", EnergySettings()),
         contestant("block Viterbi", BlockViterbiSettings{durationWindows}),
     };
-    ModelSettings &stable = list[1].settings.model;
-    stable.lowestSlope = stable.highestSlope = 0;
-    stable.slopeChange = {1.0};
+    list[1].settings.model = laws::steady();
     return list;
 }
 

@@ -18,10 +18,10 @@ namespace {
         return space.axes().size() > 1 ? space.axes()[1].cells : 1;
     }
 
-    std::vector<KinematicAxis::Move> movesAlong(const StateSpace &space, std::size_t axis)
+    std::vector<KinematicAxis::Move> movesAlong(const StateSpace &space, std::size_t axis, Index step)
     {
         if (axis < space.axes().size())
-            return space.axes()[axis].moves();
+            return space.axes()[axis].moves(step);
         return {{0, 0, 0, 0.0}};
     }
 
@@ -35,10 +35,13 @@ namespace {
 FormulaRecursion::FormulaRecursion(const StateSpace &space, double lnK)
     : m_space(space), m_lnK(lnK), m_scores(static_cast<std::size_t>(space.stateCount())), m_next(m_scores.size())
 {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        m_moves[axis].resize(static_cast<std::size_t>(ratesAlong(space, axis)));
-        for (const KinematicAxis::Move &move : movesAlong(space, axis))
-            m_moves[axis][static_cast<std::size_t>(move.toRate)].push_back(move);
+    for (Index phase = 0; phase < space.phaseCount(); ++phase) {
+        Moves &moves = m_moves.emplace_back();
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            moves[axis].resize(static_cast<std::size_t>(ratesAlong(space, axis)));
+            for (const KinematicAxis::Move &move : movesAlong(space, axis, phase))
+                moves[axis][static_cast<std::size_t>(move.toRate)].push_back(move);
+        }
     }
 }
 
@@ -83,13 +86,14 @@ void FormulaRecursion::update(std::span<const float> y, std::span<float> statist
 {
     std::fill(statistic.begin(), statistic.end(), -std::numeric_limits<float>::infinity());
     const Index columns = columnsOf(m_space);
+    const Moves &moves = m_moves[static_cast<std::size_t>(m_frames) % m_moves.size()];
     std::size_t state = 0;
-    for (const auto &alongFirst : m_moves[0])
-        for (const auto &alongSecond : m_moves[1])
+    for (const auto &alongFirst : moves[0])
+        for (const auto &alongSecond : moves[1])
             for (Index row = 0; row < m_space.axes()[0].cells; ++row)
                 for (Index column = 0; column < columns; ++column, ++state) {
                     double continued = 0.0;
-                    if (!m_isFirst) {
+                    if (m_frames > 0) {
                         const double best = columns > 1 ? bestOfPlane(alongFirst, alongSecond, row, column) : bestOfLine(alongFirst, row);
                         continued = std::max(m_lnK + best, 0.0);
                     }
@@ -98,43 +102,56 @@ void FormulaRecursion::update(std::span<const float> y, std::span<float> statist
                     statistic[cell] = std::max(statistic[cell], static_cast<float>(m_next[state]));
                 }
     std::swap(m_scores, m_next);
-    m_isFirst = false;
+    ++m_frames;
 }
 
 EigenRecursion::EigenRecursion(const StateSpace &space, float lnK) : m_lnK(lnK)
 {
     // Arrays lie along the last axis; a single axis is that one.
     const std::size_t count = space.axes().size();
-    std::array<std::vector<KinematicAxis::Move>, 2> moves;
     for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t axis = count == 1 ? 1 - i : i;
-        moves[i] = movesAlong(space, axis);
         m_rates[i] = ratesAlong(space, axis);
         m_cells[i] = axis < count ? space.axes()[axis].cells : 1;
         m_cyclic[i] = axis < count && space.axes()[axis].cyclic;
         m_margin[i] = axis < count ? space.axes()[axis].largestDisplacement() : 0;
     }
+    for (Index phase = 0; phase < space.phaseCount(); ++phase)
+        m_phases.push_back(stepsOf(space, phase));
+    const Plane nothing = Plane::Constant(m_cells[1] + 2 * m_margin[1], m_cells[0] + 2 * m_margin[0],
+                                          -std::numeric_limits<float>::infinity());
+    m_scores.assign(static_cast<std::size_t>(m_rates[0] * m_rates[1]), nothing);
+    m_next = m_scores;
+}
+
+std::vector<EigenRecursion::Step> EigenRecursion::stepsOf(const StateSpace &space, Index phase) const
+{
+    std::array<std::vector<KinematicAxis::Move>, 2> moves;
+    for (std::size_t i = 0; i < 2; ++i)
+        moves[i] = movesAlong(space, space.axes().size() == 1 ? 1 - i : i, phase);
+    std::vector<Step> steps;
     const auto emptyStep = Step(static_cast<std::size_t>(m_rates[0] * m_rates[1]));
     const auto plane = [&](Index a, Index b) { return static_cast<std::size_t>(a * m_rates[1] + b); };
     if (std::ssize(moves[0]) == m_rates[0] || std::ssize(moves[1]) == m_rates[1]) { // along one of them from one rate: in one expression
-        m_steps.push_back(emptyStep);
+        steps.push_back(emptyStep);
         for (const KinematicAxis::Move &a : moves[0])
             for (const KinematicAxis::Move &b : moves[1])
-                m_steps.back()[plane(a.toRate, b.toRate)].push_back(
-                    {plane(a.fromRate, b.fromRate), {a.cells, b.cells}, static_cast<float>(a.lnProbability + b.lnProbability)});
+                steps.back()[plane(a.toRate, b.toRate)].push_back(
+                    {plane(a.fromRate, b.fromRate),
+                     {a.cells, b.cells},
+                     static_cast<float>(a.lnProbability + b.lnProbability)});
     } else {
-        m_steps.assign(2, emptyStep);
+        steps.assign(2, emptyStep);
         for (const KinematicAxis::Move &a : moves[0])
             for (Index b = 0; b < m_rates[1]; ++b)
-                m_steps[0][plane(a.toRate, b)].push_back({plane(a.fromRate, b), {a.cells, 0}, static_cast<float>(a.lnProbability)});
+                steps[0][plane(a.toRate, b)].push_back(
+                    {plane(a.fromRate, b), {a.cells, 0}, static_cast<float>(a.lnProbability)});
         for (const KinematicAxis::Move &b : moves[1])
             for (Index a = 0; a < m_rates[0]; ++a)
-                m_steps[1][plane(a, b.toRate)].push_back({plane(a, b.fromRate), {0, b.cells}, static_cast<float>(b.lnProbability)});
+                steps[1][plane(a, b.toRate)].push_back(
+                    {plane(a, b.fromRate), {0, b.cells}, static_cast<float>(b.lnProbability)});
     }
-    const Plane nothing =
-        Plane::Constant(m_cells[1] + 2 * m_margin[1], m_cells[0] + 2 * m_margin[0], -std::numeric_limits<float>::infinity());
-    m_scores.assign(emptyStep.size(), nothing);
-    m_next = m_scores;
+    return steps;
 }
 
 void EigenRecursion::fillMargins(Plane &plane) const
@@ -168,12 +185,13 @@ void EigenRecursion::update(std::span<const float> y, std::span<float> statistic
     const Eigen::Map<const Eigen::ArrayXXf> lambda(y.data(), m_cells[1], m_cells[0]);
     Eigen::Map<Eigen::ArrayXXf> best(statistic.data(), m_cells[1], m_cells[0]);
     best.setConstant(-std::numeric_limits<float>::infinity());
-    for (std::size_t step = 0; step < m_steps.size(); ++step) {
+    const std::vector<Step> &steps = m_phases[static_cast<std::size_t>(m_frames) % m_phases.size()];
+    for (std::size_t step = 0; step < steps.size(); ++step) {
         for (std::size_t plane = 0; plane < m_next.size(); ++plane) {
-            join(m_steps[step][plane], m_next[plane]);
-            if (step + 1 == m_steps.size()) {
+            join(steps[step][plane], m_next[plane]);
+            if (step + 1 == steps.size()) {
                 auto u = inner(m_next[plane], {0, 0});
-                if (m_isFirst)
+                if (m_frames == 0)
                     u = lambda;
                 else
                     u = (u + m_lnK).max(0.0f) + lambda;
@@ -183,7 +201,7 @@ void EigenRecursion::update(std::span<const float> y, std::span<float> statistic
         }
         std::swap(m_scores, m_next);
     }
-    m_isFirst = false;
+    ++m_frames;
 }
 
 float EigenRecursion::score(Index plane, Index cell) const

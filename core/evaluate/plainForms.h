@@ -28,11 +28,12 @@ private:
                        Index column) const;
 
     StateSpace m_space;
-    std::array<std::vector<std::vector<KinematicAxis::Move>>, 2> m_moves; ///< of each axis, by target rate
+    using Moves = std::array<std::vector<std::vector<KinematicAxis::Move>>, 2>; ///< of each axis, by target rate
+    std::vector<Moves> m_moves;                                                 ///< of each phase
     double m_lnK;
     std::vector<double> m_scores;
     std::vector<double> m_next;
-    bool m_isFirst = true;
+    Index m_frames = 0; ///< taken so far
 };
 
 /// In single precision, as Eigen expressions over whole planes: the maximum of shifted arrays, whose margins hold what is not there
@@ -59,6 +60,7 @@ private:
     {
         return plane.block(m_margin[1] - shift[1], m_margin[0] - shift[0], m_cells[1], m_cells[0]);
     }
+    std::vector<Step> stepsOf(const StateSpace &space, Index phase) const;
     void join(const std::vector<Source> &sources, Plane &to);
     void fillMargins(Plane &plane) const;
 
@@ -66,11 +68,11 @@ private:
     std::array<Index, 2> m_cells{};
     std::array<bool, 2> m_cyclic{};
     std::array<Index, 2> m_margin{};
-    std::vector<Step> m_steps; ///< one axis after the other, or both at once
+    std::vector<std::vector<Step>> m_phases; ///< in each phase one axis after the other, or both at once
     float m_lnK;
     std::vector<Plane> m_scores;
     std::vector<Plane> m_next;
-    bool m_isFirst = true;
+    Index m_frames = 0; ///< taken so far
 };
 
 /// Reads, changes and writes every value once: what the memory alone costs.

@@ -18,6 +18,20 @@ namespace {
         return sum >= 0 ? sum / 2 : -((1 - sum) / 2);
     }
 
+    Index floorOfQuotient(Index numerator, Index denominator)
+    {
+        const Index quotient = numerator / denominator;
+        return numerator % denominator < 0 ? quotient - 1 : quotient;
+    }
+
+    /// Cells that k/q cells a step make in step number t: ⌊k(t + 1)/q + ½⌋ - ⌊k·t/q + ½⌋.
+    int displacementInStep(int k, int q, Index t)
+    {
+        const auto reached = [&](Index steps) { return floorOfQuotient(2 * k * steps + q, 2 * q); };
+        const Index phase = t % q;
+        return static_cast<int>(reached(phase + 1) - reached(phase));
+    }
+
     void checkProbability(double probability, const std::string &where)
     {
         if (!(probability >= 0.0 && probability <= 1.0))
@@ -55,7 +69,7 @@ namespace {
 
 } // namespace
 
-std::vector<KinematicAxis::Move> KinematicAxis::moves() const
+std::vector<KinematicAxis::Move> KinematicAxis::moves(Index number) const
 {
     std::vector<Move> result;
     if (!step.empty()) {
@@ -69,7 +83,10 @@ std::vector<KinematicAxis::Move> KinematicAxis::moves() const
     for (int to = 0; to < rateCount; ++to)
         for (int from = std::max(0, to - reach); from <= std::min(rateCount - 1, to + reach); ++from)
             if (const double p = rateChange[static_cast<std::size_t>(std::abs(to - from))]; p > 0.0)
-                result.push_back({from, to, meanRate(2 * firstRate + from + to, rounding), std::log(p)});
+                result.push_back({from, to,
+                                  ratesPerCell == 1 ? meanRate(2 * firstRate + from + to, rounding)
+                                                    : displacementInStep(firstRate + to, ratesPerCell, number),
+                                  std::log(p)});
     return result;
 }
 
@@ -89,8 +106,9 @@ int KinematicAxis::largestDisplacement() const
     if (!transition.empty())
         return static_cast<int>(cells - 1);
     int largest = 0;
-    for (const Move &move : moves())
-        largest = std::max(largest, std::abs(move.cells));
+    for (Index number = 0; number < phaseCount(); ++number)
+        for (const Move &move : moves(number))
+            largest = std::max(largest, std::abs(move.cells));
     return largest;
 }
 
@@ -100,6 +118,8 @@ void KinematicAxis::check(const std::string &where) const
         throw Error(where + ".cells", "must be at least 1");
     if (rateCount < 1 || rateCount > 1001)
         throw Error(where + ".rates", "must hold 1 … 1001 consecutive integers");
+    if (ratesPerCell < 1 || ratesPerCell > 64)
+        throw Error(where + ".ratesPerCell", "must lie in 1 … 64");
     if (!step.empty() && rateCount > 1)
         throw Error(where, "has both rates and a step law; a random walk has no rates");
     if (!transition.empty()) {

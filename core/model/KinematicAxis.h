@@ -20,7 +20,10 @@ inline constexpr std::array<std::string_view, 2> roundingNames{"halfDown", "trun
 /// How one coordinate of the state moves in one step, in cells and cells per step.
 ///
 /// With rates r in firstRate … firstRate+rateCount-1:   r' = r + δ with probability h(|δ|),   p' = p + round((r + r')/2).
-/// Without (rateCount = 1, firstRate = 0) and with a step law q:   p' = p + δ with probability q(|δ|), a random walk.
+/// With `ratesPerCell` = q > 1 rates are whole multiples k of 1/q cell per step, and the target's moves it as Bresenham's line does:
+/// in step t = 0, 1, …   p' = p + ⌊k'(t + 1)/q + ½⌋ - ⌊k'·t/q + ½⌋, whatever the rate before. A state that keeps its rate stays within half
+/// a cell of a straight line; the phase t mod q is common to all states, so it costs neither states nor probability.
+/// Without rates (rateCount = 1, firstRate = 0) and with a step law q:   p' = p + δ with probability q(|δ|), a random walk.
 /// h(0) + 2 Σ h(i) = 1, the same for q. Rates outside the set do not exist; neither do positions outside a bounded axis;
 /// the probability lost there is not given to others (Billon 2005 section 4, Parsons 2008 section 3), unless a walk is
 /// `renormalised`: then those cells that exist share it, P(p'|p) = q(|p'-p|) / Σ over existing cells (Grossi and Lops 2006).
@@ -29,12 +32,13 @@ struct KinematicAxis {
     std::string name;
     Index cells = 0;
     bool cyclic = false;
-    int firstRate = 0;
+    int firstRate = 0; ///< in 1/ratesPerCell cell per step
     int rateCount = 1;
     std::vector<double> rateChange{1.0}; ///< h(0), h(1), …
     std::vector<double> step;            ///< q(0), q(1), … of a random walk; empty: no walk
     Rounding rounding = Rounding::HalfDown;
     bool renormalised = false;      ///< a walk's steps off a bounded axis go to the cells that exist
+    int ratesPerCell = 1;           ///< q: neighbouring rates differ by 1/q cell per step
     std::vector<double> transition{}; ///< P(from, to), cells × cells row by row, of a bounded axis without rates; empty: a law
 
     /// One way to move: from a rate to a rate (indices 0 … rateCount-1) by whole cells, with ln probability.
@@ -45,9 +49,15 @@ struct KinematicAxis {
         double lnProbability;
     };
 
-    /// All moves, ordered by target rate, then source rate, then decreasing displacement, so that among equals the
+    /// All moves in step number `step`, ordered by target rate, then source rate, then decreasing displacement, so that among equals the
     /// lowest rate, then the lowest source cell comes first. Of an axis with a matrix, which they know nothing of: staying.
-    std::vector<Move> moves() const;
+    std::vector<Move> moves(Index step = 0) const;
+
+    /// After so many steps the moves repeat.
+    Index phaseCount() const { return ratesPerCell; }
+
+    /// A rate by its index, in cells per step.
+    double rate(Index index) const { return static_cast<double>(firstRate + index) / ratesPerCell; }
 
     /// What a move from a cell has on top of its ln probability: -ln Σ q(existing cells) where renormalised, otherwise 0.
     double lnDeparture(Index fromCell) const;
@@ -55,7 +65,7 @@ struct KinematicAxis {
     /// Whether the law differs from cell to cell; then a part of the axis has another law than the whole.
     bool isPlaceDependent() const { return (renormalised && !cyclic) || !transition.empty(); }
 
-    /// Largest displacement |p' - p| of any move.
+    /// Largest displacement |p' - p| of any move in any step.
     int largestDisplacement() const;
 
     /// Throws Error naming `where` if the laws are no probability laws or the sizes make no sense.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace faintline {
 
@@ -13,7 +14,9 @@ StateSpace::StateSpace(std::vector<KinematicAxis> axes) : m_axes(std::move(axes)
         throw Error("model.axes", "must hold at least one axis");
     for (std::size_t i = 0; i < m_axes.size(); ++i) {
         m_axes[i].check("model.axes[" + std::to_string(i) + "]");
-        m_moves.push_back(m_axes[i].moves());
+        m_moves.emplace_back();
+        for (Index phase = 0; phase < m_axes[i].phaseCount(); ++phase)
+            m_moves.back().push_back(m_axes[i].moves(phase));
         const double states = static_cast<double>(stateCount()) * static_cast<double>(m_axes[i].cells) * m_axes[i].rateCount;
         if (states > 0x1p31) // before the product can overflow
             throw Error("model.axes", "give more than 2³¹ states");
@@ -49,17 +52,25 @@ Index StateSpace::state(const Coordinates &c) const
     return plane * m_cellCount + cell;
 }
 
-std::vector<int> StateSpace::ratesOfPlane(Index plane) const
+Index StateSpace::phaseCount() const
 {
-    std::vector<int> rates(m_axes.size());
+    Index phases = 1;
+    for (const KinematicAxis &axis : m_axes)
+        phases = std::lcm(phases, axis.phaseCount());
+    return phases;
+}
+
+std::vector<double> StateSpace::ratesOfPlane(Index plane) const
+{
+    std::vector<double> rates(m_axes.size());
     for (std::size_t axis = m_axes.size(); axis-- > 0;) {
-        rates[axis] = m_axes[axis].firstRate + static_cast<int>(plane % m_axes[axis].rateCount);
+        rates[axis] = m_axes[axis].rate(plane % m_axes[axis].rateCount);
         plane /= m_axes[axis].rateCount;
     }
     return rates;
 }
 
-std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target) const
+std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target, Index step) const
 {
     const Coordinates to = coordinates(target);
     std::vector<Predecessor> result;
@@ -78,7 +89,7 @@ std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target) cons
         }
         if (!a.transition.empty())
             return;
-        for (const KinematicAxis::Move &move : m_moves[axis]) {
+        for (const KinematicAxis::Move &move : m_moves[axis][static_cast<std::size_t>(step % a.phaseCount())]) {
             if (move.toRate != to.rates[axis])
                 continue;
             Index cell = to.cells[axis] - move.cells;

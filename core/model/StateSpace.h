@@ -34,21 +34,24 @@ public:
     Index cellOf(Index state) const { return state % m_cellCount; }
 
     /// Rates, in cells per step, of the states of one plane: one per axis.
-    std::vector<int> ratesOfPlane(Index plane) const;
+    std::vector<double> ratesOfPlane(Index plane) const;
+
+    /// After so many steps the moves of all axes repeat: the least common multiple of theirs.
+    Index phaseCount() const;
 
     struct Predecessor {
         Index state;
         double lnProbability;
     };
-    /// The states that can move into `state`, lowest rate first, then lowest cell: the order in which ties are decided.
-    std::vector<Predecessor> predecessors(Index state) const;
+    /// The states that can move into `state` in step number `step`, lowest rate first, then lowest cell: the order in which ties are decided.
+    std::vector<Predecessor> predecessors(Index state, Index step = 0) const;
 
     /// The same axes over a box of cells, none of them cyclic: the state space of a tracker's window.
     StateSpace window(const std::vector<Index> &cells) const;
 
 private:
     std::vector<KinematicAxis> m_axes;
-    std::vector<std::vector<KinematicAxis::Move>> m_moves;
+    std::vector<std::vector<std::vector<KinematicAxis::Move>>> m_moves; ///< of each axis in each of its phases
     Index m_cellCount = 0;
     Index m_planeCount = 0;
 };

@@ -10,9 +10,13 @@ TrajectorySampler::TrajectorySampler(const SequentialModel &model) : m_space(mod
 {
     std::partial_sum(m_initial.begin(), m_initial.end(), m_initial.begin());
     for (const KinematicAxis &axis : m_space.axes()) {
-        AxisLaw law{std::vector<std::vector<Move>>(static_cast<std::size_t>(axis.rateCount)), axis.transition};
-        for (const KinematicAxis::Move &move : axis.moves())
-            law.moves[static_cast<std::size_t>(move.fromRate)].push_back({move.toRate, move.cells, std::exp(move.lnProbability)});
+        AxisLaw law{{}, axis.transition};
+        for (Index phase = 0; phase < axis.phaseCount(); ++phase) {
+            auto &ofRates = law.moves.emplace_back(static_cast<std::size_t>(axis.rateCount));
+            for (const KinematicAxis::Move &move : axis.moves(phase))
+                ofRates[static_cast<std::size_t>(move.fromRate)].push_back(
+                    {move.toRate, move.cells, std::exp(move.lnProbability)});
+        }
         m_laws.push_back(std::move(law));
     }
 }
@@ -26,7 +30,7 @@ Index TrajectorySampler::first(Random &random) const
     return std::min<Index>(found - m_initial.begin(), m_space.stateCount() - 1);
 }
 
-void TrajectorySampler::move(std::size_t axis, int &rate, Index &cell, double uniform) const
+void TrajectorySampler::move(std::size_t axis, Index step, int &rate, Index &cell, double uniform) const
 {
     const KinematicAxis &a = m_space.axes()[axis];
     const AxisLaw &law = m_laws[axis];
@@ -42,7 +46,8 @@ void TrajectorySampler::move(std::size_t axis, int &rate, Index &cell, double un
         }
         return;
     }
-    const std::vector<Move> &moves = law.moves[static_cast<std::size_t>(rate)];
+    const std::vector<Move> &moves =
+        law.moves[static_cast<std::size_t>(step % a.phaseCount())][static_cast<std::size_t>(rate)];
     const auto exists = [&](const Move &m) { return a.cyclic || (cell + m.cells >= 0 && cell + m.cells < a.cells); };
     double left = 0.0;
     for (const Move &m : moves)
@@ -63,11 +68,11 @@ void TrajectorySampler::move(std::size_t axis, int &rate, Index &cell, double un
     cell = ((cell + chosen->cells) % a.cells + a.cells) % a.cells;
 }
 
-Index TrajectorySampler::next(Index state, Random &random) const
+Index TrajectorySampler::next(Index state, Random &random, Index step) const
 {
     StateSpace::Coordinates c = m_space.coordinates(state);
     for (std::size_t axis = 0; axis < m_laws.size(); ++axis)
-        move(axis, c.rates[axis], c.cells[axis], random.uniform());
+        move(axis, step, c.rates[axis], c.cells[axis], random.uniform());
     return m_space.state(c);
 }
 

@@ -17,7 +17,8 @@ public:
     explicit TrajectorySampler(const SequentialModel &model);
 
     Index first(Random &random) const;
-    Index next(Index state, Random &random) const;
+    /// Step number `step`.
+    Index next(Index state, Random &random, Index step = 0) const;
 
 private:
     struct Move {
@@ -26,10 +27,10 @@ private:
         double probability;
     };
     struct AxisLaw {
-        std::vector<std::vector<Move>> moves; ///< of every source rate
+        std::vector<std::vector<std::vector<Move>>> moves; ///< in every phase, of every source rate
         std::vector<double> matrix;           ///< in place of moves, where the axis has one
     };
-    void move(std::size_t axis, int &rate, Index &cell, double uniform) const;
+    void move(std::size_t axis, Index step, int &rate, Index &cell, double uniform) const;
 
     StateSpace m_space;
     std::vector<double> m_initial; ///< cumulated; empty: uniform

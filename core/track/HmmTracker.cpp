@@ -179,7 +179,7 @@ bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
             model.scores[static_cast<std::size_t>(plane * cells + target)] =
                 last.scores[static_cast<std::size_t>(plane * windowCells + cell)];
     }
-    const std::span<float> predicted = model.recursion.predict(model.scores);
+    const std::span<float> predicted = model.recursion.predict(model.scores, frame);
     for (Index cell = 0; cell < cells; ++cell) {
         const Index global = model.paddedCell(last.centre, cell);
         const float gain = global < 0 ? unreached : lambda[static_cast<std::size_t>(global)] + static_cast<float>(lnK);
@@ -267,7 +267,7 @@ Index HmmTracker::predecessorIn(const Slice &earlier, Index state, PathStep &ste
     float best = unreached;
     float second = unreached;
     Index origin = state;
-    for (const StateSpace::Predecessor &p : model.space.predecessors(state)) {
+    for (const StateSpace::Predecessor &p : model.space.predecessors(state, earlier.frame + 1)) {
         const Index from = localOf(earlier, p.state);
         if (from < 0)
             continue;

@@ -23,6 +23,14 @@ KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std:
     return {"a", cells, cyclic, firstRate, rateCount, std::move(h), {}, rounding};
 }
 
+KinematicAxis fractional(Index cells, bool cyclic, int ratesPerCell, int firstRate, int rateCount,
+                         std::vector<double> h)
+{
+    KinematicAxis axis = rated(cells, cyclic, firstRate, rateCount, std::move(h));
+    axis.ratesPerCell = ratesPerCell;
+    return axis;
+}
+
 KinematicAxis walk(Index cells, bool cyclic, std::vector<double> q)
 {
     return {"w", cells, cyclic, 0, 1, {1.0}, std::move(q), Rounding::HalfDown};
@@ -41,8 +49,13 @@ std::vector<Lattice> lattices()
         {"truncated rates", {rated(5, false, -2, 5, {0.4, 0.3}, Rounding::Trunc)}},
         {"random walk, bounded", {walk(5, false, {0.5, 0.25})}},
         {"random walk, cyclic", {walk(5, true, {0.2, 0.3, 0.1})}},
-        {"range and cyclic bearing", {rated(3, false, -1, 3, {1.0}), rated(3, true, 0, 2, {0.5, 0.25}, Rounding::Trunc)}},
+        {"range and cyclic bearing",
+         {rated(3, false, -1, 3, {1.0}), rated(3, true, 0, 2, {0.5, 0.25}, Rounding::Trunc)}},
         {"rates times random walk", {rated(3, false, 0, 2, {0.5, 0.25}), walk(3, true, {0.6, 0.2})}},
+        {"rates of half a cell", {fractional(5, false, 2, -2, 5, {0.8, 0.1})}},
+        {"rates of a quarter, cyclic", {fractional(4, true, 4, -1, 4, {0.6, 0.2})}},
+        {"thirds times halves",
+         {fractional(3, false, 3, 1, 2, {0.8, 0.1}), fractional(2, false, 2, -1, 2, {0.8, 0.1})}},
         {"three axes", {walk(2, false, {0.5, 0.25}), rated(2, false, 0, 1, {1.0}), rated(2, true, -1, 2, {0.5, 0.25})}},
     };
 }
@@ -75,6 +88,7 @@ class tst_Recursion : public QObject
 
 private slots:
     void movesSumToOne();
+    void fractionalRatesKeepToTheirLine();
     void predecessorsAreTheDefinition_data() { rows(); }
     void predecessorsAreTheDefinition();
     void bestPathWithReset_data() { rows(); }
@@ -116,16 +130,39 @@ void tst_Recursion::movesSumToOne()
     QVERIFY(std::abs(sum - 1.0) < 1e-12);
 }
 
+void tst_Recursion::fractionalRatesKeepToTheirLine()
+{
+    // Who keeps a rate of k/8 cell a step is never more than half a cell from the straight line, and makes k cells in 8 steps.
+    const KinematicAxis axis = fractional(9, false, 8, -8, 17, {0.9, 0.05});
+    for (int rate = 0; rate < 17; ++rate) {
+        double at = 0.0;
+        for (Index step = 0; step < 40; ++step) {
+            for (const KinematicAxis::Move &move : axis.moves(step))
+                if (move.fromRate == rate && move.toRate == rate)
+                    at += move.cells;
+            QVERIFY(std::abs(at - axis.rate(rate) * static_cast<double>(step + 1)) <= 0.5);
+        }
+        QCOMPARE(at, static_cast<double>(5 * (rate - 8)));
+    }
+    QCOMPARE(axis.largestDisplacement(), 1);
+    QCOMPARE(StateSpace({fractional(9, false, 8, 0, 2, {1.0}), fractional(9, false, 6, 0, 2, {1.0})}).phaseCount(),
+             Index(24));
+}
+
 void tst_Recursion::predecessorsAreTheDefinition()
 {
     const MarkovModel m = model();
-    for (Index to = 0; to < m.space.stateCount(); ++to) {
-        std::vector<double> expected(static_cast<std::size_t>(m.space.stateCount()), 0.0);
-        for (const StateSpace::Predecessor &p : m.space.predecessors(to))
-            expected[static_cast<std::size_t>(p.state)] = std::max(expected[static_cast<std::size_t>(p.state)], std::exp(p.lnProbability));
-        for (Index from = 0; from < m.space.stateCount(); ++from)
-            QVERIFY(std::abs(expected[static_cast<std::size_t>(from)] - transitionProbability(m.space, from, to)) < 1e-12);
-    }
+    for (Index step = 0; step < m.space.phaseCount() + 1; ++step)
+        for (Index to = 0; to < m.space.stateCount(); ++to) {
+            std::vector<double> expected(static_cast<std::size_t>(m.space.stateCount()), 0.0);
+            for (const StateSpace::Predecessor &p : m.space.predecessors(to, step))
+                expected[static_cast<std::size_t>(p.state)] =
+                    std::max(expected[static_cast<std::size_t>(p.state)], std::exp(p.lnProbability));
+            for (Index from = 0; from < m.space.stateCount(); ++from)
+                QVERIFY(
+                    std::abs(expected[static_cast<std::size_t>(from)] - transitionProbability(m.space, from, to, step))
+                    < 1e-12);
+        }
 }
 
 void tst_Recursion::bestPathWithReset()
@@ -150,7 +187,8 @@ void tst_Recursion::bestPathWithReset()
                     const auto t = static_cast<std::size_t>(frames - length) + i;
                     score += m.likelihood.at(static_cast<double>(y[t][static_cast<std::size_t>(m.space.cellOf(path[i]))]));
                     if (i > 0)
-                        score += lnK + std::log(transitionProbability(m.space, path[i - 1], path[i]));
+                        score +=
+                            lnK + std::log(transitionProbability(m.space, path[i - 1], path[i], static_cast<Index>(t)));
                 }
                 best = std::max(best, score);
             });
@@ -183,7 +221,7 @@ void tst_Recursion::bestPathWithoutReset()
             for (std::size_t i = 0; i < path.size(); ++i) {
                 score += m.likelihood.at(static_cast<double>(y[i][static_cast<std::size_t>(m.space.cellOf(path[i]))]));
                 if (i > 0)
-                    score += std::log(transitionProbability(m.space, path[i - 1], path[i]));
+                    score += std::log(transitionProbability(m.space, path[i - 1], path[i], static_cast<Index>(i)));
             }
             best = std::max(best, score);
         });
@@ -212,7 +250,7 @@ void tst_Recursion::sumOverPaths()
             for (std::size_t i = 0; i < path.size(); ++i) {
                 product *= std::exp(m.likelihood.at(static_cast<double>(y[i][static_cast<std::size_t>(m.space.cellOf(path[i]))])));
                 if (i > 0)
-                    product *= transitionProbability(m.space, path[i - 1], path[i]);
+                    product *= transitionProbability(m.space, path[i - 1], path[i], static_cast<Index>(i));
             }
             total += product;
         });
@@ -263,7 +301,9 @@ void tst_Recursion::tracedTermsAddUp()
         for (std::size_t i = 0; i < path.size(); ++i) {
             if (i > 0) {
                 QCOMPARE(path[i].frame, path[i - 1].frame + 1);
-                QVERIFY(std::abs(std::exp(path[i].lnTransition) - transitionProbability(m.space, path[i - 1].state, path[i].state)) < 1e-12);
+                QVERIFY(std::abs(std::exp(path[i].lnTransition)
+                                 - transitionProbability(m.space, path[i - 1].state, path[i].state, path[i].frame))
+                        < 1e-12);
                 QVERIFY(path[i - 1].score + path[i].lnTransition + path[i].lnK > 0.0); // else it would have been reset
             }
             sum += path[i].logLikelihoodRatio + path[i].lnTransition + path[i].lnK;
@@ -326,18 +366,23 @@ void tst_Recursion::tilesAreTheDefinition_data()
     QTest::newRow("rates that nothing leads to") << 3;
     QTest::newRow("one long axis") << 4;
     QTest::newRow("three axes") << 5;
+    QTest::newRow("eighths of a cell") << 6;
+    QTest::newRow("halves, and thirds along a cyclic axis") << 7;
 }
 
 void tst_Recursion::tilesAreTheDefinition()
 {
     const double ninth = 1.0 / 9.0;
     const std::vector<std::vector<KinematicAxis>> spaces{
-        {rated(700, false, -3, 7, {ninth, ninth, ninth, ninth, ninth}, Rounding::Trunc), rated(20, true, -1, 3, {0.5, 0.25}, Rounding::Trunc)},
+        {rated(700, false, -3, 7, {ninth, ninth, ninth, ninth, ninth}, Rounding::Trunc),
+         rated(20, true, -1, 3, {0.5, 0.25}, Rounding::Trunc)},
         {rated(500, true, -2, 5, {0.4, 0.3}), rated(12, true, -2, 5, {0.6, 0.2})},
         {rated(900, false, 1, 3, {1.0}), walk(10, false, {0.5, 0.25})},
         {rated(300, false, -1, 3, {0.0, 0.5}), rated(16, true, 2, 1, {1.0})},
         {rated(9000, false, -2, 5, {1.0 / 3.0, 1.0 / 3.0})},
-        {walk(40, false, {0.5, 0.25}), rated(30, false, -2, 4, {0.5, 0.25}), rated(8, true, -1, 2, {0.5, 0.25})}};
+        {walk(40, false, {0.5, 0.25}), rated(30, false, -2, 4, {0.5, 0.25}), rated(8, true, -1, 2, {0.5, 0.25})},
+        {fractional(9000, false, 8, -8, 17, {0.9, 0.05})},
+        {fractional(300, false, 2, -8, 17, {0.8, 0.1}), fractional(12, true, 3, -2, 5, {0.6, 0.2})}};
     QFETCH(int, index);
     const StateSpace space(spaces[static_cast<std::size_t>(index)]);
     Random random(78, 0);
@@ -345,24 +390,27 @@ void tst_Recursion::tilesAreTheDefinition()
     for (float &score : scores)
         score = static_cast<float>(10.0 * random.exponential());
     Recursion<MaxPlus<float>> recursion(space);
-    const std::span<const float> predicted = recursion.predict(scores);
-    std::vector<int> visits(scores.size(), 0);
-    Recursion<MaxPlus<float>> tiled(space);
-    tiled.predict(scores, [&](Index plane, Index firstCell, std::span<const float> part) {
-        for (std::size_t i = 0; i < part.size(); ++i) {
-            const std::size_t n = static_cast<std::size_t>(plane * space.cellCount() + firstCell) + i;
-            ++visits[n];
-            QCOMPARE(part[i], predicted[n]);
+    for (Index step = 0; step < space.phaseCount(); ++step) {
+        const std::span<const float> predicted = recursion.predict(scores, step);
+        std::vector<int> visits(scores.size(), 0);
+        Recursion<MaxPlus<float>> tiled(space);
+        tiled.predict(scores, step, [&](Index plane, Index firstCell, std::span<const float> part) {
+            for (std::size_t i = 0; i < part.size(); ++i) {
+                const std::size_t n = static_cast<std::size_t>(plane * space.cellCount() + firstCell) + i;
+                ++visits[n];
+                QCOMPARE(part[i], predicted[n]);
+            }
+        });
+        for (Index state = 0; state < space.stateCount(); state += state % 97 == 0 ? 1 : 61) {
+            double best = minus;
+            for (const StateSpace::Predecessor &p : space.predecessors(state, step))
+                best = std::max(best, static_cast<double>(scores[static_cast<std::size_t>(p.state)]) + p.lnProbability);
+            const auto found = static_cast<double>(predicted[static_cast<std::size_t>(state)]);
+            QVERIFY2(best == minus ? found == minus : std::abs(found - best) < 2e-5,
+                     qPrintable(QString("state %1").arg(state)));
         }
-    });
-    for (Index state = 0; state < space.stateCount(); state += state % 97 == 0 ? 1 : 61) {
-        double best = minus;
-        for (const StateSpace::Predecessor &p : space.predecessors(state))
-            best = std::max(best, static_cast<double>(scores[static_cast<std::size_t>(p.state)]) + p.lnProbability);
-        const auto found = static_cast<double>(predicted[static_cast<std::size_t>(state)]);
-        QVERIFY2(best == minus ? found == minus : std::abs(found - best) < 2e-5, qPrintable(QString("state %1").arg(state)));
+        QVERIFY(std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; }));
     }
-    QVERIFY(std::all_of(visits.begin(), visits.end(), [](int n) { return n == 1; }));
 }
 
 QTEST_APPLESS_MAIN(tst_Recursion)

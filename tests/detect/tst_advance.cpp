@@ -13,6 +13,14 @@ KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std:
     return {"a", cells, cyclic, firstRate, rateCount, std::move(h), {}, rounding};
 }
 
+KinematicAxis fractional(Index cells, bool cyclic, int ratesPerCell, int firstRate, int rateCount,
+                         std::vector<double> h)
+{
+    KinematicAxis axis = rated(cells, cyclic, firstRate, rateCount, std::move(h));
+    axis.ratesPerCell = ratesPerCell;
+    return axis;
+}
+
 struct Case {
     const char *name;
     std::vector<KinematicAxis> axes;
@@ -37,6 +45,12 @@ std::vector<Case> cases()
         {"shared maxima over three", {rated(900, false, -4, 9, {0.2, 0.2, 0.2})}},
         {"range and cyclic bearing",
          {rated(300, false, -9, 19, wide, Rounding::Trunc), rated(20, true, -1, 3, {0.5, 0.25}, Rounding::Trunc)}},
+        {"eighths of a cell, several tiles", {fractional(5003, false, 8, -8, 17, {0.9, 0.05})}},
+        {"halves of a cell", {fractional(2500, false, 2, -8, 17, {0.8, 0.1})}},
+        {"eighths of a cell, cyclic", {fractional(2100, true, 8, -8, 17, {0.9, 0.05})}},
+        {"one rate of a third", {fractional(2100, false, 3, 1, 1, {1.0})}},
+        {"halves, and thirds along a cyclic axis",
+         {fractional(300, false, 2, -4, 9, {0.8, 0.1}), fractional(20, true, 3, -1, 3, {0.5, 0.25})}},
         {"both bounded, one-to-one", {rated(200, false, -5, 11, {1.0}), rated(13, false, -2, 5, {1.0})}},
     };
 }

@@ -11,8 +11,9 @@
 
 namespace faintline::test {
 
-/// The transition law straight from its definition, for one axis: P(p', r' | p, r). Shares no code with the recursion.
-inline double axisProbability(const KinematicAxis &axis, Index p, int rateIndex, Index pNext, int rateIndexNext)
+/// The transition law straight from its definition, for one axis: P(p', r' | p, r) in step number `step`. Shares no code with the recursion.
+inline double axisProbability(const KinematicAxis &axis, Index p, int rateIndex, Index pNext, int rateIndexNext,
+                              Index step = 0)
 {
     const auto displaced = [&](Index displacement) {
         if (!axis.cyclic)
@@ -30,20 +31,26 @@ inline double axisProbability(const KinematicAxis &axis, Index p, int rateIndex,
     const int change = std::abs(rateIndexNext - rateIndex);
     if (change >= static_cast<int>(axis.rateChange.size()))
         return 0.0;
+    if (axis.ratesPerCell > 1) { // the rounded place on a straight line, minus that of the step before
+        const double slope = static_cast<double>(axis.firstRate + rateIndexNext) / axis.ratesPerCell;
+        const auto reached = [&](Index t) { return std::floor(slope * static_cast<double>(t) + 0.5); };
+        const auto displacement = static_cast<Index>(reached(step + 1) - reached(step));
+        return displaced(displacement) ? axis.rateChange[static_cast<std::size_t>(change)] : 0.0;
+    }
     const double mean = 0.5 * (axis.firstRate + rateIndex + axis.firstRate + rateIndexNext);
     // Half-open interval: -1/2 <= displacement - mean < 1/2; or the part toward zero.
     const double displacement = axis.rounding == Rounding::Trunc ? std::trunc(mean) : std::ceil(mean - 0.5);
     return displaced(static_cast<Index>(displacement)) ? axis.rateChange[static_cast<std::size_t>(change)] : 0.0;
 }
 
-/// P(n | m) of two states: the product over the axes.
-inline double transitionProbability(const StateSpace &space, Index from, Index to)
+/// P(n | m) of two states in step number `step`: the product over the axes.
+inline double transitionProbability(const StateSpace &space, Index from, Index to, Index step = 0)
 {
     const StateSpace::Coordinates a = space.coordinates(from);
     const StateSpace::Coordinates b = space.coordinates(to);
     double product = 1.0;
     for (std::size_t i = 0; i < space.axes().size(); ++i)
-        product *= axisProbability(space.axes()[i], a.cells[i], a.rates[i], b.cells[i], b.rates[i]);
+        product *= axisProbability(space.axes()[i], a.cells[i], a.rates[i], b.cells[i], b.rates[i], step);
     return product;
 }
 
