@@ -71,16 +71,19 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
 {
     const ModelSettings &model = m_document.settings().model;
     const auto frame = m_document.hasPings() ? tr("ping") : tr("frame");
+    const auto sloped = [&](int perBin) {
+        if (m_document.hasPings())
+            return perBin == 1 ? tr("Change of either rate from ping to ping (cells/ping)")
+                               : tr("Change of either rate from ping to ping (1/%1 cell/ping)").arg(perBin);
+        return perBin == 1 ? tr("Change of slope from frame to frame (bins/frame)")
+                           : tr("Change of slope from frame to frame (1/%1 bin/frame)").arg(perBin);
+    };
     if (model.motion == Motion::Slopes) {
         std::vector<std::size_t> axes;
         for (std::size_t axis = 0; axis < analysis.grid().axes.size(); ++axis)
             axes.push_back(axis);
         return {{QStringLiteral("model.slopeChange"),
-                 m_document.hasPings()
-                     ? tr("Change of either rate from ping to ping (cells/ping)")
-                     : (model.slopesPerBin == 1
-                            ? tr("Change of slope from frame to frame (bins/frame)")
-                            : tr("Change of slope from frame to frame (1/%1 bin/frame)").arg(model.slopesPerBin)),
+                 sloped(model.slopesPerBin),
                  model.slopeChange, analysis.model.space.axes().front().rateCount - 1, axes}};
     }
     if (analysis.grid().axes.size() != 2)

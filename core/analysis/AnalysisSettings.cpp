@@ -127,6 +127,7 @@ namespace {
     AnalysisSettings sonarSettings()
     {
         AnalysisSettings sonar;
+        sonar.model = laws::billon(); // where slopes are chosen instead: two axes of fine ones would be 289 pairs
         sonar.model.motion = Motion::Manoeuvring;
         sonar.model.likelihood = LikelihoodKind::Linear;
         sonar.detector = SmdSettings{SmdSettings::Reset::Mean, 0.0};

@@ -45,8 +45,8 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
         AnalysisSettings settings;
         for (const auto &field : AnalysisSettings::fields()) {
             if (random.uniform() < 0.5 || field.name == "model.slopeChange" || field.name == "model.lowestSlope"
-                || field.name == "conventional.hits" || field.name == "model.rangeRateChange"
-                || field.name == "model.bearingRateChange") // held by others
+                || field.name == "model.highestSlope" || field.name == "conventional.hits"
+                || field.name == "model.rangeRateChange" || field.name == "model.bearingRateChange") // held by others
                 continue;
             switch (field.kind) {
             case FieldKind::Flag:
@@ -68,6 +68,9 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
                 break;
             }
         }
+        const double slope = 1.0 / settings.model.slopesPerBin;
+        settings.model.lowestSlope = -slope * std::floor(random.uniform() * 20.0);
+        settings.model.highestSlope = slope * std::floor(random.uniform() * 20.0);
         QVERIFY(settingsFromJson(settingsToJson(settings), "test") == settings);
         QVERIFY(settingsFromJson(settingsToJson(settings, false), "test") == settings);
     }
@@ -104,6 +107,14 @@ void tst_AnalysisSettings::refusals()
     settings = {};
     settings.model.lowestSlope = 3;
     QVERIFY(contains(errorOf([&] { checkSettings(settings); }), "must not exceed model.highestSlope"));
+    settings = {};
+    settings.model.highestSlope = 0.9;
+    QVERIFY(contains(errorOf([&] { checkSettings(settings); }),
+                     "model.highestSlope = 0.9: must be a multiple of 1/8 bin/frame (model.slopesPerBin)"));
+    settings.model.slopesPerBin = 10;
+    checkSettings(settings);
+    settings.model.lowestSlope = -100.0;
+    QVERIFY(contains(errorOf([&] { checkSettings(settings); }), "gives 1010 slopes; at most 1001 are possible"));
 }
 
 void tst_AnalysisSettings::stages()

@@ -211,7 +211,8 @@ private slots:
         QTest::mousePress(plot.canvas(), Qt::LeftButton, {}, positionOf(plot, threshold));
         QTest::mouseMove(plot.canvas(), positionOf(plot, between));
         QVERIFY(!window->controller().isBusy());
-        QVERIFY(std::abs(document.shownThreshold() - between) < 0.5);
+        QVERIFY2(std::abs(document.shownThreshold() - between) < 0.5,
+                 qPrintable(QString("%1, wanted %2 of %3 … %4, now %5").arg(document.shownThreshold()).arg(between).arg(weakest).arg(strongest).arg(threshold)));
         QVERIFY(window->eventTable().shownIds().size() < before.size());
         QVERIFY(!window->eventTable().shownIds().empty());
         QCOMPARE(*window->workbench().output()->threshold(), document.shownThreshold());
@@ -413,7 +414,7 @@ private slots:
         QVERIFY(window->workbench().isVisible());
 
         // Settings no single field can refuse: said, and undone as any other.
-        window->controller().edit("model.lowestSlope", 5, "Change the slope");
+        window->controller().edit("model.lowestSlope", 5.0, "Change the slope");
         QVERIFY(settle(*window));
         QVERIFY2(window->messages().text().contains("lowestSlope"), qPrintable(window->messages().text()));
         QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);

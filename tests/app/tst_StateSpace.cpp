@@ -72,6 +72,7 @@ private slots:
         m_window = newWindow({1600, 1400}); // bars of a height at which a pixel is little
         m_window->welcome().stop();
         QVERIFY(openAndSettle(*m_window, m_scene, [](AnalysisSettings &settings) {
+            settings.model = laws::billon();
             settings.spectrogram.windowSeconds = 0.5;
             settings.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.8};
             settings.decide.by = DecideSettings::By::Nats;
@@ -117,6 +118,29 @@ private slots:
         QTest::mouseClick(states.view()->canvas(), Qt::LeftButton, {}, at.toPoint());
         QVERIFY(std::abs(viewport.cursor()->hz - 300.0) < 5.0);
         QCOMPARE(viewport.cursor()->seconds, seconds);
+    }
+
+    void fineSlopesHaveTheirRows()
+    {
+        QVERIFY(openAndSettle(*m_window, m_scene, [](AnalysisSettings &settings) {
+            settings.spectrogram.windowSeconds = 0.5;
+            settings.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.03};
+            settings.decide.by = DecideSettings::By::Nats;
+            settings.decide.thresholdNats = 20.0;
+        }));
+        m_window->showStates();
+        QVERIFY(settle(m_window->states()));
+        StateSlicePanel &states = m_window->states();
+        QCOMPARE(states.view()->picture()->rowCount(0), Index(17)); // -1 … 1 in eighths of a bin
+        const Axis &time = m_window->document().analysis()->time();
+        m_window->document().viewport().setCursor({time.value(static_cast<double>(time.nearest(30.0))), 215.0});
+        QVERIFY(settle(states));
+        // The line drifts by 0.5 Hz/s; neighbouring slopes are 1 Hz / 0.25 s / 8 apart.
+        QVERIFY(std::abs(states.marks().best()->column - 215.0) < 3.0);
+        QVERIFY2(std::abs(states.marks().best()->row - 0.5) <= 0.5, qPrintable(QString::number(states.marks().best()->row)));
+        const QString change = law().axisTitle(QwtAxis::XBottom).text();
+        QVERIFY2(change.contains(QStringLiteral("(1/8 bin/frame)")), qPrintable(change));
+        QCOMPARE(law().law(), (std::vector<double>{0.9, 0.05}));
     }
 
     void theRangeIsThatOfTheCanvasAsItIs()

@@ -27,7 +27,7 @@ measure() { # AXIS SIZE HOURS, then settings
 
 {
     for hours in 0.5 1 2; do measure hours $hours $hours; done
-    for slopes in 2 10 40; do measure slopes $((2 * slopes + 1)) 0.5 --set model.lowestSlope=-$slopes --set model.highestSlope=$slopes; done
+    for slopes in 2 10 40; do measure slopes $((2 * slopes + 1)) 0.5 --preset billon --set model.lowestSlope=-$slopes --set model.highestSlope=$slopes; done
     for steps in 1 2 4; do measure frames-a-window $steps 0.5 --set spectrogram.stepsPerWindow=$steps; done
 } | awk '
     { printf "%-16s %6g  %7.2f s  %5d MiB", $1, $2, $3, $4 }

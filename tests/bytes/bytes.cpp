@@ -73,7 +73,7 @@ void printLines()
             makeDetector(detectorOfKind(kind), model, normalised.grid(), {2.0, 2.0}, ResetRule{ResetLaw::Half, 0.7, 0.0, 0.01});
         print(detectorNames[kind].data(), statisticOf(*detector, frames, cells));
     }
-    ModelSettings wide = settings.model;
+    ModelSettings wide = laws::billon();
     wide.lowestSlope = -10;
     wide.highestSlope = 10;
     Smd many(makeModel(wide, normalised.grid()), {ResetLaw::Fixed, 0.7});

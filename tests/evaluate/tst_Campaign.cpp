@@ -20,6 +20,7 @@ namespace {
     Contestant contestant(const char *name, const DetectorSettings &detector)
     {
         Contestant result{name, {}};
+        result.settings.model = laws::billon(); // the law of ln K = 0.69
         result.settings.detector = detector;
         return result;
     }

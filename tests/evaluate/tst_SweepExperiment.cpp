@@ -80,7 +80,7 @@ private slots:
     {
         QCOMPARE(sweepValues("model.snr", 0.1, 0.5, 5, false), (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
         QCOMPARE(sweepValues("model.snr", 0.25, 4.0, 5, true), (std::vector<double>{0.25, 0.5, 1.0, 2.0, 4.0}));
-        QCOMPARE(sweepValues("model.highestSlope", 1, 3, 5, false), (std::vector<double>{1, 2, 3})); // whole, without repeats
+        QCOMPARE(sweepValues("model.slopesPerBin", 1, 3, 5, false), (std::vector<double>{1, 2, 3})); // whole, without repeats
         QVERIFY_THROWS_EXCEPTION(Error, sweepValues("model.snr", 0.0, 1.0, 3, true));
         QVERIFY_THROWS_EXCEPTION(Error, sweepValues("detector.kind", 0.0, 1.0, 3, false));
     }
@@ -94,7 +94,7 @@ private slots:
         QTest::newRow("a choice") << "detector.kind" << 1.0 << "parameter = detector.kind: must be a setting that is one number";
         QTest::newRow("another detector's") << "pOfN.n" << 4.0 << "parameter = pOfN.n: belongs to another detector";
         QTest::newRow("out of range") << "spectrogram.windowSeconds" << -1.0 << "spectrogram.windowSeconds = -1: must lie in 0";
-        QTest::newRow("not whole") << "model.highestSlope" << 1.5 << "model.highestSlope = 1.5: must be a whole number";
+        QTest::newRow("not whole") << "model.slopesPerBin" << 1.5 << "model.slopesPerBin = 1.5: must be a whole number";
     }
 
     void refusals()
