@@ -1,6 +1,6 @@
 #include "app/LatencyPanel.h"
 
-#include "evaluate/Interval.h"
+#include "base/Interval.h"
 #include "evaluate/PingExperiment.h"
 #include "widgets/ChartPlot.h"
 

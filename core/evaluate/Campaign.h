@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/Interval.h"
 #include "evaluate/InjectionExperiment.h"
-#include "evaluate/Interval.h"
 #include "evaluate/LineExperiment.h"
 #include "evaluate/SweepExperiment.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/Interval.h"
+#include "base/Interval.h"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/Interval.h"
 #include "detect/MapTrajectory.h"
 #include "detect/Sprt.h"
-#include "evaluate/Interval.h"
 #include "model/TrajectorySampler.h"
 
 #include <cstdint>

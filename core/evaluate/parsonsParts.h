@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/Interval.h"
+#include "base/Interval.h"
 #include "evaluate/reproduce.h"
 #include "recording/PingScene.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/Interval.h"
 #include "base/RunContext.h"
 #include "evaluate/Chart.h"
-#include "evaluate/Interval.h"
 
 #include <cstdint>
 #include <functional>

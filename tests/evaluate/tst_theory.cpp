@@ -1,8 +1,8 @@
+#include "base/Interval.h"
 #include "base/Random.h"
 #include "detect/Integrator.h"
 #include "detect/PofN.h"
 #include "detect/Smd.h"
-#include "evaluate/Interval.h"
 #include "evaluate/theory.h"
 
 #include <QtTest>

@@ -1,4 +1,4 @@
-#include "evaluate/Interval.h"
+#include "base/Interval.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
 
