@@ -34,8 +34,8 @@ namespace {
     constexpr Index blockCells = 64;
     constexpr std::size_t leastMaxima = 40;
     /// Block maxima above the thresholds where events are counted, per cell and frame. Clustering and inhibition leave about a quarter of
-    /// them as events: 800 and 100 in the usual 1.6·10⁸ cells × frames. Lower thresholds would count more, but there the tail is steeper.
-    constexpr std::array<double, 2> eventRates{2e-5, 2.5e-6};
+    /// them as events: 400 and 80 in the usual 8·10⁷ cells × frames. Lower thresholds would count more, but there the tail is steeper.
+    constexpr std::array<double, 2> eventRates{2e-5, 4e-6};
     constexpr double leastExpected = 100.0; ///< events at the first of them; in small volumes the rates are higher
     constexpr double leastEvents = 20.0;
 
@@ -309,6 +309,71 @@ namespace {
         }
     }
 
+    /// How rare excursions of noise of known level are, on a small band that closes on itself, along which all cells are alike.
+    RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, const AnalysisSettings &settings,
+                         const Calibration &calibration, const RunContext &context)
+    {
+        constexpr int pieceWindowSamples = 32;
+        constexpr Index pieceCells = 64;
+        if (model.space.axes().size() > 1 || !model.space.axes().front().transition.empty())
+            return {};
+        KinematicAxis axis = model.space.axes().front();
+        const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(&frames) != nullptr;
+        const Index independentCells = std::max<Index>(pieceCells, 8 * axis.largestDisplacement() + 1);
+        const std::function<std::unique_ptr<NoiseStream>()> makeNoise = [&] {
+            return isSpectral ? spectralNoise(settings.spectrogram, pieceWindowSamples)
+                              : independentNoise(independentCells);
+        };
+        axis.cells = makeNoise()->cells();
+        axis.cyclic = true;
+        if (axis.cells <= 4 * axis.largestDisplacement())
+            return {};
+        const MarkovModel piece{StateSpace({axis}), model.likelihood, model.transitionScale};
+        const Grid grid{{{axis.name, "", 0.0, 1.0, axis.cells, true}}};
+        const auto *smd = std::get_if<SmdSettings>(&settings.detector);
+        const auto make = [&] {
+            return makeDetector(settings.detector, piece, grid,
+                                isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{},
+                                smd ? resetRule(*smd, calibration.lnK) : ResetRule{});
+        };
+        return measureRareRates(make, makeNoise, {}, context);
+    }
+
+    /// The tail as the chain's events have it: their rates at the thresholds where they were counted, ascending, and beyond the last what
+    /// splitting says of excursions.
+    void anchorTail(const RareRates &rare, std::span<const double> thresholds, std::span<const double> events,
+                    double cellFrames, Calibration &result)
+    {
+        if (events.back() < leastEvents)
+            throw Error("detector", "hardly ever exceeds any threshold on noise, which leaves nothing to calibrate on");
+        RareRates &rates = result.rates;
+        const auto append = [&](double level, double lnRate, double error) {
+            rates.levels.push_back(level);
+            rates.lnRates.push_back(lnRate);
+            rates.relativeErrors.push_back(error);
+        };
+        const auto lnEventRate = [&](std::size_t i) { return std::log(events[i] / cellFrames); };
+        const auto errorOf = [&](std::size_t i) { return 1.0 / std::sqrt(events[i]); };
+        for (std::size_t i = 0; i < rare.levels.size() && rare.levels[i] < thresholds.front(); ++i)
+            append(rare.levels[i], lnEventRate(0) + rare.lnRates[i] - rare.lnRateAt(thresholds.front()), errorOf(0));
+        for (std::size_t i = 0; i < thresholds.size(); ++i)
+            append(thresholds[i], lnEventRate(i), errorOf(i));
+        const std::size_t last = thresholds.size() - 1;
+        const double known = rare.relativeErrorAt(thresholds[last]);
+        for (std::size_t i = 0; i < rare.levels.size(); ++i)
+            if (const double level = rare.levels[i]; level > thresholds[last]) {
+                const double grown = rare.relativeErrors[i] * rare.relativeErrors[i] - known * known;
+                append(level, lnEventRate(last) + rare.lnRates[i] - rare.lnRateAt(thresholds[last]),
+                       std::hypot(errorOf(last), std::sqrt(std::max(0.0, grown))));
+            }
+        result.anchorNats = thresholds[last];
+        result.eventRate = events[last] / cellFrames;
+        result.relativeError = errorOf(last);
+        result.tailSlope = (rates.lnRates[rates.levels.size() - 4] - rates.lnRates.back())
+                           / (rates.levels.back() - rates.levels[rates.levels.size() - 4]);
+        result.slopeError = rates.relativeErrors.back() / (rates.levels.back() - thresholds[last]);
+    }
+
     std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
                                                    const AnalysisSettings &settings, const RunContext &context)
     {
@@ -341,9 +406,10 @@ namespace {
             thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns,
                                 rough.cellFrames / roughCount * segmentCount);
 
+        const RareRates rare = followTail(*firstSegment, model, settings, *result, context.part(0.2, 0.4));
         EventCounts counts;
         inRounds(
-            segmentCount, context.part(0.2, 1.0),
+            segmentCount, context.part(0.4, 1.0),
             [&](int number) {
                 Analysis own = trial;
                 own.frames = segment(number);
@@ -355,7 +421,10 @@ namespace {
                 return countEvents(*own.frames, chains);
             },
             [&](const EventCounts &part) { add(part, counts); });
-        fitEventRate(thresholds, counts.events, counts.cellFrames, *result);
+        if (rare.isEmpty())
+            fitEventRate(thresholds, counts.events, counts.cellFrames, *result);
+        else
+            anchorTail(rare, thresholds, counts.events, counts.cellFrames, *result);
         return result;
     }
 
@@ -379,8 +448,9 @@ namespace {
             name += ";";
         };
         for (const KinematicAxis &axis : model.space.axes()) {
-            add({static_cast<double>(axis.cells), axis.cyclic ? 1.0 : 0.0, static_cast<double>(axis.firstRate), static_cast<double>(axis.rateCount),
-                 static_cast<double>(axis.ratesPerCell), static_cast<double>(axis.rounding), axis.renormalised ? 1.0 : 0.0});
+            add({static_cast<double>(axis.cells), axis.cyclic ? 1.0 : 0.0, static_cast<double>(axis.firstRate),
+                 static_cast<double>(axis.rateCount), static_cast<double>(axis.ratesPerCell),
+                 static_cast<double>(axis.rounding), axis.renormalised ? 1.0 : 0.0});
             add(axis.rateChange);
             add(axis.step);
             add(axis.transition);
@@ -432,18 +502,37 @@ namespace {
 
 double Calibration::eventRateAt(double nats) const
 {
+    if (!rates.isEmpty())
+        return std::exp(rates.lnRateAt(nats));
     return eventRate * std::exp(-tailSlope * (nats - anchorNats));
 }
 
 double Calibration::thresholdForEventRate(double eventsPerCellFrame) const
 {
-    return anchorNats + std::log(eventRate / eventsPerCellFrame) / tailSlope;
+    if (rates.isEmpty())
+        return anchorNats + std::log(eventRate / eventsPerCellFrame) / tailSlope;
+    double low = rates.levels.front() - 100.0 / tailSlope;
+    double high = rates.levels.back() + 1000.0 / tailSlope;
+    for (int i = 0; i < 200; ++i) {
+        const double middle = 0.5 * (low + high);
+        (eventRateAt(middle) > eventsPerCellFrame ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+double Calibration::rateUncertaintyAt(double nats) const
+{
+    const double error =
+        rates.isEmpty() ? std::hypot(relativeError, (nats - anchorNats) * slopeError) : rates.relativeErrorAt(nats);
+    return std::exp(1.96 * error);
 }
 
 double Calibration::thresholdUncertainty(double eventsPerCellFrame) const
 {
-    const double distance = thresholdForEventRate(eventsPerCellFrame) - anchorNats;
-    return 1.96 * std::hypot(relativeError / tailSlope, distance * slopeError / tailSlope);
+    const double threshold = thresholdForEventRate(eventsPerCellFrame);
+    constexpr double near = 0.5;
+    const double slope = std::log(eventRateAt(threshold - near) / eventRateAt(threshold + near)) / (2.0 * near);
+    return std::log(rateUncertaintyAt(threshold)) / slope;
 }
 
 double Calibration::exceedanceAt(double nats) const
@@ -456,7 +545,8 @@ double Calibration::exceedanceAt(double nats) const
     if (nats <= levels.front())
         return exceedance.front();
     if (nats >= levels[last])
-        return exceedance[last] * std::exp(-tailSlope * (nats - levels[last]));
+        return exceedance[last] * eventRateAt(nats)
+               / eventRateAt(levels[last]); // time above a level, an event: nearly the same
     const double position = (nats - levels.front()) / (levels[1] - levels[0]);
     const auto lower = static_cast<std::size_t>(position);
     const double fraction = position - static_cast<double>(lower);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
+#include "analysis/rareRates.h"
 #include "base/RunContext.h"
 #include "spectrum/NormalisedFrames.h"
 
@@ -12,16 +13,19 @@ namespace faintline {
 
 /// How a detector answers to noise alone: found by simulation, the same noise through the same chain.
 ///
-/// The statistic's tail is exponential (for one-to-one transitions exactly so, Lindley's recursion: P(L > T) = σ e^{-(1-σ)T}). An event
-/// is what the whole chain starts a track from, with its clustering, reset and inhibition; its rate is counted on noise at two
-/// thresholds where there are many, and continued with ln(rate) = ln(eventRate) - θ(T - u), fitted by maximum likelihood to the
-/// Poisson counts, to where events are rare.
+/// An event is what the whole chain starts a track from, with its clustering, reset and inhibition, on frames whose background was
+/// estimated. Its rate is counted on noise at two thresholds where there are many. Beyond them it is followed to where events are rare by
+/// multilevel splitting on noise of known level (`RareRates`), never by a straight line: near the 50 % rule a tail is curved. Where
+/// splitting is impossible (several axes, detectors that cannot tell their state), ln(rate) = ln(eventRate) - θ(T - u), fitted by
+/// maximum likelihood to the Poisson counts at both. The background's own error changes the rates far out by less than the interval says:
+/// a chance excursion raises the background that it is divided by (tests/analysis/tst_calibrationTail).
 struct Calibration {
     double lnK = 0.0;               ///< ln K in force; for other detectors, of the sequential Markov detector that guides their tracks
     double continuedFraction = 0.0; ///< realised, of all states
     double anchorNats = 0.0;        ///< u
     double eventRate = 0.0;         ///< events per cell and frame at threshold u
-    double tailSlope = 1.0;         ///< θ, 1/nat
+    double tailSlope = 1.0;         ///< θ, 1/nat; of a tail that was followed by splitting, its last part's
+    RareRates rates;                ///< events per cell and frame at thresholds, followed by splitting; may be empty
     double relativeError = 0.0;     ///< standard error of ln(event rate) at u
     double slopeError = 0.0;        ///< standard error of θ
     std::vector<double> levels;     ///< nats, ascending
@@ -33,6 +37,8 @@ struct Calibration {
     double exceedanceAt(double nats) const;
     double thresholdForEventRate(double eventsPerCellFrame) const;
     double thresholdForPfa(double probability) const;
+    /// The rate lies within this factor of what it is said to be, either way (95 %).
+    double rateUncertaintyAt(double nats) const;
     /// 95 % half-width, in nats, of the threshold for an event rate.
     double thresholdUncertainty(double eventsPerCellFrame) const;
 
@@ -43,7 +49,7 @@ struct Calibration {
 /// dimensionless part of the settings (windows, overlaps, model, detector), which is also the key under which results
 /// are kept, for the life of the program and in the `CalibrationStore`. `cellFrames`: cells × frames to simulate for the tail.
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
-                                             double cellFrames = 1.6e8);
+                                             double cellFrames = 8e7);
 
 /// The model on a piece of its grid large enough to learn its answer to noise: where it has more than 20 000 cells, the longest
 /// bounded axis is cut to about 5000 cells in all and made cyclic, so that no path runs off the piece. A sonar's bounded range

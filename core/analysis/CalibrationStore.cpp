@@ -40,15 +40,18 @@ namespace {
 
     Json toJson(const Calibration &c)
     {
-        return {{"lnK", c.lnK},
-                {"continuedFraction", c.continuedFraction},
-                {"anchorNats", c.anchorNats},
-                {"eventRate", c.eventRate},
-                {"tailSlope", c.tailSlope},
-                {"relativeError", c.relativeError},
-                {"slopeError", c.slopeError},
-                {"levels", c.levels},
-                {"exceedance", c.exceedance}};
+        return {
+            {"lnK", c.lnK},
+            {"continuedFraction", c.continuedFraction},
+            {"anchorNats", c.anchorNats},
+            {"eventRate", c.eventRate},
+            {"tailSlope", c.tailSlope},
+            {"relativeError", c.relativeError},
+            {"slopeError", c.slopeError},
+            {"rates",
+             {{"levels", c.rates.levels}, {"lnRates", c.rates.lnRates}, {"relativeErrors", c.rates.relativeErrors}}},
+            {"levels", c.levels},
+            {"exceedance", c.exceedance}};
     }
 
     /// Throws where a member is missing or of another kind.
@@ -62,6 +65,9 @@ namespace {
         json.at("tailSlope").get_to(c.tailSlope);
         json.at("relativeError").get_to(c.relativeError);
         json.at("slopeError").get_to(c.slopeError);
+        json.at("rates").at("levels").get_to(c.rates.levels);
+        json.at("rates").at("lnRates").get_to(c.rates.lnRates);
+        json.at("rates").at("relativeErrors").get_to(c.rates.relativeErrors);
         json.at("levels").get_to(c.levels);
         json.at("exceedance").get_to(c.exceedance);
         return c;
@@ -69,7 +75,10 @@ namespace {
 
     bool isUsable(const Calibration &c)
     {
-        return c.levels.size() >= 2 && c.levels.size() == c.exceedance.size() && c.tailSlope > 0.0 && c.eventRate > 0.0;
+        return c.levels.size() >= 2 && c.levels.size() == c.exceedance.size() && c.tailSlope > 0.0 && c.eventRate > 0.0
+               && c.rates.levels.size() == c.rates.lnRates.size()
+               && c.rates.levels.size() == c.rates.relativeErrors.size() && c.rates.levels.size() != 1
+               && std::is_sorted(c.rates.levels.begin(), c.rates.levels.end());
     }
 
 } // namespace

@@ -5,6 +5,6 @@
 namespace faintline {
 
 /// What `calibrate` has kept for these settings, in memory or on disk, or null: for whoever would rather do something else first than wait.
-std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings, double cellFrames = 1.6e8);
+std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings, double cellFrames = 8e7);
 
 } // namespace faintline

@@ -1,0 +1,387 @@
+#include "analysis/rareRates.h"
+
+#include "base/Random.h"
+#include "base/parallel.h"
+#include "spectrum/Fft.h"
+#include "spectrum/Window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int streams = 16; ///< that the first level is looked for in
+    constexpr int settlingFrames = 300;
+    constexpr int quantileFrames = 2000; ///< of each stream, for the base and the first level
+    constexpr double baseQuantile = 0.8;
+    constexpr double firstQuantile = 0.96;
+    constexpr int pilotTrials = 200;
+    constexpr double pilotFraction = 0.2; ///< of them reach the next level
+    constexpr int longestTrial = 100000;  ///< frames
+    constexpr int mostLevels = 60;
+    constexpr int leastSuccesses = 10;
+    constexpr int replicates = 4; ///< independent runs, whose scatter tells what trials that share ancestors do not
+
+    class IndependentNoise final : public NoiseStream
+    {
+    public:
+        explicit IndependentNoise(Index cells) : m_cells(cells) {}
+        Index cells() const override { return m_cells; }
+        void next(Random &random, std::span<float> y) override { random.exponentials(y); }
+
+    private:
+        Index m_cells;
+    };
+
+    class SpectralNoise final : public NoiseStream
+    {
+    public:
+        SpectralNoise(const SpectrogramSettings &settings, int windowSamples)
+            : m_hop(static_cast<std::size_t>(
+                std::max(1L, std::lround(static_cast<double>(windowSamples) / settings.stepsPerWindow)))),
+              m_window(sampleWindow(settings.window, windowSamples)),
+              m_fft(Fft::fastLength(windowSamples * settings.binsPerCell), Fft::Input::Complex),
+              m_buffer(m_fft.buffer()), m_samples(2 * m_window.size())
+        {
+        }
+
+        Index cells() const override { return m_fft.length(); }
+
+        void next(Random &random, std::span<float> y) override
+        {
+            // The first window is new as a whole, every other one in its last hop.
+            const std::size_t fresh = m_isFirst ? m_samples.size() : std::min(2 * m_hop, m_samples.size());
+            m_isFirst = false;
+            std::copy(m_samples.begin() + static_cast<std::ptrdiff_t>(fresh), m_samples.end(), m_samples.begin());
+            random.normals(std::span(m_samples).last(fresh), static_cast<float>(std::sqrt(0.5)));
+            const std::span<float> input = m_buffer->input();
+            std::fill(input.begin(), input.end(), 0.0f);
+            for (std::size_t n = 0; n < m_window.size(); ++n) {
+                input[2 * n] = m_samples[2 * n] * m_window[n];
+                input[2 * n + 1] = m_samples[2 * n + 1] * m_window[n];
+            }
+            m_fft.run(*m_buffer);
+            for (std::size_t bin = 0; bin < y.size(); ++bin)
+                y[bin] = std::norm(m_buffer->output()[bin]);
+        }
+
+        std::vector<float> state() const override { return m_samples; }
+        void setState(std::span<const float> state) override
+        {
+            m_samples.assign(state.begin(), state.end());
+            m_isFirst = false;
+        }
+
+    private:
+        std::size_t m_hop;
+        std::vector<float> m_window;
+        Fft m_fft;
+        std::unique_ptr<Fft::Buffer> m_buffer;
+        std::vector<float> m_samples; ///< interleaved
+        bool m_isFirst = true;
+    };
+
+    /// Noise and detector at one moment.
+    struct Particle {
+        std::vector<float> noise;
+        std::shared_ptr<const Detector::Remembrance> detector;
+        double reached = 0.0; ///< largest D of the frame
+    };
+
+    /// What goes from frame to frame: one a thread.
+    class Walker
+    {
+    public:
+        Walker(std::unique_ptr<Detector> detector, std::unique_ptr<NoiseStream> noise)
+            : m_detector(std::move(detector)), m_noise(std::move(noise)),
+              m_y(static_cast<std::size_t>(m_noise->cells())), m_statistic(m_y.size())
+        {
+        }
+
+        /// Largest D of the next frame.
+        double step(Random &random)
+        {
+            m_noise->next(random, m_y);
+            m_detector->update(m_y, m_statistic);
+            return static_cast<double>(*std::max_element(m_statistic.begin(), m_statistic.end()));
+        }
+
+        Particle particle(double reached) const { return {m_noise->state(), m_detector->remembrance(), reached}; }
+        void take(const Particle &particle)
+        {
+            m_noise->setState(particle.noise);
+            m_detector->recall(*particle.detector);
+        }
+        Index cells() const { return m_noise->cells(); }
+
+    private:
+        std::unique_ptr<Detector> m_detector;
+        std::unique_ptr<NoiseStream> m_noise;
+        std::vector<float> m_y;
+        std::vector<float> m_statistic;
+    };
+
+    double quantileOf(std::vector<double> values, double p)
+    {
+        const auto at = values.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+        std::nth_element(values.begin(), at, values.end());
+        return *at;
+    }
+
+    class Splitting
+    {
+    public:
+        Splitting(const std::function<std::unique_ptr<Detector>()> &makeDetector,
+                  const std::function<std::unique_ptr<NoiseStream>()> &makeNoise, const SplittingSettings &settings,
+                  const RunContext &context)
+            : m_makeWalker([&] { return std::make_shared<Walker>(makeDetector(), makeNoise()); }), m_settings(settings),
+              m_context(context)
+        {
+        }
+
+        RareRates run()
+        {
+            findFirstLevel();
+            double lnRate = enterFirstLevel();
+            double variance = 1.0 / static_cast<double>(m_entered.size());
+            append(m_level, lnRate, variance);
+            for (int number = 1; number < mostLevels && lnRate > m_settings.leastLnRate; ++number) {
+                m_context.checkpoint(std::min(1.0, lnRate / m_settings.leastLnRate),
+                                     "following rare excursions of the noise");
+                const double next = nextLevel(number);
+                if (!(next > m_level))
+                    break;
+                const std::vector<std::optional<Particle>> outcomes = trials(number, next);
+                std::vector<Particle> entered;
+                for (const std::optional<Particle> &outcome : outcomes)
+                    if (outcome)
+                        entered.push_back(*outcome);
+                if (std::ssize(entered) < leastSuccesses)
+                    break;
+                const double p = static_cast<double>(entered.size()) / static_cast<double>(outcomes.size());
+                lnRate += std::log(p);
+                variance += (1.0 - p) / static_cast<double>(entered.size());
+                m_level = next;
+                m_entered = std::move(entered);
+                append(m_level, lnRate, variance);
+            }
+            return m_result;
+        }
+
+    private:
+        void append(double level, double lnRate, double variance)
+        {
+            m_result.levels.push_back(level);
+            m_result.lnRates.push_back(lnRate);
+            m_result.relativeErrors.push_back(std::sqrt(variance));
+        }
+
+        Random randomOf(int level, Index trial) const
+        {
+            return {m_settings.seed + static_cast<std::uint64_t>(level), static_cast<std::uint64_t>(trial)};
+        }
+
+        void findFirstLevel()
+        {
+            std::vector<std::vector<double>> maxima(streams);
+            parallelFor(streams, m_context, "noise", [&] {
+                return [&](Index stream) {
+                    const auto walker = m_makeWalker(); // a detector at its first frame
+                    Random random = randomOf(0, stream);
+                    for (int frame = 0; frame < settlingFrames + quantileFrames / streams; ++frame)
+                        if (const double reached = walker->step(random);
+                            frame >= settlingFrames && std::isfinite(reached))
+                            maxima[static_cast<std::size_t>(stream)].push_back(reached);
+                };
+            });
+            std::vector<double> all;
+            for (const std::vector<double> &some : maxima)
+                all.insert(all.end(), some.begin(), some.end());
+            if (all.empty())
+                return;
+            m_base = quantileOf(all, baseQuantile);
+            m_level = quantileOf(all, firstQuantile);
+        }
+
+        /// ln of the rate of cycles; fills the particles that enter the first level.
+        double enterFirstLevel()
+        {
+            const int wanted = (m_settings.entries + streams - 1) / streams;
+            std::vector<std::vector<Particle>> entered(streams);
+            std::vector<double> frames(streams);
+            parallelFor(streams, m_context, "noise", [&] {
+                return [&](Index stream) {
+                    const auto walker = m_makeWalker();
+                    Random random = randomOf(1000, stream);
+                    for (int frame = 0; frame < settlingFrames; ++frame)
+                        walker->step(random);
+                    auto &own = entered[static_cast<std::size_t>(stream)];
+                    bool isBelow = false;
+                    for (double &count = frames[static_cast<std::size_t>(stream)];
+                         std::ssize(own) < wanted && count < longestTrial; ++count) {
+                        const double reached = walker->step(random);
+                        if (isBelow && reached > m_level) {
+                            own.push_back(walker->particle(reached));
+                            isBelow = false;
+                        } else if (reached < m_base) {
+                            isBelow = true;
+                        }
+                    }
+                };
+            });
+            double total = 0.0;
+            for (std::size_t stream = 0; stream < entered.size(); ++stream) {
+                total += frames[stream];
+                m_entered.insert(m_entered.end(), entered[stream].begin(), entered[stream].end());
+            }
+            const auto cells = static_cast<double>(m_makeWalker()->cells());
+            return m_entered.empty() ? -std::numeric_limits<double>::infinity()
+                                     : std::log(static_cast<double>(m_entered.size()) / (total * cells));
+        }
+
+        /// From one of the entered states, with fresh noise, to the next level or back to the base; answers the highest D.
+        double walk(Walker &walker, Random &random, double next, std::optional<Particle> *outcome) const
+        {
+            const auto number =
+                std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(m_entered.size())),
+                         m_entered.size() - 1);
+            const Particle &start = m_entered[number];
+            double highest = start.reached;
+            if (highest > next) {
+                *outcome = start;
+                return highest;
+            }
+            walker.take(start);
+            for (int frame = 0; frame < longestTrial; ++frame) {
+                const double reached = walker.step(random);
+                highest = std::max(highest, reached);
+                if (reached > next) {
+                    *outcome = walker.particle(reached);
+                    break;
+                }
+                if (reached < m_base)
+                    break;
+            }
+            return highest;
+        }
+
+        double nextLevel(int number) const
+        {
+            std::vector<double> highest(pilotTrials);
+            parallelFor(pilotTrials, m_context, "noise", [&] {
+                return [&, walker = m_makeWalker()](Index trial) {
+                    Random random = randomOf(2000 + number, trial);
+                    std::optional<Particle> ignored;
+                    highest[static_cast<std::size_t>(trial)] =
+                        walk(*walker, random, std::numeric_limits<double>::infinity(), &ignored);
+                };
+            });
+            return quantileOf(highest, 1.0 - pilotFraction);
+        }
+
+        std::vector<std::optional<Particle>> trials(int number, double next) const
+        {
+            std::vector<std::optional<Particle>> outcomes(static_cast<std::size_t>(m_settings.entries));
+            parallelFor(std::ssize(outcomes), m_context, "noise", [&] {
+                return [&, walker = m_makeWalker()](Index trial) {
+                    Random random = randomOf(3000 + number, trial);
+                    walk(*walker, random, next, &outcomes[static_cast<std::size_t>(trial)]);
+                };
+            });
+            return outcomes;
+        }
+
+        std::function<std::shared_ptr<Walker>()> m_makeWalker;
+        const SplittingSettings &m_settings;
+        const RunContext &m_context;
+        double m_base = 0.0;
+        double m_level = 0.0;
+        std::vector<Particle> m_entered;
+        RareRates m_result;
+    };
+
+    /// The mean rate of independent runs, at the levels of the first as far as all of them reach.
+    RareRates combined(const std::vector<RareRates> &runs)
+    {
+        RareRates result;
+        const auto count = static_cast<double>(runs.size());
+        for (std::size_t i = 0; i < runs.front().levels.size(); ++i) {
+            const double level = runs.front().levels[i];
+            const bool isReached = std::all_of(runs.begin(), runs.end(),
+                                               [&](const RareRates &run) { return level <= run.levels.back() + 2.0; });
+            if (!isReached)
+                break;
+            double mean = 0.0, square = 0.0, variance = 0.0;
+            for (const RareRates &run : runs) {
+                const double relative = std::exp(run.lnRateAt(level) - runs.front().lnRates[i]);
+                mean += relative / count;
+                square += relative * relative / count;
+                variance += run.relativeErrorAt(level) * run.relativeErrorAt(level) / (count * count);
+            }
+            const double scatter = (square / (mean * mean) - 1.0) / (count - 1.0);
+            result.levels.push_back(level);
+            result.lnRates.push_back(runs.front().lnRates[i] + std::log(mean));
+            result.relativeErrors.push_back(std::sqrt(std::max(variance, scatter)));
+        }
+        return result;
+    }
+
+    /// Value at a level of what is known at levels, linear between and beyond them.
+    double interpolated(const std::vector<double> &levels, const std::vector<double> &values, double level)
+    {
+        if (levels.size() == 1)
+            return values.front();
+        const auto above = std::upper_bound(levels.begin() + 1, levels.end() - 1, level);
+        const auto upper = static_cast<std::size_t>(above - levels.begin());
+        const double fraction = (level - levels[upper - 1]) / (levels[upper] - levels[upper - 1]);
+        return values[upper - 1] + fraction * (values[upper] - values[upper - 1]);
+    }
+
+} // namespace
+
+std::unique_ptr<NoiseStream> independentNoise(Index cells)
+{
+    return std::make_unique<IndependentNoise>(cells);
+}
+
+std::unique_ptr<NoiseStream> spectralNoise(const SpectrogramSettings &settings, int windowSamples)
+{
+    return std::make_unique<SpectralNoise>(settings, windowSamples);
+}
+
+double RareRates::lnRateAt(double level) const
+{
+    return interpolated(levels, lnRates, level);
+}
+
+double RareRates::relativeErrorAt(double level) const
+{
+    return interpolated(levels, relativeErrors, std::max(level, levels.front()));
+}
+
+RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
+                           const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
+                           const SplittingSettings &settings, const RunContext &context)
+{
+    if (!makeDetector()->remembrance())
+        return {};
+    std::vector<RareRates> runs;
+    for (int run = 0; run < replicates; ++run) {
+        SplittingSettings own = settings;
+        own.entries = std::max(1, settings.entries / replicates);
+        own.seed = settings.seed + static_cast<std::uint64_t>(run) * 10000;
+        runs.push_back(
+            Splitting(makeDetector, makeNoise, own,
+                      context.part(static_cast<double>(run) / replicates, static_cast<double>(run + 1) / replicates))
+                .run());
+        if (runs.back().isEmpty())
+            return {};
+    }
+    return combined(runs);
+}
+
+} // namespace faintline

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "base/RunContext.h"
+#include "detect/Detector.h"
+#include "spectrum/Spectrogram.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+class Random;
+
+/// Frames of noise, one after the other, whose future depends on nothing but `state()` and the random numbers to come.
+class NoiseStream
+{
+public:
+    virtual ~NoiseStream() = default;
+    virtual Index cells() const = 0;
+    /// The next frame, y with mean 1.
+    virtual void next(Random &random, std::span<float> y) = 0;
+    virtual std::vector<float> state() const { return {}; }
+    virtual void setState(std::span<const float> /*state*/) {}
+};
+
+/// Independent exponential cells.
+std::unique_ptr<NoiseStream> independentNoise(Index cells);
+
+/// The spectrogram of complex white noise on `windowSamples` samples, a full band: neighbouring frames and bins are correlated
+/// as those of a recording are. The background is known, not estimated.
+std::unique_ptr<NoiseStream> spectralNoise(const SpectrogramSettings &settings, int windowSamples);
+
+/// How often a detector's statistic rises to a level, for levels that simulation alone would hardly ever reach.
+///
+/// A *cycle* begins when the largest D of a frame exceeds the first level and ends when it falls below the base, a quantile of that
+/// maximum. The rate of cycles that reach level i is  rate(T₀)·Π p_i,  p_i the fraction of those that reached level i - 1: multilevel
+/// splitting. Each level starts anew, with fresh noise, from states in which the one before was reached.
+/// A cycle that rises high is one event of the chain, so that ratios of rates are those of events wherever these are rare.
+/// Trials of a level share ancestors: the errors are those of four independent runs, or the binomial ones if these are larger. Where single
+/// cells carry an excursion (exponential likelihood far above its K) that is much, with Rice's it is not.
+/// Source: Kahn and Harris 1951; Au and Beck 2001. Oracles: Lindley's recursion in closed form for one slope; importance sampling.
+struct RareRates {
+    std::vector<double> levels;         ///< ascending, in the statistic's own unit
+    std::vector<double> lnRates;        ///< ln of cycles per cell and frame that reach the level
+    std::vector<double> relativeErrors; ///< standard error of each of them
+
+    bool isEmpty() const { return levels.size() < 2; }
+    /// Interpolated between levels, continued with the last slope beyond the last one.
+    double lnRateAt(double level) const;
+    double relativeErrorAt(double level) const;
+
+    bool operator==(const RareRates &) const = default;
+};
+
+struct SplittingSettings {
+    int entries = 2400;         ///< trials a level, of all runs together
+    double leastLnRate = -32.0; ///< levels go on until cycles are as rare as this, per cell and frame
+    std::uint64_t seed = 3000;
+};
+
+/// `makeDetector` and `makeNoise` are called once a thread. Empty where the detector cannot tell its state. Results do not depend on the
+/// number of threads.
+RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
+                           const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
+                           const SplittingSettings &settings, const RunContext &context = {});
+
+} // namespace faintline
