@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 
 #include "analysis/Calibration.h"
+#include "analysis/surrogates.h"
 #include "base/json.h"
 #include "spectrum/Spectrogram.h"
 
@@ -15,12 +16,18 @@ void addCalibrate(CLI::App &app, Common &common)
 {
     struct Options {
         AnalysisOptions analysis;
+        int surrogates = 0;
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("calibrate", "K for a 50 % reset probability, and thresholds with their intervals, on simulated noise");
     options->analysis.addTo(*command);
     command->get_option("FILE")->required(false);
+    command
+        ->add_option("--surrogates", options->surrogates,
+                     "Count false alarms on so many recordings of noise like FILE's: same length, band, gaps, "
+                     "quantisation and background")
+        ->check(CLI::Range(1, 10000));
     command->add_flag("--json", options->json, "As JSON");
     command->callback([options, &common] {
         const AnalysisSettings settings = options->analysis.settings();
@@ -46,6 +53,23 @@ void addCalibrate(CLI::App &app, Common &common)
                                  {"falseAlarmsPerHourInterval",
                                   {calibration->eventRateAt(nats + half) * cellFramesPerHour, calibration->eventRateAt(nats - half) * cellFramesPerHour}}};
         }
+        if (options->surrogates > 0) {
+            if (options->analysis.file.empty())
+                throw Error("--surrogates", "needs FILE, the recording whose noise is imitated");
+            const SurrogateCount count =
+                countOnSurrogates(options->analysis.recording(), settings, options->surrogates, common.context());
+            json["surrogates"] = {
+                {"runs", count.runs},
+                {"hours", count.hours},
+                {"orderPerHour", count.orderPerHour},
+                {"thresholdNats", count.threshold},
+                {"ordered", count.ordered},
+                {"events", count.events},
+                {"ratio", count.ratio},
+                {"ratioInterval", {count.interval.low, count.interval.high}},
+                {"correctionNats", count.correction},
+                {"correctedThresholdNats", json["recording"]["thresholdNats"].get<double>() + count.correction}};
+        }
         if (options->json) {
             std::printf("%s\n", json.dump(2).c_str());
             return;
@@ -61,6 +85,19 @@ void addCalibrate(CLI::App &app, Common &common)
                         (*found)["thresholdNats"].get<double>(), (*found)["intervalNats"][0].get<double>(), (*found)["intervalNats"][1].get<double>(),
                         (*found)["pfaPerCell"].get<double>(), (*found)["falseAlarmsPerHour"].get<double>(),
                         (*found)["falseAlarmsPerHourInterval"][0].get<double>(), (*found)["falseAlarmsPerHourInterval"][1].get<double>());
+        if (const auto found = json.find("surrogates"); found != json.end()) {
+            const Json &s = *found;
+            std::printf("surrogates         %d of %.3g h in all, counted at %.3g an hour: %d events of %.3g ordered, "
+                        "ratio %.2f (95 %%: %.2f … %.2f)\n",
+                        s["runs"].get<int>(), s["hours"].get<double>(), s["orderPerHour"].get<double>(),
+                        s["events"].get<int>(), s["ordered"].get<double>(), s["ratio"].get<double>(),
+                        s["ratioInterval"][0].get<double>(), s["ratioInterval"][1].get<double>());
+            if (s["correctionNats"].get<double>() == 0.0)
+                std::printf("                   as many as ordered: no correction\n");
+            else
+                std::printf("                   corrected threshold: --set decide.thresholdNats=%.3f\n",
+                            s["correctedThresholdNats"].get<double>());
+        }
     });
 }
 
