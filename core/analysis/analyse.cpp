@@ -3,6 +3,7 @@
 #include "analysis/chain.h"
 #include "analysis/knownCalibration.h"
 #include "analysis/regulation.h"
+#include "analysis/usable.h"
 #include "base/Checkpoints.h"
 #include "base/memoryShares.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -287,6 +288,7 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
         showing = Showing(pictures, spectrogram->time(), spectrogram->frequency(), settings);
         showing.showGlance(spectrogram, settings.noise, context.part(0.0, 0.01));
         analysis->background = estimateBackground(*spectrogram, settings.noise, context.part(0.01, 0.2));
+        checkUsable(*spectrogram, *analysis->background, context.part(0.2, 0.2));
         analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
     }
     analysis->model = makeModel(settings.model, analysis->grid());
