@@ -263,7 +263,7 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
 {
     CellBox box{centre, m_settings.inhibitCells};
     const Index middle = m_grid.cell(centre);
-    const double level = static_cast<double>(y[static_cast<std::size_t>(middle)]);
+    const double level = static_cast<double>(std::max(0.0f, y[static_cast<std::size_t>(middle)])); // 0 where nothing was observed
     if (m_settings.spill)
         box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.spill(level));
     if (m_settings.skirtStep <= 0 || level < skirtLevel)
