@@ -145,6 +145,8 @@ void InfoPanel::refresh()
     Rows rows;
     if (m_document.recording())
         describeRecording(rows, m_document.recording()->info());
+    if (m_document.recording() && m_document.recording()->nonFiniteCount() > 0)
+        rows.note(tr("Some samples are not finite numbers. They are read as 0."));
     if (m_document.analysis()) {
         describeFrames(rows, *m_document.analysis());
         describeCalibration(rows, *m_document.analysis());

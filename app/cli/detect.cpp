@@ -200,6 +200,8 @@ namespace {
         writeProvenance(common, inputs, {options.events, options.tracks, options.statistic, options.conventional});
         if (options.summary)
             printSummary(*analysis);
+        if (options.summary && recording && recording->nonFiniteCount() > 0)
+            std::printf("some samples are not finite; they are read as 0\n");
         if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)
             printScore(*analysis, *pings);
         if (options.summary && analysis->grid().axes.size() > 1) {

@@ -127,13 +127,20 @@ namespace {
     /// ln K at which half of the states go on, by bisection: the fraction rises with K.
     double lnKForHalf(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model)
     {
-        double low = -20.0;
-        double high = 20.0;
+        constexpr double largest = 20.0;
+        double low = -largest;
+        double high = largest;
         while (high - low > 5e-4) {
             const double middle = 0.5 * (low + high);
             (measureReset(noise, model, {ResetLaw::Fixed, middle}).continuedFraction > 0.5 ? high : low) = middle;
         }
-        return 0.5 * (low + high);
+        if (low > -largest && high < largest)
+            return 0.5 * (low + high);
+        const double end = low > -largest ? largest : -largest;
+        const double percent = 100.0 * measureReset(noise, model, {ResetLaw::Fixed, end}).continuedFraction;
+        throw Error("model.snr = " + formatNumber(model.likelihood.snr()),
+                    "leaves no ln K for which half of the states continue on noise: at " + formatNumber(end) + " nat "
+                        + formatNumber(std::round(10.0 * percent) / 10.0) + " % do; choose a " + (end > 0.0 ? "lower" : "higher") + " one");
     }
 
     /// Levels that suit the statistic's own unit.

@@ -10,15 +10,20 @@ namespace {
 
     constexpr Index shortestInterval = 8;
 
+    /// Frames between two of a replay's own checkpoints, where those of the scores alone go into the budget.
+    Index intervalOf(const Analysis &analysis, std::size_t byteBudget)
+    {
+        const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / bytesOfStates(analysis)));
+        const Index stretch = analysis.checkpoints.empty() ? analysis.time().count : analysis.checkpoints.front().frame;
+        return std::max(shortestInterval, (stretch + most - 1) / most);
+    }
+
 } // namespace
 
 ChainReplay::ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
-    : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)),
+    : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)), m_checkpoints(intervalOf(*m_analysis, byteBudget), byteBudget),
       m_y(static_cast<std::size_t>(m_analysis->grid().size())), m_statistic(m_y.size())
 {
-    const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / bytesOfStates(*m_analysis)));
-    const Index stretch = m_analysis->checkpoints.empty() ? m_analysis->time().count : m_analysis->checkpoints.front().frame;
-    m_interval = std::max(shortestInterval, (stretch + most - 1) / most);
 }
 
 Index ChainReplay::beginningOf(Index frame) const
@@ -30,15 +35,14 @@ Index ChainReplay::beginningOf(Index frame) const
 void ChainReplay::seek(Index frame)
 {
     const Index beginning = beginningOf(frame);
-    const auto after = m_checkpoints.upper_bound(frame);
-    const Index own = after == m_checkpoints.begin() ? 0 : std::prev(after)->first;
+    const Index own = m_checkpoints.latest(frame);
     const Index nearest = std::max(beginning, own);
     if (m_next >= nearest && m_next <= frame)
         return;
     if (nearest == 0)
         m_chain = makeScoringChain(*m_analysis);
     else
-        m_chain->resume(own == nearest ? *std::prev(after)->second : *checkpointBefore(*m_analysis, frame)->state);
+        m_chain->resume(own == nearest ? *m_checkpoints.at(own) : *checkpointBefore(*m_analysis, frame)->state);
     m_next = nearest;
 }
 
@@ -51,9 +55,9 @@ std::span<const float> ChainReplay::step()
         m_checkpoints.clear(); // of another stretch
         m_beginning = beginning;
     }
-    if (m_next % m_interval == 0 && m_next != m_beginning && !m_checkpoints.contains(m_next))
+    if (m_checkpoints.lacks(m_next) && m_next != m_beginning)
         if (auto checkpoint = m_chain->snapshot())
-            m_checkpoints.emplace(m_next, std::move(checkpoint));
+            m_checkpoints.keep(m_next, checkpoint, DetectionChain::bytesOf(*checkpoint));
     return m_statistic;
 }
 

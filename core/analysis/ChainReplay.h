@@ -1,10 +1,10 @@
 #pragma once
 
 #include "analysis/analyse.h"
+#include "base/Checkpoints.h"
 #include "track/DetectionChain.h"
 
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,7 +25,7 @@ public:
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
     const DetectionChain &chain() const { return *m_chain; }
     Index next() const { return m_next; } ///< the frame that `step` will take
-    Index interval() const { return m_interval; }
+    Index interval() const { return m_checkpoints.interval(); }
     Index beginning() const { return m_beginning; } ///< of the stretch that its own checkpoints are in
 
     /// Stands where `step` takes that frame, or one before it: at the nearest checkpoint, unless it is nearer already.
@@ -41,10 +41,9 @@ private:
 
     std::shared_ptr<const Analysis> m_analysis;
     std::unique_ptr<DetectionChain> m_chain;
-    Index m_interval;
     Index m_next = 0;
     Index m_beginning = 0; ///< of the stretch that the checkpoints belong to
-    std::map<Index, std::shared_ptr<const DetectionChain::Snapshot>> m_checkpoints; ///< its own, by the frame that comes next
+    Checkpoints<DetectionChain::Snapshot> m_checkpoints; ///< its own
     std::vector<float> m_y;
     std::vector<float> m_statistic;
 };

@@ -3,6 +3,8 @@
 #include "analysis/chain.h"
 #include "analysis/knownCalibration.h"
 #include "analysis/regulation.h"
+#include "analysis/usable.h"
+#include "base/Checkpoints.h"
 #include "base/memoryShares.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/glance.h"
@@ -124,7 +126,7 @@ namespace {
         std::chrono::steady_clock::time_point m_last{};
     };
 
-    /// Frames between two checkpoints.
+    /// Frames between two checkpoints, at first: where tracks are followed they are larger, and lie farther apart.
     Index checkpointInterval(const Analysis &analysis)
     {
         const auto most = static_cast<Index>(memoryShares::checkpoints / bytesOfStates(analysis));
@@ -152,7 +154,7 @@ namespace {
         const auto statistic =
             std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
         analysis.statisticCounts.assign(256, 0.0);
-        const Index interval = checkpointInterval(analysis);
+        Checkpoints<DetectionChain::Snapshot> checkpoints(checkpointInterval(analysis), memoryShares::checkpoints);
         std::vector<float> scores;
         FrameStream stream(frames, context.threads > 1);
         for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
@@ -162,9 +164,9 @@ namespace {
             scores.resize(block.size());
             for (Index i = 0; i < count; ++i) {
                 const auto offset = static_cast<std::size_t>(i * cells);
-                if (first + i > 0 && (first + i) % interval == 0)
+                if (checkpoints.lacks(first + i))
                     if (auto state = chain->snapshot())
-                        analysis.checkpoints.push_back({first + i, std::move(state)});
+                        checkpoints.keep(first + i, state, DetectionChain::bytesOf(*state));
                 chain->update(first + i, std::span(block).subspan(offset, static_cast<std::size_t>(cells)),
                              std::span(scores).subspan(offset, static_cast<std::size_t>(cells)));
                 analysis.lnK.push_back(static_cast<float>(chain->detector().regulation().lnK));
@@ -182,6 +184,7 @@ namespace {
             if (sink)
                 sink(first, scores);
         }
+        checkpoints.forEach([&](Index frame, const auto &state) { analysis.checkpoints.push_back({frame, state}); });
         chain->finish();
         if (input) {
             input->finish();
@@ -194,7 +197,7 @@ namespace {
                 analysis.inputAlong = alongEachAxis(*analysis.input, frames.grid());
             analysis.statisticAlong = alongEachAxis(*statistic, frames.grid());
         }
-        analysis.tracks = chain->joinedTracks();
+        analysis.tracks = chain->takeJoinedTracks();
         analysis.conventional = conventional.tracks();
     }
 
@@ -285,6 +288,7 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
         showing = Showing(pictures, spectrogram->time(), spectrogram->frequency(), settings);
         showing.showGlance(spectrogram, settings.noise, context.part(0.0, 0.01));
         analysis->background = estimateBackground(*spectrogram, settings.noise, context.part(0.01, 0.2));
+        checkUsable(*spectrogram, *analysis->background, context.part(0.2, 0.2));
         analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
     }
     analysis->model = makeModel(settings.model, analysis->grid());

@@ -55,7 +55,7 @@ struct Analysis {
     std::vector<float> continuedFraction; ///< per frame
     std::vector<double> statisticCounts;  ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: the data's own histogram
 
-    std::vector<ChainCheckpoint> checkpoints; ///< evenly spaced, ≤ 32 MiB; none of detectors that cannot tell their state
+    std::vector<ChainCheckpoint> checkpoints; ///< evenly spaced, ≤ 32 MiB whatever is tracked; none of detectors that cannot tell their state
 
     const Axis &time() const { return frames->time(); }
     const Grid &grid() const { return frames->grid(); }

@@ -74,25 +74,31 @@ BoxLevels boxLevels(const Analysis &analysis, const FrameBox &box, const RunCont
     double sum = 0.0;
     float peak = 0.0f;
     Index seen = 0;
+    Index observed = 0;
     const auto gather = [&](Index begin, Index end) {
         for (Index cell = begin; cell < end; ++cell)
-            if (seen++ % noiseStride == 0)
+            if (seen++ % noiseStride == 0 && !std::isnan(frame[static_cast<std::size_t>(cell)]))
                 noise.push_back(frame[static_cast<std::size_t>(cell)]);
     };
     for (Index i = 0; i < count; ++i) {
         context.checkpoint(static_cast<double>(i) / static_cast<double>(count), "measuring the box");
         frames.read(box.beginFrame + i * span / count, 1, frame);
         for (Index cell = box.beginCell; cell < box.endCell; ++cell) {
-            sum += frame[static_cast<std::size_t>(cell)];
-            peak = std::max(peak, frame[static_cast<std::size_t>(cell)]);
+            const float value = frame[static_cast<std::size_t>(cell)];
+            if (std::isnan(value)) // not observed
+                continue;
+            sum += value;
+            peak = std::max(peak, value);
+            ++observed;
         }
         gather(sides.firstBegin, sides.firstEnd);
         gather(sides.secondBegin, sides.secondEnd);
     }
 
-    const double cells = static_cast<double>(count) * static_cast<double>(box.endCell - box.beginCell);
+    const double cells = static_cast<double>(std::max<Index>(1, observed));
     const double mean = noiseOf(noise);
-    const double ratio = (sum / mean - cells) / (static_cast<double>(count) * binsPerCell);
+    const double frameCount = cells / static_cast<double>(box.endCell - box.beginCell);
+    const double ratio = (sum / mean - cells) / (frameCount * binsPerCell);
     BoxLevels levels{decibels(sum / cells), decibels(peak), decibels(mean), {}};
     if (ratio > 0.0)
         levels.snrDb = decibels(ratio);

@@ -46,7 +46,7 @@ namespace {
 } // namespace
 
 LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
-    : m_replay(std::move(analysis), byteBudget / 2)
+    : m_replay(std::move(analysis), byteBudget / 2), m_checkpoints(m_replay.interval(), byteBudget / 2)
 {
     for (std::size_t model = 0; model < modelCount(*this->analysis()); ++model) {
         m_models.push_back(modelOf(*this->analysis(), model));
@@ -97,8 +97,8 @@ void LayerReplay::seek(Index frame)
     if (m_replay.next() == m_now + 1)
         return;
     m_now = m_replay.next() - 1;
-    if (const auto known = m_checkpoints.find(m_replay.next()); known != m_checkpoints.end())
-        m_ages = *known->second;
+    if (const auto known = m_checkpoints.at(m_replay.next()))
+        m_ages = *known;
     else
         forgetAges();
 }
@@ -150,11 +150,21 @@ void LayerReplay::step()
         m_beginning = m_replay.beginning();
     }
     const Index next = m_replay.next();
-    if (next % m_replay.interval() != 0 || next == m_beginning)
+    if (next % m_checkpoints.interval() != 0 || next == m_beginning)
         return;
-    auto &ages = m_checkpoints[next];
-    if (!ages || ages->since > m_ages.since)
-        ages = std::make_shared<const Ages>(m_ages);
+    if (const auto known = m_checkpoints.at(next); !known || known->since > m_ages.since)
+        m_checkpoints.keep(next, std::make_shared<const Ages>(m_ages), m_ages.bytes());
+}
+
+std::size_t LayerReplay::Ages::bytes() const
+{
+    constexpr std::size_t stateBytes = sizeof(TrackerAges::mapped_type::value_type) + 2 * sizeof(void *); // a node and its bucket
+    std::size_t total = sizeof *this;
+    for (const std::vector<std::int32_t> &ages : states)
+        total += sizeof ages + ages.capacity() * sizeof(std::int32_t);
+    for (const auto &[track, ages] : trackers)
+        total += sizeof ages + 4 * sizeof(void *) + ages.size() * stateBytes;
+    return total;
 }
 
 /// One axis's part of the step: of the ways into a state along it, the best, in the order that decides ties.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/ChainReplay.h"
+#include "base/Checkpoints.h"
 #include "base/memoryShares.h"
 #include "model/MarkovModel.h"
 
@@ -61,6 +62,8 @@ private:
         std::vector<std::vector<std::int32_t>> states; ///< of each model
         TrackerAges trackers;
         Index since = 0; ///< frame that all paths have been followed from
+
+        std::size_t bytes() const;
     };
     /// Scores of all states on their way into the next frame, and the ages of the paths that have them.
     struct Paths {
@@ -88,7 +91,7 @@ private:
     Paths m_paths;
     Paths m_moved;
     Index m_beginning = 0;
-    std::map<Index, std::shared_ptr<const Ages>> m_checkpoints; ///< by the frame that comes next, as the replay's own
+    Checkpoints<Ages> m_checkpoints; ///< as the replay's own
     CellLayers m_layers;
 };
 

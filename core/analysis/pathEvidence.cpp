@@ -13,6 +13,7 @@ PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> p
     const Index cells = analysis.grid().size();
     std::vector<float> y(static_cast<std::size_t>(cells));
     double power = 0.0;
+    Index unobserved = 0;
     for (const PathCell &at : path) {
         if (at.frame < 0 || at.frame >= analysis.time().count || at.cell < 0 || at.cell >= cells)
             throw Error("path at frame " + std::to_string(at.frame) + ", cell " + std::to_string(at.cell),
@@ -23,11 +24,14 @@ PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> p
         analysis.frames->read(at.frame, 1, y);
         const auto value = static_cast<double>(y[static_cast<std::size_t>(at.cell)]);
         evidence.logLikelihoodRatio += analysis.model.likelihood.at(value);
-        power += value;
+        if (std::isnan(value)) // not observed
+            ++unobserved;
+        else
+            power += value;
         ++evidence.frames;
     }
-    if (evidence.frames > 0)
-        evidence.meanPower = power / static_cast<double>(evidence.frames);
+    if (evidence.frames > unobserved)
+        evidence.meanPower = power / static_cast<double>(evidence.frames - unobserved);
     return evidence;
 }
 

@@ -62,6 +62,7 @@ public:
     /// All that the next frame depends on; recalling it resumes bit for bit. Null: the detector cannot tell.
     struct Remembrance {
         virtual ~Remembrance() = default;
+        virtual std::size_t bytes() const = 0; ///< that it takes
     };
     virtual std::shared_ptr<const Remembrance> remembrance() const { return {}; }
     /// One of this detector's, or of another one made alike.

@@ -9,12 +9,19 @@ namespace faintline {
 
 namespace {
 
+    /// What was not observed is taken for noise of mean 1.
+    inline float observed(float y)
+    {
+        return y == y ? y : 1.0f;
+    }
+
     FAINTLINE_MULTIVERSION
     void slide(double *sum, float *oldest, const float *y, double scale, Index n, float *statistic)
     {
         for (Index i = 0; i < n; ++i) {
-            sum[i] += static_cast<double>(y[i]) - static_cast<double>(oldest[i]);
-            oldest[i] = y[i];
+            const float newest = observed(y[i]);
+            sum[i] += static_cast<double>(newest) - static_cast<double>(oldest[i]);
+            oldest[i] = newest;
             statistic[i] = static_cast<float>(sum[i] * scale);
         }
     }
@@ -23,7 +30,7 @@ namespace {
     void fade(double *mean, const float *y, double decay, Index n, float *statistic)
     {
         for (Index i = 0; i < n; ++i) {
-            mean[i] = (1.0 - decay) * static_cast<double>(y[i]) + decay * mean[i];
+            mean[i] = (1.0 - decay) * static_cast<double>(observed(y[i])) + decay * mean[i];
             statistic[i] = static_cast<float>(mean[i]);
         }
     }

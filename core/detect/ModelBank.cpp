@@ -54,6 +54,14 @@ void ModelBank::useThreads(int threads)
 struct ModelBank::Remembered final : Detector::Remembrance {
     std::vector<std::shared_ptr<const Remembrance>> members;
     std::vector<unsigned char> winners;
+
+    std::size_t bytes() const override
+    {
+        std::size_t total = sizeof *this + members.capacity() * sizeof members.front() + winners.capacity();
+        for (const auto &member : members)
+            total += member->bytes();
+        return total;
+    }
 };
 
 std::shared_ptr<const Detector::Remembrance> ModelBank::remembrance() const

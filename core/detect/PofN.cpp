@@ -106,7 +106,7 @@ void PofN::update(std::span<const float> y, std::span<float> statistic)
     const auto cells = static_cast<Index>(y.size());
     std::vector<float> &newest = m_maxima[m_next];
     m_next = (m_next + 1) % m_maxima.size();
-    std::copy(y.begin(), y.end(), newest.begin());
+    std::transform(y.begin(), y.end(), newest.begin(), [](float value) { return value == value ? value : 0.0f; }); // not observed: no event
     for (Index shift = -(m_width - 1) / 2; shift <= m_width / 2; ++shift) {
         const Index overlap = m_rowLength - std::abs(shift);
         if (shift != 0 && overlap > 0)

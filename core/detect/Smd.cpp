@@ -140,6 +140,11 @@ struct Smd::Remembered final : Detector::Remembrance {
     Memory memory;
     Regulation regulation;
     std::vector<Index> inhibited;
+
+    std::size_t bytes() const override
+    {
+        return sizeof *this + memory.scores.capacity() * sizeof(float) + inhibited.capacity() * sizeof(Index);
+    }
 };
 
 std::shared_ptr<const Detector::Remembrance> Smd::remembrance() const

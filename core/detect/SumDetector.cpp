@@ -9,6 +9,12 @@
 
 namespace faintline {
 
+namespace {
+
+    constexpr double widest = 600.0; ///< nats; e^±700 is still a number
+
+} // namespace
+
 SumDetector::SumDetector(const MarkovModel &model, const ResetRule &rule)
     : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule), m_recursion(model.space, model.transitionScale),
       m_weights(static_cast<std::size_t>(model.space.stateCount()), 1.0), m_scores(m_weights.size())
@@ -23,9 +29,13 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
     std::vector<double> lambda(cells);
     for (std::size_t cell = 0; cell < cells; ++cell)
         lambda[cell] = m_likelihood.at(static_cast<double>(y[cell]));
-    const double highest = *std::max_element(lambda.begin(), lambda.end());
-
-    if (m_frames > 0) {
+    const auto [least, most] = std::minmax_element(lambda.begin(), lambda.end());
+    const double highest = *most;
+    const double background = m_rule.law == ResetLaw::Fixed ? std::abs(m_scale) : 0.0; // how far the fresh paths' 1 lies from the best
+    const bool isWide = std::max(highest - *least, background) > widest;
+    if (isWide) {
+        updateWide(lambda);
+    } else if (m_frames > 0) {
         const std::span<const double> predicted = m_recursion.predict(m_weights, m_frames);
         const double factor = m_rule.law == ResetLaw::Fixed ? std::exp(m_rule.lnK) : 1.0;
         const double fresh = m_rule.law == ResetLaw::Fixed ? std::exp(-m_scale) : 0.0;
@@ -33,23 +43,47 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
             m_weights[n] = factor * predicted[n] + fresh;
     }
     ++m_frames;
-    double largest = 0.0;
-    for (std::size_t n = 0; n < m_weights.size(); ++n) {
-        m_weights[n] *= std::exp(lambda[n % cells] - highest);
-        largest = std::max(largest, m_weights[n]);
-    }
-    m_scale += highest;
-    if (largest > 0.0) {
-        m_scale += std::log(largest);
-        for (double &weight : m_weights)
-            weight /= largest;
+    if (!isWide) {
+        double largest = 0.0;
+        for (std::size_t n = 0; n < m_weights.size(); ++n) {
+            m_weights[n] *= std::exp(lambda[n % cells] - highest);
+            largest = std::max(largest, m_weights[n]);
+        }
+        m_scale += highest;
+        if (largest > 0.0) {
+            m_scale += std::log(largest);
+            for (double &weight : m_weights)
+                weight /= largest;
+        }
     }
     m_lnMean = m_scale + std::log(std::accumulate(m_weights.begin(), m_weights.end(), 0.0) / static_cast<double>(m_weights.size()));
 
     std::fill(statistic.begin(), statistic.end(), -std::numeric_limits<float>::infinity());
     for (std::size_t n = 0; n < m_weights.size(); ++n) {
-        m_scores[n] = static_cast<float>(m_scale + std::log(m_weights[n]));
+        if (!isWide)
+            m_scores[n] = static_cast<float>(m_scale + std::log(m_weights[n]));
         statistic[n % cells] = std::max(statistic[n % cells], m_scores[n]);
+    }
+}
+
+/// The same step in logarithms, for the scores; weights and scale from them.
+void SumDetector::updateWide(std::span<const double> lambda)
+{
+    std::vector<double> ln(m_weights.size(), 0.0);
+    const bool isFixed = m_rule.law == ResetLaw::Fixed;
+    if (m_frames > 0) {
+        const std::span<const double> predicted = m_recursion.predict(m_weights, m_frames);
+        for (std::size_t n = 0; n < ln.size(); ++n) {
+            const double goesOn = m_scale + (isFixed ? m_rule.lnK : 0.0) + std::log(predicted[n]);
+            ln[n] = isFixed ? std::max(goesOn, 0.0) + std::log1p(std::exp(-std::abs(goesOn))) : goesOn; // with the fresh one's 1
+        }
+    }
+    for (std::size_t n = 0; n < ln.size(); ++n)
+        ln[n] += lambda[n % lambda.size()];
+    m_scale = *std::max_element(ln.begin(), ln.end());
+    for (std::size_t n = 0; n < ln.size(); ++n) {
+        m_weights[n] = std::exp(ln[n] - m_scale);
+        m_scores[n] = static_cast<float>(ln[n]);
     }
 }
 

@@ -3,6 +3,8 @@
 #include "base/Error.h"
 #include "spectrum/cellAveraging.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace faintline {
@@ -38,9 +40,12 @@ StageSource averagedStages(StageSource source, const SequentialModel &model, Ind
         throw Error(where + " = " + std::to_string(N), row.cells < 2 ? "has no neighbours to average"
                                                                      : "must lie in 1 … " + std::to_string(row.cells - 1)
                                                                            + ", the other cells of the row");
-    return [source = std::move(source), row, N, snr = likelihood.snr(),
+    return [source = std::move(source), where, row, N, snr = likelihood.snr(),
             line = std::vector<float>(static_cast<std::size_t>(row.cells))](Index stage, std::span<double> y) mutable {
         source(stage, y);
+        if (std::any_of(y.begin(), y.end(), [](double value) { return std::isnan(value); }))
+            throw Error(where, "averages neighbours, which needs all cells; stage " + std::to_string(stage)
+                                   + " has some that were not observed");
         const Index block = row.cells * row.stride;
         for (Index first = 0; first < std::ssize(y); ++first) {
             if (first % block >= row.stride) // not the first cell of a row

@@ -281,10 +281,10 @@ namespace {
     {
         if (array.shape.size() < 2 || array.values.empty())
             throw Error(path, "must have the shape (frames, cells…) with at least one of each");
-        const auto bad = std::find_if(array.values.begin(), array.values.end(), [](auto y) { return !(y >= 0) || std::isinf(y); });
+        const auto bad = std::find_if(array.values.begin(), array.values.end(), [](auto y) { return y < 0 || std::isinf(y); });
         if (bad != array.values.end())
             throw Error(path, "holds " + formatNumber(static_cast<double>(*bad)) + " at position "
-                                  + std::to_string(bad - array.values.begin()) + "; normalised power is finite and not negative");
+                                  + std::to_string(bad - array.values.begin()) + "; normalised power is finite and not negative, or NaN where nothing was observed");
     }
 
 } // namespace

@@ -59,7 +59,7 @@ GridFile readGridFile(const std::string &path, const std::vector<Index> &shape);
 std::string gridFileText(const GridFile &file);
 
 /// Ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units). Values that are
-/// negative or not finite are refused.
+/// negative or infinite are refused; NaN stands for a cell that was not observed.
 NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath);
 
 } // namespace faintline

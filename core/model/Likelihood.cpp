@@ -32,7 +32,8 @@ namespace {
         for (std::size_t i = 0; i < n; ++i) {
             float value = y[i] > 0.0f ? y[i] : 0.0f;
             value = value <= largest ? value : 0.0f;
-            out[i] = slope * value + offset;
+            const float lambda = slope * value + offset;
+            out[i] = y[i] == y[i] ? lambda : 0.0f;
         }
     }
 
@@ -104,7 +105,8 @@ namespace {
             for (int k = degree - 1; k >= 0; --k)
                 sum = sum * t + g[static_cast<std::size_t>(k)];
             const float difference = 4.0f * (r0 * ((value - quarter) - rest) + c);
-            out[i] = difference / (2.0f * w + r0) + (sum - 0.25f * fastLn(square));
+            const float lambda = difference / (2.0f * w + r0) + (sum - 0.25f * fastLn(square));
+            out[i] = y[i] == y[i] ? lambda : 0.0f;
         }
     }
 
@@ -120,6 +122,8 @@ Likelihood::Likelihood(LikelihoodKind kind, double snr) : m_kind(kind), m_snr(sn
 
 double Likelihood::at(double y) const
 {
+    if (std::isnan(y))
+        return 0.0;
     if (!(y > 0.0) || !std::isfinite(y))
         y = 0.0;
     switch (m_kind) {

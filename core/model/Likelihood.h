@@ -28,10 +28,10 @@ public:
     LikelihoodKind kind() const { return m_kind; }
     double snr() const { return m_snr; }
 
-    /// λ of every value; negative or non-finite values count as 0 (no energy, no evidence).
+    /// λ of every value; negative or infinite ones count as 0 (no energy). NaN was not observed: λ = 0, no evidence either way.
     void apply(std::span<const float> y, std::span<float> out) const;
 
-    /// λ of one value in double precision, from the formula.
+    /// λ of one value in double precision, from the formula; NaN as above.
     double at(double y) const;
 
     bool operator==(const Likelihood &other) const { return m_kind == other.m_kind && m_snr == other.m_snr; }

@@ -66,6 +66,8 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     m_info.isComplex = iq;
     m_info.channelCount = static_cast<int>(iq ? m_streams / 2 : m_streams);
 
+    const int encoding = format.format & SF_FORMAT_SUBMASK;
+    m_isFloat = encoding == SF_FORMAT_FLOAT || encoding == SF_FORMAT_DOUBLE;
     m_access = !format.seekable ? Access::Forward : isUncompressed(format.format) ? Access::Direct : Access::Blocks;
     m_runUp = isLossy(format.format) ? lossyRunUp : 0;
     m_blockSamples = std::max<Index>(1, floatsPerBlock / m_streams);

@@ -26,6 +26,7 @@ public:
     ~AudioRecording() override;
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
+    int scaleExponent(int channel) const override { return m_isFloat ? measuredScaleExponent(channel) : 0; }
 
     /// Whether libsndfile knows the content of a file, sound or damaged.
     static bool recognises(const std::string &path);
@@ -51,6 +52,7 @@ private:
 
     std::shared_ptr<const FileBytes> m_file;
     Index m_streams = 1; ///< channels of the file
+    bool m_isFloat = false; ///< uncompressed floats, whose full scale need not be 1
     Access m_access = Access::Direct;
     Index m_runUp = 0;
     Index m_blockSamples = 0;

@@ -19,6 +19,7 @@ public:
     InjectedRecording(RecordingPointer base, const std::vector<InjectedLine> &lines, int channel, std::uint64_t seed);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
+    int scaleExponent(int channel) const override { return m_base->scaleExponent(channel); }
 
     Truth truth() const;
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace faintline {
 
@@ -26,6 +28,51 @@ namespace {
     }
 
 } // namespace
+
+int Recording::scaleExponentOf(double magnitude)
+{
+    constexpr int step = 60;
+    constexpr int most = 120; // beyond that floats themselves end
+    if (!(magnitude > 0.0) || !std::isfinite(magnitude))
+        return 0;
+    return std::clamp(step * static_cast<int>(std::lround(std::log2(magnitude) / step)), -most, most);
+}
+
+/// Of the samples from one on that are not 0; 0 where there are none.
+double Recording::meanMagnitude(int channel, Index first, std::span<float> samples) const
+{
+    read(channel, first, std::ssize(samples) / m_info.floatsPerSample(), samples);
+    double sum = 0.0;
+    double count = 0.0;
+    for (const float value : samples)
+        if (value != 0.0f) {
+            sum += static_cast<double>(std::abs(value));
+            count += 1.0;
+        }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+int Recording::measuredScaleExponent(int channel) const
+{
+    constexpr Index stretches = 64;
+    constexpr Index stretchSamples = 64;
+    constexpr Index blockSamples = 1 << 16;
+    std::vector<double> magnitudes;
+    std::vector<float> samples(static_cast<std::size_t>(stretchSamples * m_info.floatsPerSample()));
+    const Index step = std::max(stretchSamples, m_info.sampleCount / stretches);
+    for (Index first = 0; first < m_info.sampleCount; first += step)
+        if (const double magnitude = meanMagnitude(channel, first, samples); magnitude > 0.0)
+            magnitudes.push_back(magnitude);
+    samples.resize(static_cast<std::size_t>(blockSamples * m_info.floatsPerSample()));
+    for (Index first = 0; magnitudes.empty() && first < m_info.sampleCount; first += blockSamples)
+        if (const double magnitude = meanMagnitude(channel, first, samples); magnitude > 0.0)
+            magnitudes.push_back(magnitude);
+    if (magnitudes.empty())
+        return 0;
+    const auto middle = magnitudes.begin() + std::ssize(magnitudes) / 2;
+    std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+    return scaleExponentOf(*middle);
+}
 
 void Recording::fill(Index first, Index count, std::span<float> out,
                      const std::function<void(Index first, std::span<float> out)> &fetch) const

@@ -18,6 +18,7 @@ public:
     explicit SimulatedRecording(const LineScene &scene);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;
+    int scaleExponent(int) const override { return scaleExponentOf(m_scene.noise.deviation); }
 
     const LineScene &scene() const { return m_scene; }
     Truth truth() const;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace faintline {
@@ -383,7 +384,7 @@ double NoiseBackground::lnPowerAt(double seconds, double hz) const
     const auto along = [&](Index block) {
         return value(block, f.lower) * (1.0 - f.fraction) + value(block, f.lower + 1) * f.fraction;
     };
-    return along(t.lower) * (1.0 - t.fraction) + along(t.lower + 1) * t.fraction;
+    return along(t.lower) * (1.0 - t.fraction) + along(t.lower + 1) * t.fraction + lnUnit;
 }
 
 void NoiseBackground::readLnPower(double seconds, std::span<float> ln) const
@@ -442,6 +443,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     const double step = blockFrames * frames.time().step;
     background->time = {"time", "s", frames.time().first + 0.5 * (blockFrames - 1.0) * frames.time().step, step, blockCount, false};
     background->frequency = frames.frequency();
+    background->lnUnit = 2.0 * std::numbers::ln2 * frames.scaleExponent();
     background->lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
 
     // Frames looked at lie on one even raster over all blocks, every frame where there are not too many of them.

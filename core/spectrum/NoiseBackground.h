@@ -36,7 +36,8 @@ struct NormaliserSettings {
 struct NoiseBackground {
     Axis time;      ///< block centres, s
     Axis frequency; ///< cells, Hz
-    std::vector<float> lnPower; ///< time.count × frequency.count, natural logarithm of mean noise power
+    std::vector<float> lnPower; ///< time.count × frequency.count, natural logarithm of mean noise power, in the spectrogram's unit
+    double lnUnit = 0.0;        ///< ln of that unit, in squares of the samples' own (Spectrogram::scaleExponent)
     Axis levelTime;             ///< windows, s
     Index bandCount = 0;        ///< sub-bands of equal width; 0 where the band is too narrow to tell
     std::vector<float> lnLevel; ///< levelTime.count × bandCount, to be added to lnPower
@@ -44,9 +45,9 @@ struct NoiseBackground {
     /// ln power that stands for "nothing was recorded".
     static constexpr float silence = -200.0f;
 
-    /// ln of the mean noise power at one time and frequency, without levels.
+    /// ln of the mean noise power at one time and frequency, without levels, in squares of the samples' unit.
     double lnPowerAt(double seconds, double hz) const;
-    /// The same of all cells at one time, with levels: what a frame is divided by.
+    /// The same of all cells at one time, with levels, in the spectrogram's unit: what a frame is divided by.
     void readLnPower(double seconds, std::span<float> ln) const;
 
     /// Sub-bands of about 96 cells; none where fewer than 48 could tell the level.

@@ -10,7 +10,7 @@ namespace faintline {
 
 /// Frames whose noise has mean 1 in every cell: the only input a detector takes.
 ///
-/// A frame is one value y ≥ 0 per cell of `grid`, power over noise power. Frames are read by index, in any order, from
+/// A frame is one value y ≥ 0 per cell of `grid`, power over noise power, or NaN where nothing was observed. Frames are read by index, in any order, from
 /// any thread. A spectrogram cannot stand here before a normaliser has been through it.
 class NormalisedFrames
 {

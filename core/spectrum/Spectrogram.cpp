@@ -121,6 +121,9 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
                         + "; choose a shorter spectrogram.windowSeconds");
     m_hopSamples = std::max(1, static_cast<int>(std::lround(static_cast<double>(m_windowSamples) / settings.stepsPerWindow)));
     m_window = sampleWindow(settings.window, m_windowSamples);
+    m_scaleExponent = m_recording->scaleExponent(selection.channel);
+    for (float &weight : m_window)
+        weight = std::ldexp(weight, -m_scaleExponent);
     m_fft = std::make_shared<Fft>(Fft::fastLength(m_windowSamples * settings.binsPerCell),
                                   info.isComplex ? Fft::Input::Complex : Fft::Input::Real);
 

@@ -42,7 +42,7 @@ struct SelectionSettings {
 ///   y(t, f) = |Σₙ w(n) x(t·hop + n) e^{-2πi f n}|²,   Σ w² = 1
 ///
 /// `hop` = T_FT/k_t samples, transform length ≥ k_f·T_FT samples (rounded up to a fast length), so that white noise of
-/// variance σ² gives E[y] = σ². The time of a frame is the middle of its window. Real input gives the bins from 0 Hz to half
+/// variance σ² gives E[y] = σ², in units of 4^scaleExponent(): 1 unless samples lie beyond 2^±30, whose squares floats do not hold. The time of a frame is the middle of its window. Real input gives the bins from 0 Hz to half
 /// the sample rate, complex input those from -½ to +½ of it: offsets from the recording's centre frequency.
 /// Source: Billon 2005, sections 4 and 5. Oracle: a direct discrete Fourier transform. Thread-safe; frames are a pure
 /// function of (recording, settings, index).
@@ -59,6 +59,10 @@ public:
     const SpectrogramSettings &settings() const { return m_settings; }
     const SelectionSettings &selection() const { return m_selection; }
 
+    /// Binary exponent that is taken off the samples before they are squared (Recording::scaleExponent).
+    int scaleExponent() const { return m_scaleExponent; }
+
+    Index firstSample() const { return m_firstSample; } ///< of the recording, in the first frame
     int windowSamples() const { return m_windowSamples; }
     int hopSamples() const { return m_hopSamples; }
     int transformLength() const { return m_fft->length(); }
@@ -82,6 +86,7 @@ private:
     SelectionSettings m_selection;
     int m_windowSamples = 0;
     int m_hopSamples = 0;
+    int m_scaleExponent = 0;
     Index m_firstSample = 0;
     Index m_firstBin = 0; ///< of the band, in ascending frequency
     std::vector<float> m_window;

@@ -119,9 +119,10 @@ void DetectionChain::remember(Index frame, Seen seen)
 
     if (m_checkpointLimit == 0 || frame % checkpointFrames != 0)
         return;
-    // The oldest one's memory is used again: fresh pages cost as much as what is written to them.
+    // Those before the frames that are remembered lead nowhere. The oldest one's memory is used again: fresh pages cost as much as what
+    // is written to them.
     Checkpoint checkpoint;
-    if (m_checkpoints.size() == m_checkpointLimit) {
+    if (!m_checkpoints.empty() && (m_checkpoints.size() == m_checkpointLimit || m_checkpoints.front().frame < m_firstSeen)) {
         checkpoint = std::move(m_checkpoints.front());
         m_checkpoints.pop_front();
     }
@@ -170,9 +171,10 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     for (const HmmTracker &tracker : m_trackers)
         places.push_back(tracker.coordinates());
     places.insert(places.end(), m_settings.blind.begin(), m_settings.blind.end());
+    const PlaceIndex index(m_grid, std::move(places));
     for (std::size_t i = 0; i < m_trackers.size(); ++i) {
         HmmTracker &tracker = m_trackers[i];
-        const auto hidden = hideOthers(places, i);
+        const auto hidden = hideOthers(index, i);
         const bool goesOn = tracker.update(frame, m_lambda, m_detector->member(tracker.track().model).regulation().lnK);
         for (const auto &[cell, value] : hidden)
             m_lambda[static_cast<std::size_t>(cell)] = value;
@@ -185,7 +187,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     endDuplicates();
 }
 
-std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const std::vector<std::vector<Index>> &places, std::size_t own)
+std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const PlaceIndex &places, std::size_t own)
 {
     // A tracker must not slip over to a stronger signal that another one follows: what lies nearer to the other is its.
     const auto distance = [this](const std::vector<Index> &a, const std::vector<Index> &b) {
@@ -199,12 +201,13 @@ std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const std::vecto
         return largest;
     };
     const std::vector<Index> &mine = places[own];
+    const Index farthest = m_trackerModels.front()->largestExtent;
     const auto nothing = static_cast<float>(m_models.front().likelihood.at(0.0));
     std::vector<std::pair<Index, float>> hidden;
-    for (std::size_t other = 0; other < places.size(); ++other) {
+    places.forEachNear(mine, farthest, [&](std::size_t other) {
         const std::vector<Index> &centre = places[other];
-        if (other == own || distance(mine, centre) > m_trackerModels.front()->largestExtent)
-            continue;
+        if (other == own || distance(mine, centre) > farthest)
+            return;
         CellBox{centre, m_settings.inhibitCells}.forEachCell(m_grid, [&](Index cell) {
             const std::vector<Index> c = m_grid.coordinates(cell);
             if (distance(c, centre) >= distance(c, mine))
@@ -213,7 +216,7 @@ std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const std::vecto
             hidden.emplace_back(cell, value);
             value = nothing;
         });
-    }
+    });
     // Undone backward, a cell hidden twice gets its first value back.
     std::reverse(hidden.begin(), hidden.end());
     return hidden;
@@ -222,21 +225,37 @@ std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const std::vecto
 void DetectionChain::endDuplicates()
 {
     // Two trackers on one signal: the younger one ends. It was a second report of the same, unless it had a longer life of its own.
+    if (m_trackers.size() < 2)
+        return;
+    std::vector<std::vector<Index>> places;
+    for (const HmmTracker &tracker : m_trackers)
+        places.push_back(tracker.coordinates());
+    const PlaceIndex index(m_grid, std::move(places));
+    std::vector<std::size_t> near;
     for (std::size_t younger = m_trackers.size(); younger-- > 1;) {
-        for (std::size_t older = 0; older < younger; ++older) {
-            HmmTracker &young = m_trackers[younger];
-            if (!CellBox{m_trackers[older].coordinates(), m_settings.linkCells}.contains(m_grid, young.coordinates())) {
-                young.separatedFrom(m_trackers[older].track().id);
-                continue;
-            }
-            const int beside = young.besides(m_trackers[older].track().id);
-            if (beside < framesUntilDuplicate)
-                continue;
-            if (2 * beside < young.age())
-                m_ended.push_back(young.finish(false));
-            m_trackers.erase(m_trackers.begin() + static_cast<std::ptrdiff_t>(younger));
-            break;
+        HmmTracker &young = m_trackers[younger];
+        near.clear();
+        index.forEachNear(index[younger], m_settings.linkCells.front(), [&](std::size_t older) {
+            if (older < younger && CellBox{index[older], m_settings.linkCells}.contains(m_grid, index[younger]))
+                near.push_back(older);
+        });
+        std::sort(near.begin(), near.end());
+        std::vector<HmmTracker::Beside> beside;
+        int longest = 0;
+        for (std::size_t i = 0; i < near.size() && longest < framesUntilDuplicate; ++i) {
+            const int older = m_trackers[near[i]].track().id;
+            const auto known = std::find_if(young.beside().begin(), young.beside().end(),
+                                            [older](const HmmTracker::Beside &other) { return other.track == older; });
+            longest = known == young.beside().end() ? 1 : known->frames + 1;
+            beside.push_back({older, longest});
         }
+        if (longest < framesUntilDuplicate) {
+            young.setBeside(std::move(beside));
+            continue;
+        }
+        if (2 * longest < young.age())
+            m_ended.push_back(young.finish(false));
+        m_trackers.erase(m_trackers.begin() + static_cast<std::ptrdiff_t>(younger));
     }
 }
 
@@ -244,7 +263,7 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
 {
     CellBox box{centre, m_settings.inhibitCells};
     const Index middle = m_grid.cell(centre);
-    const double level = static_cast<double>(y[static_cast<std::size_t>(middle)]);
+    const double level = static_cast<double>(std::max(0.0f, y[static_cast<std::size_t>(middle)])); // 0 where nothing was observed
     if (m_settings.spill)
         box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.spill(level));
     if (m_settings.skirtStep <= 0 || level < skirtLevel)
@@ -331,6 +350,17 @@ struct DetectionChain::Snapshot {
     int nextId = 1;
 };
 
+std::size_t DetectionChain::bytesOf(const Snapshot &snapshot)
+{
+    std::size_t total = sizeof snapshot + snapshot.detector->bytes() + snapshot.boxTracks.capacity() * sizeof(int);
+    for (const HmmTracker &tracker : snapshot.trackers)
+        total += tracker.bytes();
+    for (const std::vector<CellBox> *boxes : {&snapshot.boxes, &snapshot.newBoxes})
+        for (const CellBox &box : *boxes)
+            total += sizeof box + (box.centre.capacity() + box.halfWidth.capacity()) * sizeof(Index);
+    return total;
+}
+
 std::shared_ptr<const DetectionChain::Snapshot> DetectionChain::snapshot() const
 {
     auto detector = m_detector->remembrance();
@@ -338,6 +368,7 @@ std::shared_ptr<const DetectionChain::Snapshot> DetectionChain::snapshot() const
         return {};
     auto result = std::make_shared<Snapshot>();
     result->detector = std::move(detector);
+    result->trackers.reserve(m_trackers.size());
     for (const HmmTracker &tracker : m_trackers)
         result->trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.track().model]));
     result->boxes = m_boxes;
@@ -416,13 +447,13 @@ void DetectionChain::finish()
     std::sort(m_ended.begin(), m_ended.end(), [](const Track &a, const Track &b) { return a.id < b.id; });
 }
 
-std::vector<Track> DetectionChain::joinedTracks() const
+std::vector<Track> DetectionChain::takeJoinedTracks()
 {
     std::vector<Index> reach = m_trackerModels.front()->reach;
     for (const auto &model : m_trackerModels)
         for (std::size_t axis = 0; axis < reach.size(); ++axis)
             reach[axis] = std::max(reach[axis], model->reach[axis]);
-    return joinTracks(m_ended, m_grid,
+    return joinTracks(std::exchange(m_ended, {}), m_grid,
                       {m_settings.threshold, m_settings.track.smoothingFrames, m_settings.linkCells, reach, m_trackerModels.front()->halfWidth});
 }
 

@@ -5,6 +5,7 @@
 #include "model/MarkovModel.h"
 #include "track/Cluster.h"
 #include "track/HmmTracker.h"
+#include "track/PlaceIndex.h"
 #include "track/Track.h"
 
 #include <deque>
@@ -59,8 +60,8 @@ public:
     void finish();
 
     const std::vector<Track> &tracks() const { return m_ended; }
-    /// The same after the end, those that are pieces of one signal joined.
-    std::vector<Track> joinedTracks() const;
+    /// The same after the end, those that are pieces of one signal joined; handed over, so that there are none left.
+    std::vector<Track> takeJoinedTracks();
     const std::vector<HmmTracker> &trackers() const { return m_trackers; }
     const Detector &detector() const { return *m_detector; }
 
@@ -72,6 +73,8 @@ public:
     /// What the next frames' statistic depends on; null where the detector cannot tell.
     struct Snapshot;
     std::shared_ptr<const Snapshot> snapshot() const;
+    /// What it takes of memory: the states, and for each track in progress its window, whatever its age.
+    static std::size_t bytesOf(const Snapshot &snapshot);
     /// Goes on from there, with the same bytes; `snapshot` is of this chain or of one made alike. Paths and tracks begin anew.
     void resume(const Snapshot &snapshot);
 
@@ -107,7 +110,7 @@ private:
     const std::vector<CellBox> &forgottenBoxes() const;
     void keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y);
     void updateTrackers(Index frame, std::span<const float> y);
-    std::vector<std::pair<Index, float>> hideOthers(const std::vector<std::vector<Index>> &places, std::size_t own);
+    std::vector<std::pair<Index, float>> hideOthers(const PlaceIndex &places, std::size_t own);
     void endDuplicates();
     CellBox boxRound(const std::vector<Index> &centre, std::span<const float> y) const;
     void startTrack(Index frame, const Cluster &cluster, std::span<const float> y);

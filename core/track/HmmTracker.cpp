@@ -143,7 +143,7 @@ HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<
     }
     m_history.push_back(std::move(slice));
     m_level = std::min(m_statistic, model.threshold + model.settings.ceilingNats);
-    m_levels.push_back(m_level);
+    holdLevel();
     m_track.peakStatistic = m_statistic;
     if (!m_track.points.empty())
         m_track.points.pop_back(); // the detection frame's point is traced with the rest
@@ -153,15 +153,37 @@ HmmTracker HmmTracker::withoutPast(TrackerModel &model) const
 {
     HmmTracker result;
     result.m_model = &model;
-    result.m_track = m_track;
-    result.m_track.points.clear();
+    result.m_track = m_track.withoutPoints();
     result.m_history.push_back(m_history.back());
-    result.m_levels = m_levels;
+    result.m_age = m_age;
+    result.m_fallFrame = m_fallFrame;
+    result.m_fallLevel = m_fallLevel;
     result.m_best = m_best;
     result.m_beside = m_beside;
     result.m_statistic = m_statistic;
     result.m_level = m_level;
     return result;
+}
+
+std::size_t HmmTracker::bytes() const
+{
+    constexpr std::size_t dequeBytes = 512 + 8 * sizeof(void *); // one node and the map of them
+    std::size_t total = sizeof *this + dequeBytes + m_track.points.capacity() * sizeof(TrackPoint) + m_beside.capacity() * sizeof(Beside);
+    for (const Slice &slice : m_history)
+        total += sizeof slice + slice.centre.capacity() * sizeof(Index) + (slice.scores.capacity() + slice.lambda.capacity()) * sizeof(float);
+    return total;
+}
+
+/// The final fall's beginning: the change point between "holds" and "loses half the decay a frame", so far.
+void HmmTracker::holdLevel()
+{
+    const double tilt = 0.5 * m_model->settings.decayNats;
+    const double tilted = m_level + tilt * static_cast<double>(m_age);
+    if (m_age == 0 || tilted >= m_fallLevel) {
+        m_fallLevel = tilted;
+        m_fallFrame = m_age;
+    }
+    ++m_age;
 }
 
 bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
@@ -196,7 +218,7 @@ bool HmmTracker::update(Index frame, std::span<const float> lambda, double lnK)
         m_track.confirmFrame = frame;
     }
     m_level = std::min(m_level, ceiling);
-    m_levels.push_back(m_level);
+    holdLevel();
     const auto lag = static_cast<std::size_t>(model.settings.smoothingFrames);
     if (m_history.size() >= 2 * lag + 1)
         commit(lag);
@@ -398,14 +420,8 @@ void HmmTracker::paintStates(std::span<float> scores) const
 Track HmmTracker::finish(bool isOpen)
 {
     commit(m_history.size());
-    // The final fall's beginning: the change point between "holds" and "loses half the decay a frame".
-    const double tilt = 0.5 * m_model->settings.decayNats;
-    std::size_t last = 0;
-    for (std::size_t i = 0; i < m_levels.size(); ++i)
-        if (m_levels[i] + tilt * static_cast<double>(i) >= m_levels[last] + tilt * static_cast<double>(last))
-            last = i;
     m_track.isOpen = isOpen && m_level >= m_model->threshold;
-    m_track.endFrame = m_track.isOpen ? m_track.points.back().frame : m_track.detectFrame + static_cast<Index>(last);
+    m_track.endFrame = m_track.isOpen ? m_track.points.back().frame : m_track.detectFrame + m_fallFrame;
     while (m_track.points.size() > 1 && m_track.points.back().frame > m_track.endFrame)
         m_track.points.pop_back();
     m_track.endFrame = m_track.points.back().frame;

@@ -7,7 +7,6 @@
 #include "track/Track.h"
 
 #include <deque>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -76,8 +75,12 @@ public:
     HmmTracker(HmmTracker &&) noexcept = default;
     HmmTracker &operator=(HmmTracker &&) noexcept = default;
 
-    /// One that follows the signal on as this one does, to the bit, but knows no path before the newest frame.
+    /// One that follows the signal on as this one does, to the bit, but knows no path before the newest frame: of a size that does not
+    /// depend on its age.
     HmmTracker withoutPast(TrackerModel &model) const;
+
+    /// What it takes of memory.
+    std::size_t bytes() const;
 
     /// Takes the log-likelihood ratios of a whole frame; false when the track has ended.
     bool update(Index frame, std::span<const float> lambda, double lnK);
@@ -87,11 +90,15 @@ public:
     double statistic() const { return m_statistic; }
     double level() const { return m_level; }
     const Track &track() const { return m_track; }
-    Index age() const { return std::ssize(m_levels); } ///< frames since detection, that one included
+    Index age() const { return m_age; } ///< frames since detection, that one included
 
-    /// Counts the consecutive frames spent beside another track; answers how many it has been.
-    int besides(int otherId) { return ++m_beside[otherId]; }
-    void separatedFrom(int otherId) { m_beside.erase(otherId); }
+    /// A track that this one was beside in one frame after the other, up to now.
+    struct Beside {
+        int track = 0;
+        int frames = 0;
+    };
+    const std::vector<Beside> &beside() const { return m_beside; }
+    void setBeside(std::vector<Beside> beside) { m_beside = std::move(beside); }
 
     /// Raises `statistic` to this track's score in every cell of its window.
     void paint(std::span<float> statistic) const;
@@ -132,13 +139,16 @@ private:
     Index predecessorIn(const Slice &earlier, Index state, PathStep &step) const; ///< fills in ln P and the runner-up
     Index localOf(const Slice &slice, Index state) const;
     void commit(std::size_t count);
+    void holdLevel();
 
     TrackerModel *m_model = nullptr;
     Track m_track;
     std::deque<Slice> m_history;
-    std::vector<double> m_levels; ///< one a frame from detection on
+    Index m_age = 0;
+    Index m_fallFrame = 0;        ///< frames from detection to where the level's fall began, if it is the last
+    double m_fallLevel = 0.0;     ///< the tilted level there: the largest so far
     Index m_best = 0;             ///< global index of the most probable state
-    std::map<int, int> m_beside;
+    std::vector<Beside> m_beside;
     double m_statistic = 0.0;
     double m_level = 0.0;
 };

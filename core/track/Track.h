@@ -26,6 +26,12 @@ struct Track {
     std::vector<TrackPoint> points; ///< onset … end, one per frame
     Index confirmFrame = -1; ///< where it was confirmed, -1: never
     std::size_t model = 0;   ///< which of a bank's models found it and follows it
+
+    /// All but the points, without copying them first.
+    Track withoutPoints() const
+    {
+        return {id, onsetFrame, detectFrame, endFrame, peakStatistic, isConfirmed, isOpen, {}, confirmFrame, model};
+    }
 };
 
 } // namespace faintline

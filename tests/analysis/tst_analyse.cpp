@@ -77,6 +77,7 @@ private slots:
     void statisticSinkIsThePyramid();
     void explanationAddsUp();
     void calibratedKHalvesNoise();
+    void aKOutOfReachIsAnError();
     void falseAlarmsAsOrdered();
     void noLinesInNoiseOfAnyKind_data();
     void noLinesInNoiseOfAnyKind();
@@ -182,6 +183,15 @@ void tst_analyse::calibratedKHalvesNoise()
     stable.model.lowestSlope = stable.model.highestSlope = 0;
     stable.model.slopeChange = {1.0};
     QVERIFY2(std::abs(calibrate(stable)->lnK + 0.0794) < 0.01, qPrintable(QString::number(calibrate(stable)->lnK)));
+}
+
+void tst_analyse::aKOutOfReachIsAnError()
+{
+    AnalysisSettings s = settings();
+    s.model.snr = 50.0;
+    const std::string said = test::errorOf([&] { calibrate(s); });
+    QVERIFY2(said.starts_with("model.snr = 50: leaves no ln K for which half of the states continue on noise: at 20 nat "), said.c_str());
+    QVERIFY2(said.ends_with("% do; choose a lower one"), said.c_str());
 }
 
 void tst_analyse::falseAlarmsAsOrdered()

@@ -70,7 +70,7 @@ void tst_Likelihood::badValuesAreNoEvidence()
 {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    const std::vector<float> y{-1.0f, nan, infinity, 1e30f};
+    const std::vector<float> y{-1.0f, -infinity, infinity, 1e30f, nan, 1.0f};
     for (LikelihoodKind kind : {LikelihoodKind::Rice, LikelihoodKind::Exponential, LikelihoodKind::Linear}) {
         const Likelihood likelihood(kind, 0.5);
         std::vector<float> lambda(y.size());
@@ -78,6 +78,9 @@ void tst_Likelihood::badValuesAreNoEvidence()
         for (std::size_t i = 0; i < 3; ++i)
             QCOMPARE(lambda[i], static_cast<float>(likelihood.at(0.0)));
         QVERIFY(std::isfinite(lambda[3]) && lambda[3] > 1e10f);
+        QCOMPARE(lambda[4], 0.0f); // not observed: for neither hypothesis
+        QCOMPARE(likelihood.at(static_cast<double>(nan)), 0.0);
+        QVERIFY(std::abs(static_cast<double>(lambda[5]) - likelihood.at(1.0)) < 1e-6);
     }
 }
 

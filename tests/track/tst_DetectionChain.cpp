@@ -6,6 +6,7 @@
 #include <QtTest>
 
 #include <cmath>
+#include <ctime>
 
 using namespace faintline;
 
@@ -84,6 +85,8 @@ private slots:
     void statisticIsAboveThresholdWhileTracked();
     void lineOffTheGridEnds();
     void noiseSeldomCrosses();
+    void aSnapshotDoesNotGrowWithATracksAge();
+    void manyLinesCostLittleMoreThanTheirNumber();
 };
 
 void tst_DetectionChain::clustersLinkNeighbours()
@@ -216,6 +219,80 @@ void tst_DetectionChain::noiseSeldomCrosses()
 {
     QVERIFY(run({64, 2000, {}}, settings(line64, 25.0), line64).empty());
     QVERIFY(run({64, 2000, {}}, settings(line64, 4.0), line64).size() > 3); // and does where it should
+}
+
+void tst_DetectionChain::aSnapshotDoesNotGrowWithATracksAge()
+{
+    const Scene scene{64, 6000, {[](Index) { return Index(30); }}};
+    const MarkovModel m = model(scene.cells);
+    const auto fresh = [&] {
+        return std::make_unique<DetectionChain>(m, line64, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, 0.69}), settings(line64, 14.0));
+    };
+    const auto chain = fresh();
+    Random random(11, 1);
+    std::vector<float> statistic(64);
+    std::vector<std::size_t> bytes;
+    std::shared_ptr<const DetectionChain::Snapshot> young;
+    std::vector<std::vector<float>> after;
+    for (Index t = 0; t < scene.frames; ++t) {
+        if (t % 1000 == 500) {
+            QCOMPARE(chain->trackers().size(), std::size_t(1));
+            bytes.push_back(DetectionChain::bytesOf(*chain->snapshot()));
+        }
+        if (t == 5500)
+            young = chain->snapshot();
+        const std::vector<float> y = scene.frame(t, random);
+        chain->update(t, y, statistic);
+        if (t >= 5500)
+            after.push_back(y);
+    }
+    QCOMPARE(chain->trackers().front().age() > 5000, true);
+    for (const std::size_t one : bytes)
+        QVERIFY2(one < bytes.front() + 256 && bytes.front() < one + 256, qPrintable(QString::number(one)));
+    // A small window, its scores and a handful of numbers, beside the states' scores.
+    QVERIFY2(bytes.back() < 64 * 5 * sizeof(float) + 4096, qPrintable(QString::number(bytes.back())));
+    // It goes on from there with the same bytes, and ends where the other ends.
+    const auto resumed = fresh();
+    resumed->resume(*young);
+    std::vector<float> again(64);
+    for (std::size_t i = 0; i < after.size(); ++i)
+        resumed->update(5500 + static_cast<Index>(i), after[i], again);
+    QCOMPARE(again, statistic);
+    chain->finish();
+    resumed->finish();
+    QCOMPARE(resumed->tracks().back().endFrame, chain->tracks().back().endFrame);
+    QCOMPARE(resumed->tracks().back().peakStatistic, chain->tracks().back().peakStatistic);
+    QCOMPARE(resumed->tracks().back().detectFrame, chain->tracks().back().detectFrame);
+}
+
+void tst_DetectionChain::manyLinesCostLittleMoreThanTheirNumber()
+{
+    constexpr Index cells = 16000;
+    constexpr Index frames = 60;
+    const Grid grid{{{"frequency", "Hz", 0.0, 1.0, cells, false}}};
+    const MarkovModel m = model(cells);
+    const auto seconds = [&](Index lines) {
+        Scene scene{cells, frames, {}};
+        for (Index line = 0; line < lines; ++line)
+            scene.lines.push_back([at = (line + 1) * 20 - 5](Index) { return at; });
+        Random random(7, 1);
+        std::vector<std::vector<float>> y;
+        for (Index t = 0; t < frames; ++t)
+            y.push_back(scene.frame(t, random));
+        DetectionChain chain(m, grid, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, 0.69}), settings(grid, 14.0));
+        std::vector<float> statistic(static_cast<std::size_t>(cells));
+        for (Index t = 0; t < frames / 2; ++t)
+            chain.update(t, y[static_cast<std::size_t>(t)], statistic);
+        if (std::ssize(chain.trackers()) < lines)
+            qFatal("not all lines are followed");
+        const std::clock_t begin = std::clock();
+        for (Index t = frames / 2; t < frames; ++t)
+            chain.update(t, y[static_cast<std::size_t>(t)], statistic);
+        return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    };
+    double few = std::min(seconds(50), seconds(50));
+    double many = std::min(seconds(800), seconds(800));
+    QVERIFY2(many < 20.0 * few, qPrintable(QStringLiteral("%1 s for 50 lines, %2 s for 800").arg(few).arg(many)));
 }
 
 QTEST_APPLESS_MAIN(tst_DetectionChain)

@@ -15,7 +15,11 @@ class tst_cliMistakes : public CommandLineTest
     Q_OBJECT
 
 private slots:
-    void initTestCase() { simulateLine(); }
+    void initTestCase()
+    {
+        simulateLine();
+        writeBytes(pathOf("silence.raw"), QByteArray(4000, '\0'));
+    }
 
     void mistakes_data();
     void mistakes();
@@ -41,6 +45,10 @@ void tst_cliMistakes::mistakes_data()
     row("a text", {"info", "truth.json"}, "");
     row("unknown setting", {"describe", "smd.k"}, "smd.k: is no setting; the nearest is smd.lnK");
     row("misspelt setting", {"detect", "line.wav", "--summary", "--set", "smd.thresold=3"}, "smd.thresold: is no setting; the nearest is ");
+    row("signal too strong for any K", {"detect", "line.wav", "--summary", "--set", "model.snr=50"},
+        "model.snr = 50: leaves no ln K for which half of the states continue on noise: at 20 nat ");
+    row("nothing but silence", {"detect", "silence.raw", "--raw-type", "rf32_le", "--raw-rate", "100", "--summary"},
+        "silence.raw: holds nothing that can be used: all of the 1000 samples looked at are 0 or below 1e-45");
     row("no assignment", {"detect", "line.wav", "--summary", "--set", "smd.lnK"}, "--set smd.lnK: must be name=value");
     row("setting out of range", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=-1"},
         "spectrogram.windowSeconds = -1: must lie in 0 … 1e+06 s");

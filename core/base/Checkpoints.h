@@ -1,0 +1,93 @@
+#pragma once
+
+#include "base/Axis.h"
+
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <memory>
+
+namespace faintline {
+
+/// States of something that goes from frame to frame, at even distances, within a byte budget that counts what they really take.
+///
+/// A state is kept under the frame that comes next. Where the budget is exceeded every second one is dropped and the interval
+/// doubles, so that the distances stay even and what is kept never grows with the number of frames. At least one state is kept.
+template <class State>
+class Checkpoints
+{
+public:
+    using Pointer = std::shared_ptr<const State>;
+
+    Checkpoints(Index interval, std::size_t byteBudget) : m_interval(interval), m_budget(byteBudget) {}
+
+    /// Frames between two of them, as things stand.
+    Index interval() const { return m_interval; }
+    std::size_t bytes() const { return m_bytes; }
+
+    /// Whether the state before that frame is to be kept and is not known yet.
+    bool lacks(Index frame) const { return frame > 0 && frame % m_interval == 0 && !m_states.contains(frame); }
+
+    /// Keeps, or replaces, the state before that frame; `bytes`: what it takes.
+    void keep(Index frame, Pointer state, std::size_t bytes)
+    {
+        drop(m_states.find(frame));
+        m_states.emplace(frame, Kept{std::move(state), bytes});
+        m_bytes += bytes;
+        while (m_bytes > m_budget && m_states.size() > 1) {
+            m_interval *= 2;
+            for (auto it = m_states.begin(); it != m_states.end();)
+                it = it->first % m_interval == 0 ? std::next(it) : drop(it);
+        }
+    }
+
+    /// The state kept before exactly that frame; null: none.
+    Pointer at(Index frame) const
+    {
+        const auto found = m_states.find(frame);
+        return found == m_states.end() ? Pointer() : found->second.state;
+    }
+
+    /// The latest frame, up to that one, whose state is kept; 0: none.
+    Index latest(Index frame) const
+    {
+        const auto after = m_states.upper_bound(frame);
+        return after == m_states.begin() ? 0 : std::prev(after)->first;
+    }
+
+    void clear()
+    {
+        m_states.clear();
+        m_bytes = 0;
+    }
+
+    /// Calls visit(frame, state) for all of them, ascending.
+    template <class Visit>
+    void forEach(Visit visit) const
+    {
+        for (const auto &[frame, kept] : m_states)
+            visit(frame, kept.state);
+    }
+
+private:
+    struct Kept {
+        Pointer state;
+        std::size_t bytes;
+    };
+    using States = std::map<Index, Kept>;
+
+    typename States::iterator drop(typename States::iterator at)
+    {
+        if (at == m_states.end())
+            return at;
+        m_bytes -= at->second.bytes;
+        return m_states.erase(at);
+    }
+
+    Index m_interval;
+    std::size_t m_budget;
+    std::size_t m_bytes = 0;
+    States m_states;
+};
+
+} // namespace faintline
