@@ -23,21 +23,21 @@ struct NormaliserSettings {
 
 /// The coarse background of a recording: mean noise power per time block and resolution cell.
 ///
-/// Per block and cell: the median over the block's non-overlapping frames (frames of digital silence left out), freed of
-/// its bias for exponential data; per block: a running median over ±halfWidth cells, continued beyond the band edges
-/// by point reflection of the logarithm, which follows any slope; then the mean ratio of the unsuspicious
-/// cells to that median within the same window, which removes the median's bias and variance.
-/// Blocks are averaged with their neighbours in time as far as the noise keeps its colour, whatever its level does.
+/// Per block and cell: the median over the block's non-overlapping frames (frames of digital silence left out, frames much louder or
+/// softer than most brought to their level), freed of its bias for exponential data. Blocks are averaged with their neighbours in time as far
+/// as the noise keeps its colour, whatever its level does. Then a running median over ±halfWidth cells, continued beyond the band edges
+/// by point reflection of the logarithm, which follows any slope; then the mean ratio of the unsuspicious cells to that median within the
+/// same window, which removes the median's bias and variance.
 /// A line, however long, is narrower than the window, so it never becomes its own background; a burst, however broad,
 /// is shorter than half a block. Between block centres and between cells the logarithm is interpolated. What changes
-/// faster than a block is a level over the background, per window: the whole band's, a mean over its cells of noise cut off at
-/// five times itself, by a Kalman smoother if it walks, and beyond that, for the band and for each sub-band of about 96 cells, a
-/// running median over seven windows as far as it is beyond its own scatter.
+/// faster than a block is a level over the background, of each of the detector's frames: the whole band's, a mean over its cells of noise
+/// cut off at five times itself, and what each sub-band of about 96 cells has besides, both as far as they are beyond their own
+/// scatter (`beyondScatter`): a steady level is averaged over some two hundred frames, a step is kept as it is.
 struct NoiseBackground {
     Axis time;      ///< block centres, s
     Axis frequency; ///< cells, Hz
     std::vector<float> lnPower; ///< time.count × frequency.count, natural logarithm of mean noise power
-    Axis levelTime;             ///< windows, s
+    Axis levelTime;             ///< of the detector's frames, up to four a window; s
     Index bandCount = 0;        ///< sub-bands of equal width; 0 where the band is too narrow to tell
     std::vector<float> lnLevel; ///< levelTime.count × bandCount, to be added to lnPower
 
@@ -56,8 +56,8 @@ struct NoiseBackground {
 /// How closely to look: a sketch takes no more than 64 frames of all, and one background for all time.
 enum class BackgroundDepth { Whole, Sketch };
 
-/// One pass over the recording at one frame per window and one bin per cell: a fraction 1/(k_t·k_f) of the detector's own
-/// transforms, and less where blocks are long. Memory: at most 1024 blocks and 64 MiB, twice.
+/// One pass over the recording at the detector's frames (at most four a window) and one bin per cell: a fraction 1/k_f of the detector's
+/// own transforms, and less where blocks are long. Memory: at most 1024 blocks and 64 MiB, twice.
 std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram, const NormaliserSettings &settings,
                                                           const RunContext &context = {},
                                                           BackgroundDepth depth = BackgroundDepth::Whole);
