@@ -30,7 +30,8 @@ namespace {
     // Rounding of the single-precision transform, relative to the frame's strongest bin: nothing below it is noise.
     constexpr double roundingFloor = 1e-13;
     constexpr double leastNoiseRatio = 1.3; // the noise's shape itself differs from its running median by as much
-    constexpr double roundingMargin = 4.0; // of ln power: what lies no higher above the floor does not tell the noise's level
+    constexpr double roundingMargin = 4.0; // of ln power: what lies no higher above the floor does not tell the whole band's level
+    constexpr double roundingNearness = 0.1; // nor, this near to it, its own
 
     /// What cells of noise, medians of so many frames, are never above in relation to their neighbours: five standard errors.
     double mostNoiseRatio(double frames)
@@ -63,6 +64,7 @@ namespace {
         std::vector<float> medians; ///< ln of each cell's mean, from its median over time
         std::vector<float> lnPower; ///< ln mean noise power
         std::vector<bool> isNoise;  ///< false where a line lies all through the block, and where there is but rounding
+        std::vector<bool> isFirm;   ///< noise well above rounding
     };
 
     /// The background under one block of frames (frames × cells).
@@ -80,7 +82,7 @@ namespace {
         }
         std::vector<float> ln(static_cast<std::size_t>(cells), silence);
         if (loud.empty())
-            return {ln, ln, std::vector<bool>(static_cast<std::size_t>(cells), true)};
+            return {ln, ln, std::vector<bool>(static_cast<std::size_t>(cells), true), std::vector<bool>(static_cast<std::size_t>(cells), true)};
         const auto used = static_cast<int>(std::ssize(loud) / cells);
         const double bias = std::log(medianMean(used));
         const double floor = std::log(strongest * roundingFloor);
@@ -91,11 +93,13 @@ namespace {
         }
         std::vector<float> background = runningMedian(ln, half);
         std::vector<bool> isNoise = refine(ln, background, half, mostNoiseRatio(static_cast<double>(used)));
+        std::vector<bool> isFirm(isNoise.size());
         for (std::size_t cell = 0; cell < background.size(); ++cell) {
-            isNoise[cell] = isNoise[cell] && static_cast<double>(background[cell]) > floor + roundingMargin;
+            isNoise[cell] = isNoise[cell] && static_cast<double>(background[cell]) > floor + roundingNearness;
+            isFirm[cell] = isNoise[cell] && static_cast<double>(background[cell]) > floor + roundingMargin;
             background[cell] = std::max(background[cell], static_cast<float>(floor));
         }
-        return {std::move(ln), std::move(background), std::move(isNoise)};
+        return {std::move(ln), std::move(background), std::move(isNoise), std::move(isFirm)};
     }
 
     /// Brings frames (frames × cells) that are plainly louder or softer than most to one level, so that medians over time tell the noise's
@@ -269,19 +273,21 @@ namespace {
         std::vector<float> sample;
         std::vector<float> few;
         std::vector<Index> telling;
+        std::vector<Index> known;
         for (Index frame = 0; frame < std::ssize(frames) / cells; ++frame) {
-            const auto collect = [&](Index band) {
+            const auto collect = [&](Index band, const std::vector<bool> &wanted) {
                 for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
-                    if (const auto c = static_cast<std::size_t>(cell); block.isNoise[c])
+                    if (const auto c = static_cast<std::size_t>(cell); wanted[c])
                         sample.push_back(frames[static_cast<std::size_t>(frame * cells + cell)] * inverse[c]);
             };
             levels.resize(levels.size() + static_cast<std::size_t>(bands + 1), notKnown);
             float *own = &levels[levels.size() - static_cast<std::size_t>(bands + 1)];
             few.clear();
             telling.clear();
+            known.clear();
             for (Index band = 0; band < bands; ++band) {
                 sample.clear();
-                collect(band);
+                collect(band, block.isNoise);
                 const std::ptrdiff_t count = std::ssize(sample);
                 if (count < fewestCells)
                     continue;
@@ -289,10 +295,19 @@ namespace {
                 if (!(median > 0.0f))
                     continue;
                 own[band] = lnMean(truncatedMean(sample, median / std::numbers::ln2_v<float>), count);
-                if (2 * count >= endCell(band, bands, cells) - firstCell(band, bands, cells)) {
+                known.push_back(band);
+                const auto firm = std::count(block.isFirm.begin() + firstCell(band, bands, cells), block.isFirm.begin() + endCell(band, bands, cells), true);
+                if (2 * firm >= endCell(band, bands, cells) - firstCell(band, bands, cells)) {
                     few.push_back(own[band]);
                     telling.push_back(band);
                 }
+            }
+            const bool isFirm = 2 * std::ssize(telling) >= bands || known.size() == telling.size();
+            if (!isFirm) { // a few sub-bands are not the whole
+                telling = known;
+                few.clear();
+                for (const Index band : known)
+                    few.push_back(own[band]);
             }
             float middle = 0.0f;
             if (few.size() > 2) // two cannot outvote one another: then all count
@@ -302,7 +317,7 @@ namespace {
             sample.clear();
             for (Index band : telling)
                 if (telling.size() < 3 || std::abs(own[band] - middle) < agreeing)
-                    collect(band);
+                    collect(band, isFirm ? block.isFirm : block.isNoise);
             const float mean = truncatedMean(sample, std::exp(middle));
             own[bands] = mean > 0.0f && !sample.empty() ? lnMean(mean, std::ssize(sample)) : notKnown;
             std::replace(own, own + bands, notKnown, own[bands]);
@@ -310,27 +325,77 @@ namespace {
         return levels;
     }
 
-    /// Levels tell what changes within a block. Where their median over it is far from 0, measured by their own deviation, the cells
-    /// are not exponential (crowded with lines) and the row, from medians over the same frames, stands for another mean. Of each column.
-    std::vector<float> offsetsOf(const std::vector<float> &levels, Index bandCount)
+    /// Medians over the frames of each column of levels.
+    std::vector<float> mediansOf(const std::vector<float> &levels, Index columns)
     {
-        const auto columns = static_cast<std::size_t>(bandCount + 1);
-        std::vector<float> offsets(columns, 0.0f);
+        std::vector<float> medians(static_cast<std::size_t>(columns), 0.0f);
         std::vector<float> series;
-        for (std::size_t column = 0; column < columns; ++column) {
+        for (std::size_t column = 0; column < medians.size(); ++column) {
             series.clear();
-            for (std::size_t i = column; i < levels.size(); i += columns)
+            for (std::size_t i = column; i < levels.size(); i += medians.size())
                 if (levels[i] < notKnown)
                     series.push_back(levels[i]);
-            if (series.size() <= 7)
-                continue;
-            const float offset = medianOf(series);
-            for (float &value : series)
-                value = std::abs(value - offset);
-            if (std::abs(offset) >= 1.4826f * medianOf(series))
-                offsets[column] = offset;
+            if (!series.empty())
+                medians[column] = medianOf(series);
         }
-        return offsets;
+        return medians;
+    }
+
+    /// What a block's levels are too high by, column by column. Levels tell what changes within a block: their median over it is 0, but for
+    /// the skirts of lines, which means over cells hold more of than the row, from medians over time, does.
+    struct Offsets {
+        std::vector<float> medians;
+        std::vector<bool> isSure; ///< beyond their own deviation: the cells are not exponential (crowded with lines)
+
+        Offsets(const std::vector<float> &levels, Index columns) : medians(mediansOf(levels, columns)), isSure(medians.size(), false)
+        {
+            std::vector<float> deviations = levels;
+            for (std::size_t i = 0; i < levels.size(); ++i)
+                if (levels[i] < notKnown)
+                    deviations[i] = std::abs(levels[i] - medians[i % medians.size()]);
+            const std::vector<float> typical = mediansOf(deviations, columns);
+            for (std::size_t column = 0; column < medians.size(); ++column)
+                isSure[column] = std::ssize(levels) > 7 * columns && std::abs(medians[column]) >= 1.4826f * typical[column];
+        }
+    };
+
+    /// As much of a sub-band's median level over a long time as lines may make, and chance hardly does.
+    float shareOfLines(float median)
+    {
+        constexpr float chance = 0.02f;
+        constexpr float most = 0.15f;
+        return std::clamp(median - chance, 0.0f, most);
+    }
+
+    /// Takes offsets off levels: the sure ones of each block, else those of sub-bands over a dozen blocks, as far as lines may make them.
+    void removeOffsets(std::vector<float> &levels, const std::vector<Offsets> &offsets, const std::vector<Index> &blockOfLevel)
+    {
+        constexpr Index reach = 6;
+        if (offsets.empty())
+            return;
+        const std::size_t columns = offsets.front().medians.size();
+        std::vector<std::vector<float>> taken;
+        std::vector<float> few;
+        for (Index block = 0; block < std::ssize(offsets); ++block) {
+            const Offsets &own = offsets[static_cast<std::size_t>(block)];
+            taken.push_back(std::vector<float>(columns, 0.0f));
+            for (std::size_t column = 0; column < columns; ++column) {
+                if (own.isSure[column]) {
+                    taken.back()[column] = own.medians[column];
+                    continue;
+                }
+                if (column + 1 == columns)
+                    continue;
+                few.clear();
+                for (Index other = std::max<Index>(0, block - reach); other <= std::min(std::ssize(offsets) - 1, block + reach); ++other)
+                    if (const Offsets &each = offsets[static_cast<std::size_t>(other)]; !each.isSure[column])
+                        few.push_back(each.medians[column]);
+                taken.back()[column] = shareOfLines(medianOf(few));
+            }
+        }
+        for (std::size_t i = 0; i < levels.size(); ++i)
+            if (levels[i] < notKnown)
+                levels[i] -= taken[static_cast<std::size_t>(blockOfLevel[i / columns])][i % columns];
     }
 
     /// Weights of linear interpolation on an axis: index of the lower neighbour and the fraction toward the next.
@@ -519,6 +584,194 @@ namespace {
         return result;
     }
 
+    /// How much tiles of 8 frames × 24 cells change with time.
+    struct Unevenness {
+        double sum = 0.0;      ///< of squared deviations of ln(mean of a tile) from its cells' mean over all time
+        double sumOfMeans = 0.0; ///< of the means' themselves, which a few tiles far too high decide
+        double freedom = 0.0;  ///< how many of them are independent
+
+        double variance() const { return freedom > 0.0 ? sum / freedom : 0.0; }
+        double varianceOfMeans() const { return freedom > 0.0 ? sumOfMeans / freedom : 0.0; }
+        /// That of steady noise, whose neighbouring cells are alike by the window.
+        static double ofNoise(const std::vector<float> &window)
+        {
+            double fourth = 0.0;
+            for (const float w : window)
+                fourth += std::pow(static_cast<double>(w), 4.0);
+            return fourth * static_cast<double>(window.size()) / static_cast<double>(tileFrames * tileCells);
+        }
+
+        static constexpr Index tileFrames = 8;
+        static constexpr Index tileCells = 24;
+    };
+
+    /// Of frames (frames × cells) times a factor for each cell and one for each frame; strong lines cut off.
+    Unevenness unevenness(std::span<const float> frames, const std::vector<float> &ofCell, const std::vector<float> &ofFrame)
+    {
+        constexpr float most = 5.0f;
+        const Index cells = std::ssize(ofCell);
+        Unevenness result;
+        for (Index cell = 0; cell + Unevenness::tileCells <= cells; cell += Unevenness::tileCells) {
+            double sum = 0.0;
+            double squares = 0.0;
+            double sumOfMeans = 0.0;
+            double squaresOfMeans = 0.0;
+            double count = 0.0;
+            for (Index first = 0; first + Unevenness::tileFrames <= std::ssize(ofFrame); first += Unevenness::tileFrames) {
+                double mean = 0.0;
+                for (Index frame = first; frame < first + Unevenness::tileFrames; ++frame) {
+                    const float *row = frames.data() + frame * cells;
+                    const float factor = ofFrame[static_cast<std::size_t>(frame)];
+                    for (Index i = cell; i < cell + Unevenness::tileCells; ++i)
+                        mean += static_cast<double>(std::min(row[i] * factor * ofCell[static_cast<std::size_t>(i)], most));
+                }
+                if (mean <= 0.0)
+                    continue;
+                mean /= static_cast<double>(Unevenness::tileFrames * Unevenness::tileCells);
+                const double ln = std::log(mean);
+                sum += ln;
+                squares += ln * ln;
+                sumOfMeans += mean;
+                squaresOfMeans += mean * mean;
+                count += 1.0;
+            }
+            if (count < 2.0)
+                continue;
+            result.sum += squares - sum * sum / count;
+            result.sumOfMeans += squaresOfMeans - sumOfMeans * sumOfMeans / count;
+            result.freedom += count - 1.0;
+        }
+        return result;
+    }
+
+    /// How the colour changes in a block: of its frames over its row and the common level.
+    Unevenness changesOf(const std::vector<float> &frames, const BlockBackground &block, const std::vector<float> &levels, Index bands)
+    {
+        std::vector<float> ofCell;
+        for (const float ln : block.lnPower)
+            ofCell.push_back(ln > silence ? std::exp(-ln) : 0.0f);
+        std::vector<float> ofFrame;
+        for (std::size_t i = static_cast<std::size_t>(bands); i < levels.size(); i += static_cast<std::size_t>(bands + 1))
+            ofFrame.push_back(levels[i] < notKnown ? std::exp(-levels[i]) : 0.0f);
+        return unevenness(frames, ofCell, ofFrame);
+    }
+
+    /// frames ← frames·e^(-ln)
+    void divide(std::span<float> frame, std::span<const float> ln)
+    {
+        for (std::size_t cell = 0; cell < frame.size(); ++cell)
+            frame[cell] *= std::exp(-ln[cell]);
+    }
+
+    /// ln power of a stretch's noise in a frame with these levels of its sources.
+    void readStretch(const NoiseStretch &stretch, std::span<const float> levels, std::span<float> ln)
+    {
+        stretch.sources.addUp(levels, ln);
+        for (std::size_t cell = 0; cell < ln.size(); ++cell)
+            ln[cell] = std::max(stretch.floor, stretch.lnPower[cell] + fastLn(std::max(ln[cell], 1e-30f)));
+    }
+
+    /// Frames of a stretch of time, as the detector sees them: windows from `first` on, `shift` hops later each.
+    struct StretchFrames {
+        Index first;
+        Index count;
+        Index steps;
+        const Spectrogram &windows;
+        const std::vector<Spectrogram> &shifted;
+
+        std::vector<float> read(Index shift, Index cells) const
+        {
+            const Spectrogram &source = shift == 0 ? windows : shifted[static_cast<std::size_t>(shift - 1)];
+            const Index there = std::max<Index>(0, std::min(count, source.time().count - first));
+            std::vector<float> frames(static_cast<std::size_t>(there * cells));
+            if (there > 0)
+                source.read(first, there, frames);
+            return frames;
+        }
+    };
+
+    /// Where a stretch's noise is a sum of sources, adds them to the background and replaces its levels by those over them.
+    void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, std::vector<float> &levels)
+    {
+        constexpr Index cellsForThree = 144;
+        constexpr double better = 1.1;
+        constexpr double explained = 1.3;
+        const Index cells = background.frequency.count;
+        const double expected = Unevenness::ofNoise(sampleWindow(stretchFrames.windows.settings().window, stretchFrames.windows.windowSamples()));
+        std::vector<float> frames = stretchFrames.read(0, cells);
+        const float strongest = *std::max_element(frames.begin(), frames.end());
+        const Between t = between(background.time, background.levelTime.value(static_cast<double>((stretchFrames.first + stretchFrames.count / 2) * stretchFrames.steps)));
+        const auto row = background.lnPower.begin() + t.lower * cells;
+        if (!(strongest > 0.0f) || *row <= silence)
+            return;
+        NoiseStretch stretch;
+        stretch.firstLevel = stretchFrames.first * stretchFrames.steps;
+        stretch.lnPower.assign(row, row + cells);
+        stretch.floor = std::log(strongest) + static_cast<float>(std::log(roundingFloor));
+        const auto frameOf = [&](std::vector<float> &all, Index frame) {
+            return std::span(all).subspan(static_cast<std::size_t>(frame * cells), static_cast<std::size_t>(cells));
+        };
+        std::vector<float> ln(static_cast<std::size_t>(cells));
+        std::vector<float> before = frames;
+        for (Index frame = 0; frame < stretchFrames.count; ++frame) {
+            background.readLnPower(background.levelTime.value(static_cast<double>((stretchFrames.first + frame) * stretchFrames.steps)), ln);
+            divide(frameOf(before, frame), ln);
+            divide(frameOf(frames, frame), stretch.lnPower);
+        }
+        const std::vector<float> asTheyAre(static_cast<std::size_t>(cells), 1.0f);
+        const std::vector<float> each(static_cast<std::size_t>(stretchFrames.count), 1.0f);
+        const Unevenness unevennessBefore = unevenness(before, asTheyAre, each);
+        before = {};
+        stretch.sources = fitSources(frames, cells, cells < cellsForThree ? 2 : 3, half);
+        if (stretch.sources.count() == 0)
+            return;
+        const Index sources = stretch.sources.count();
+        stretch.sourceLevels.assign(static_cast<std::size_t>(stretchFrames.count * stretchFrames.steps * sources), 0.0f);
+        const auto divideByNoise = [&](std::vector<float> &all, Index shift) { // which is there already divided by lnPower
+            for (Index frame = 0; frame < std::ssize(all) / cells; ++frame) {
+                const auto values = frameOf(all, frame);
+                const std::vector<float> own = stretch.sources.levelsIn(values);
+                std::copy(own.begin(), own.end(), stretch.sourceLevels.begin() + (frame * stretchFrames.steps + shift) * sources);
+                readStretch(stretch, own, ln);
+                for (std::size_t cell = 0; cell < ln.size(); ++cell)
+                    values[cell] *= std::exp(stretch.lnPower[cell] - ln[cell]);
+            }
+        };
+        divideByNoise(frames, 0);
+        BlockBackground rest = blockBackground(frames, cells, half);
+        for (Index frame = 0; frame < stretchFrames.count; ++frame)
+            divide(frameOf(frames, frame), rest.lnPower);
+        // Signals change with time, too, and are no sources of noise: nothing but chance may be left.
+        const Unevenness unevennessAfter = unevenness(frames, asTheyAre, each);
+        const bool isBetter = unevennessBefore.variance() > better * unevennessAfter.variance()
+                              || unevennessBefore.varianceOfMeans() > better * unevennessAfter.varianceOfMeans();
+        if (!isBetter || unevennessAfter.variance() > explained * expected)
+            return;
+        for (std::size_t cell = 0; cell < stretch.lnPower.size(); ++cell)
+            stretch.lnPower[cell] += rest.lnPower[cell];
+        std::fill(rest.lnPower.begin(), rest.lnPower.end(), 0.0f);
+        const Index columns = background.bandCount + 1;
+        std::vector<float> offsets;
+        for (Index shift = 0; shift < stretchFrames.steps; ++shift) {
+            if (shift > 0) {
+                frames = stretchFrames.read(shift, cells);
+                for (Index frame = 0; frame < std::ssize(frames) / cells; ++frame)
+                    divide(frameOf(frames, frame), stretch.lnPower);
+                divideByNoise(frames, shift);
+            }
+            const std::vector<float> own = levelsOf(frames, rest, background.bandCount);
+            if (shift == 0)
+                offsets = mediansOf(own, columns);
+            for (Index i = 0; i < std::ssize(own); ++i) {
+                const Index place = (stretchFrames.first + i / columns) * stretchFrames.steps + shift;
+                const float level = own[static_cast<std::size_t>(i)];
+                levels[static_cast<std::size_t>(place * columns + i % columns)] =
+                    level < notKnown ? level - shareOfLines(offsets[static_cast<std::size_t>(i % columns)]) : notKnown;
+            }
+        }
+        background.stretches.push_back(std::move(stretch));
+    }
+
     /// By how much the scatter of a mean over many successive frames exceeds that over as many independent ones.
     double overlapFactor(const Spectrogram &windows, Index steps)
     {
@@ -564,13 +817,27 @@ double NoiseBackground::lnPowerAt(double seconds, double hz) const
 
 void NoiseBackground::readLnPower(double seconds, std::span<float> ln) const
 {
-    const Between t = between(time, seconds);
-    const float *early = lnPower.data() + t.lower * frequency.count;
-    const float *late = lnPower.data() + std::min(t.lower + 1, time.count - 1) * frequency.count;
-    interpolateBlocks(early, late, static_cast<float>(t.fraction), ln.size(), ln.data());
+    const Between w = between(levelTime, seconds);
+    const auto stretch = std::find_if(stretches.begin(), stretches.end(), [&](const NoiseStretch &each) {
+        return w.lower >= each.firstLevel && w.lower < each.firstLevel + each.levelCount();
+    });
+    if (stretch != stretches.end()) {
+        const auto sources = static_cast<std::size_t>(stretch->sources.count());
+        const auto levelsAt = [&](Index i) {
+            return stretch->sourceLevels.data() + (std::min(i, stretch->firstLevel + stretch->levelCount() - 1) - stretch->firstLevel) * stretch->sources.count();
+        };
+        std::vector<float> levels(sources);
+        for (std::size_t k = 0; k < sources; ++k)
+            levels[k] = levelsAt(w.lower)[k] + static_cast<float>(w.fraction) * (levelsAt(w.lower + 1)[k] - levelsAt(w.lower)[k]);
+        readStretch(*stretch, levels, ln);
+    } else {
+        const Between t = between(time, seconds);
+        const float *early = lnPower.data() + t.lower * frequency.count;
+        const float *late = lnPower.data() + std::min(t.lower + 1, time.count - 1) * frequency.count;
+        interpolateBlocks(early, late, static_cast<float>(t.fraction), ln.size(), ln.data());
+    }
     if (bandCount == 0)
         return;
-    const Between w = between(levelTime, seconds);
     const auto level = [&](Index band) {
         const auto at = [&](Index window) {
             return static_cast<double>(lnLevel[static_cast<std::size_t>(std::min(window, levelTime.count - 1) * bandCount + band)]);
@@ -635,6 +902,8 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     BlockRows rows;
     rows.lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
     background->lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
+    std::vector<Unevenness> changes; // of each block
+    std::vector<Offsets> offsets;
     std::vector<float> block;
     for (Index b = 0; b < blockCount; ++b) {
         context.checkpoint(static_cast<double>(b) / static_cast<double>(blockCount), "noise background");
@@ -655,11 +924,13 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         if (background->bandCount == 0)
             continue;
         const std::vector<float> measured = levelsOf(block, own, background->bandCount);
-        const std::vector<float> offsets = offsetsOf(measured, background->bandCount);
+        offsets.emplace_back(measured, columns);
+        if (stride == 1)
+            changes.push_back(changesOf(block, own, measured, background->bandCount));
         const auto put = [&](const std::vector<float> &source, Index row, Index place, float more) {
             for (Index column = 0; column < columns; ++column)
                 if (const float level = source[static_cast<std::size_t>(row * columns + column)]; level < notKnown)
-                    levels[static_cast<std::size_t>(place * columns + column)] = level + more - offsets[static_cast<std::size_t>(column)];
+                    levels[static_cast<std::size_t>(place * columns + column)] = level + more;
         };
         std::fill_n(blockOfLevel.begin() + firstUsed / stride * steps, used * steps, b);
         for (Index i = 0; i < used; ++i)
@@ -677,9 +948,31 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         }
     }
     averageWhileSteady(background->lnPower, rows.lnPower, cells, settings.halfWidthCells, std::min(mostUsed, blockFrames));
-    if (background->bandCount > 0)
+    if (background->bandCount > 0) {
+        removeOffsets(levels, offsets, blockOfLevel);
         moveToBackground(levels, rows, *background, blockOfLevel);
-    background->lnLevel = finishLevels(levels, *background, overlapFactor(frames, steps));
+    }
+    const double overlap = overlapFactor(frames, steps);
+    background->lnLevel = finishLevels(levels, *background, overlap);
+    if (background->bandCount == 0 || stride > 1)
+        return background;
+    constexpr Index stretchBlocks = 13;
+    constexpr double noticeable = 1.5;
+    const double expected = Unevenness::ofNoise(sampleWindow(coarse.window, frames.windowSamples()));
+    const Index together = std::clamp<Index>(static_cast<Index>(static_cast<double>(valuesPerBlock / cells) / blockFrames), 1, stretchBlocks);
+    for (Index b = 0; b < blockCount; b += together) {
+        const auto first = static_cast<Index>(std::floor(static_cast<double>(b) * blockFrames));
+        const Index end = b + together < blockCount ? static_cast<Index>(std::floor(static_cast<double>(b + together) * blockFrames)) : frameCount;
+        Unevenness change;
+        for (Index each = b; each < std::min(blockCount, b + together); ++each) {
+            change.sum += changes[static_cast<std::size_t>(each)].sum;
+            change.freedom += changes[static_cast<std::size_t>(each)].freedom;
+        }
+        if (change.variance() > noticeable * expected)
+            addStretch(*background, {first, end - first, steps, frames, shifted}, settings.halfWidthCells, levels);
+    }
+    if (!background->stretches.empty())
+        background->lnLevel = finishLevels(levels, *background, overlap);
     return background;
 }
 

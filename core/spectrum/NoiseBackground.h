@@ -4,6 +4,7 @@
 #include "base/Field.h"
 #include "base/RunContext.h"
 #include "spectrum/Spectrogram.h"
+#include "spectrum/noiseSources.h"
 
 #include <memory>
 #include <span>
@@ -21,6 +22,17 @@ struct NormaliserSettings {
     bool operator==(const NormaliserSettings &) const = default;
 };
 
+/// A stretch of time in which the noise changes its colour: what its sources have of each frame.
+struct NoiseStretch {
+    Index firstLevel = 0;          ///< of the background's level times
+    NoiseSources sources;          ///< colours over `lnPower`
+    std::vector<float> lnPower;    ///< of each cell
+    std::vector<float> sourceLevels; ///< level times × sources
+    float floor = 0.0f;            ///< ln power of rounding
+
+    Index levelCount() const { return sources.count() > 0 ? std::ssize(sourceLevels) / sources.count() : 0; }
+};
+
 /// The coarse background of a recording: mean noise power per time block and resolution cell.
 ///
 /// Per block and cell: the median over the block's non-overlapping frames (frames of digital silence left out, frames much louder or
@@ -33,6 +45,8 @@ struct NormaliserSettings {
 /// faster than a block is a level over the background, of each of the detector's frames: the whole band's, a mean over its cells of noise
 /// cut off at five times itself, and what each sub-band of about 96 cells has besides, both as far as they are beyond their own
 /// scatter (`beyondScatter`): a steady level is averaged over some two hundred frames, a step is kept as it is.
+/// Where sub-bands go ways of their own, a stretch of a dozen blocks is taken for a sum of a few sources (`NoiseSources`) whose levels are
+/// those of each frame, if that leaves less of a deviation from 1 than the one background.
 struct NoiseBackground {
     Axis time;      ///< block centres, s
     Axis frequency; ///< cells, Hz
@@ -40,6 +54,7 @@ struct NoiseBackground {
     Axis levelTime;             ///< of the detector's frames, up to four a window; s
     Index bandCount = 0;        ///< sub-bands of equal width; 0 where the band is too narrow to tell
     std::vector<float> lnLevel; ///< levelTime.count × bandCount, to be added to lnPower
+    std::vector<NoiseStretch> stretches{}; ///< in the order of time: instead of lnPower, where it is several noises in turn
 
     /// ln power that stands for "nothing was recorded".
     static constexpr float silence = -200.0f;
