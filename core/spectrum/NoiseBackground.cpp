@@ -577,7 +577,7 @@ namespace {
         for (Index shift = 1; shift < steps; ++shift) {
             SelectionSettings later = windows.selection();
             later.fromSeconds += std::round(static_cast<double>(shift * windows.windowSamples()) / static_cast<double>(steps)) / rate;
-            if (detector.time().count * steps <= detector.settings().stepsPerWindow * steps)
+            if (detector.time().count <= detector.settings().stepsPerWindow)
                 return {}; // hardly longer than a window
             result.emplace_back(windows.recordingPointer(), windows.settings(), later);
         }
