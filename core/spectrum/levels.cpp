@@ -1,6 +1,7 @@
 #include "spectrum/levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace faintline {
@@ -9,14 +10,56 @@ namespace {
 
     constexpr double likeness = 1.5; // so many neighbouring cells tell as much as one
 
-    /// Variance of the differences x(i + lag) - x(i), from their median magnitude: steps and clicks do not count.
-    double differenceVariance(const std::vector<float> &x, std::size_t lag)
+    constexpr int scales = 7;
+
+    /// An index beyond a series' ends, reflected into it.
+    std::ptrdiff_t reflected(std::ptrdiff_t i, std::ptrdiff_t n)
     {
-        std::vector<float> magnitudes;
-        for (std::size_t i = lag; i < x.size(); ++i)
-            magnitudes.push_back(std::abs(x[i] - x[i - lag]));
-        const double deviation = 1.4826 * static_cast<double>(medianOf(magnitudes));
-        return deviation * deviation;
+        if (n == 1)
+            return 0;
+        const std::ptrdiff_t period = 2 * (n - 1);
+        i = std::abs(i) % period;
+        return i < n ? i : period - i;
+    }
+
+    /// ¼ x(i - lag) + ½ x(i) + ¼ x(i + lag)
+    std::vector<double> smoothed(const std::vector<double> &x, std::ptrdiff_t lag)
+    {
+        const std::ptrdiff_t n = std::ssize(x);
+        std::vector<double> result(x.size());
+        for (std::ptrdiff_t i = 0; i < n; ++i)
+            result[static_cast<std::size_t>(i)] = 0.25 * x[static_cast<std::size_t>(reflected(i - lag, n))] + 0.5 * x[static_cast<std::size_t>(i)]
+                                                  + 0.25 * x[static_cast<std::size_t>(reflected(i + lag, n))];
+        return result;
+    }
+
+    /// Standard deviation of a scale's details of white noise of deviation 1: the root of the energy of the details of a single 1.
+    const std::array<double, scales> &detailDeviations()
+    {
+        static const std::array<double, scales> deviations = [] {
+            std::array<double, scales> result{};
+            std::vector<double> impulse(std::size_t(4) << scales, 0.0);
+            impulse[impulse.size() / 2] = 1.0;
+            for (int scale = 0; scale < scales; ++scale) {
+                const std::vector<double> coarse = smoothed(impulse, std::ptrdiff_t(1) << scale);
+                for (std::size_t i = 0; i < impulse.size(); ++i)
+                    result[static_cast<std::size_t>(scale)] += (impulse[i] - coarse[i]) * (impulse[i] - coarse[i]);
+                impulse = coarse;
+            }
+            for (double &value : result)
+                value = std::sqrt(value);
+            return result;
+        }();
+        return deviations;
+    }
+
+    /// Sums of squares up to each value.
+    std::vector<double> energyUpTo(const std::vector<double> &x)
+    {
+        std::vector<double> sums(x.size() + 1, 0.0);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            sums[i + 1] = sums[i] + x[i] * x[i];
+        return sums;
     }
 
 } // namespace
@@ -46,6 +89,12 @@ double medianScatter(double cells)
     return 1.44 * std::sqrt(likeness / cells);
 }
 
+double meanScatter(double cells)
+{
+    constexpr double likenessOfMeans = 2.0; // neighbours share most of a main lobe
+    return std::sqrt(likenessOfMeans / cells);
+}
+
 float truncatedMean(std::span<const float> cells, float guess)
 {
     constexpr float cut = 5.0f;
@@ -64,45 +113,41 @@ float truncatedMean(std::span<const float> cells, float guess)
     return guess;
 }
 
-std::vector<float> slowPart(const std::vector<float> &series)
+std::vector<float> beyondScatter(const std::vector<float> &series, double scatter)
 {
-    constexpr std::size_t lag = 16;
-    std::vector<float> smooth(series.size(), 0.0f);
-    if (series.size() < 4 * lag)
-        return smooth;
-    const double near = differenceVariance(series, 1);
-    const double far = differenceVariance(series, lag);
-    const double scatter = 4.0 / std::sqrt(static_cast<double>(series.size())); // of far/near in white noise
-    if (far <= near * (1.0 + 2.0 * scatter))
-        return smooth;
-    const double walk = (far - near) / (lag - 1.0);
-    const double noise = std::max(0.5 * (near - walk), 1e-3 * walk);
-    const double ratio = walk / noise;
-    const double gain = 0.5 * (std::sqrt(ratio * ratio + 4.0 * ratio) - ratio);
-    const double largest = 3.0 * std::sqrt(noise / (1.0 - gain));
-    std::vector<float> beginning(series.begin(), series.begin() + lag / 2);
-    double level = static_cast<double>(medianOf(beginning));
-    for (std::size_t i = 0; i < series.size(); ++i) {
-        level += gain * std::clamp(static_cast<double>(series[i]) - level, -largest, largest);
-        smooth[i] = static_cast<float>(level);
-    }
-    for (std::size_t i = series.size() - 1; i-- > 0;)
-        smooth[i] += static_cast<float>(1.0 - gain) * (smooth[i + 1] - smooth[i]);
-    return smooth;
-}
-
-std::vector<float> suddenPart(const std::vector<float> &series, double scatter, double certainty)
-{
-    constexpr std::ptrdiff_t half = 3;
-    const double medianOfSeven = scatter * 1.25 / std::sqrt(2.0 * half + 1.0);
+    // Neighbours on either side, in steps of the scale, and the E/σ² that white noise hardly ever reaches with so many of them: the few
+    // see what is short, the many see what is faint.
+    struct Neighbourhood {
+        std::ptrdiff_t half;
+        double chance;
+    };
+    constexpr std::array<Neighbourhood, 2> neighbourhoods{{{1, 8.0}, {12, 1.8}}};
     const std::ptrdiff_t n = std::ssize(series);
-    std::vector<float> result(series.size());
-    std::vector<float> few;
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-        few.assign(series.begin() + std::max<std::ptrdiff_t>(0, i - half), series.begin() + std::min(n, i + half + 1));
-        const auto level = static_cast<double>(medianOf(few));
-        result[static_cast<std::size_t>(i)] = static_cast<float>(level * std::clamp(std::abs(level) / medianOfSeven - certainty, 0.0, 1.0));
+    std::vector<double> rest(series.begin(), series.end());
+    std::vector<double> kept(series.size(), 0.0);
+    for (int scale = 0; scale < scales && (std::ptrdiff_t(2) << scale) <= n; ++scale) {
+        const std::ptrdiff_t lag = std::ptrdiff_t(1) << scale;
+        const std::vector<double> coarse = smoothed(rest, lag);
+        for (std::size_t i = 0; i < rest.size(); ++i)
+            rest[i] -= coarse[i];
+        const std::vector<double> energy = energyUpTo(rest);
+        const double deviation = scatter * detailDeviations()[static_cast<std::size_t>(scale)];
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            double factor = 0.0;
+            for (const Neighbourhood &near : neighbourhoods) {
+                const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - near.half * lag);
+                const std::ptrdiff_t to = std::min(n, i + near.half * lag + 1);
+                const double mean = (energy[static_cast<std::size_t>(to)] - energy[static_cast<std::size_t>(from)]) / static_cast<double>(to - from);
+                if (mean > near.chance * deviation * deviation)
+                    factor = std::max(factor, 1.0 - deviation * deviation / mean);
+            }
+            kept[static_cast<std::size_t>(i)] += factor * rest[static_cast<std::size_t>(i)];
+        }
+        rest = coarse;
     }
+    std::vector<float> result(series.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] = static_cast<float>(kept[i] + rest[i]);
     return result;
 }
 

@@ -21,18 +21,23 @@ double lnMedianMean(std::ptrdiff_t n);
 /// Standard error of the logarithm of a median of cells.
 double medianScatter(double cells);
 
+/// Standard error of the logarithm of their `truncatedMean`.
+double meanScatter(double cells);
+
 /// Mean of exponential cells, from those below five times that mean, found in two steps from a first guess. As exact as can be,
 /// and no line counts for more than five cells of noise.
 float truncatedMean(std::span<const float> cells, float guess);
 
-/// The random walk in a series, x(i) = walk + noise, as a Kalman smoother finds it; 0 all over where it may be none.
+/// What a series of levels, each with an independent standard error of `scatter`, does beyond its errors.
 ///
-/// Differences at a lag of k have variance 2r + kq, which gives noise r and walk q. The smoother's steady state is an exponential
-/// average forward, with gain α, α²/(1-α) = q/r, and then backward. What lies beyond three deviations moves it no further. There is a
-/// walk where the differences at a lag of 16 exceed those at 1 by two standard errors (from medians: steps and clicks are none).
-std::vector<float> slowPart(const std::vector<float> &series);
-
-/// The running median of a series over seven values, faded in from `certainty` to one more of its standard errors. `scatter`: of one value.
-std::vector<float> suddenPart(const std::vector<float> &series, double scatter, double certainty);
+/// The series is the sum of its details at scales of 1, 2, 4 … values and of what is left,
+///
+///   c₀ = x,  c_{j+1}(i) = ¼ c_j(i - 2ʲ) + ½ c_j(i) + ¼ c_j(i + 2ʲ),  d_j = c_j - c_{j+1},
+///
+/// the à trous transform with a triangle, in which a straight ramp has no details. A detail is kept as far as the mean square of those
+/// about it, E, is beyond what errors make, σ_j²: by the factor 1 - σ_j²/E, and not at all where E may be chance. Hence a steady level is
+/// averaged over some two hundred values, a drift over as many as it allows, and a step is kept as it is.
+/// Source: Starck, Murtagh and Fadili, Sparse Image and Signal Processing, section 3.5. Cost: some hundred operations a value.
+std::vector<float> beyondScatter(const std::vector<float> &series, double scatter);
 
 } // namespace faintline

@@ -5,6 +5,7 @@
 #include <QtTest>
 
 #include <numbers>
+#include <numeric>
 #include <thread>
 
 using namespace faintline;
@@ -26,6 +27,11 @@ private slots:
     void twoLinesSideBySide();
     void levelStep();
     void driftingLevel();
+    void levelsAreFollowed_data();
+    void levelsAreFollowed();
+    void steadyLineAmidSteps();
+    void quietBandBesideAKeyedOne();
+    void coloursThatTakeTurns();
     void sameAtTheEdges();
     void nothingAboveABandEdge();
     void digitalSilence();
@@ -273,6 +279,151 @@ void tst_NoiseNormaliser::driftingLevel()
     }
     const double deviation = std::sqrt(sum / counted);
     QVERIFY2(deviation < 0.05, said("deviation", deviation));
+}
+
+namespace {
+
+    using Pieces = std::vector<std::pair<double, double>>;
+
+    /// dB at each sample, from (samples, dB at their end), over and over.
+    std::vector<float> gains(std::size_t count, const Pieces &pieces)
+    {
+        std::vector<float> result;
+        double before = pieces.back().second;
+        while (result.size() < count)
+            for (const auto &[length, db] : pieces) {
+                for (double i = 0.0; i < length && result.size() < count; i += 1.0)
+                    result.push_back(static_cast<float>(std::pow(10.0, 0.05 * (before + (db - before) * i / length))));
+                before = db;
+            }
+        return result;
+    }
+
+    /// Deviation of (mean over tiles of 16 frames and the whole band) - 1, beside what counting alone gives: Σ|ρ|² over neighbours is 1.94 in
+    /// frequency and 1.06 in time with a Hann window that overlaps by half.
+    std::pair<double, double> tileErrors(const Normalised &n)
+    {
+        constexpr Index tile = 16;
+        constexpr Index edge = 12;
+        double sum = 0.0;
+        double counted = 0.0;
+        for (Index first = 0; first + tile <= n.frameCount; first += tile) {
+            sum += std::pow(n.mean(first, first + tile, edge, n.bins - edge) - 1.0, 2.0);
+            counted += 1.0;
+        }
+        const double cells = 0.5 * static_cast<double>(n.bins - 2 * edge);
+        return {std::sqrt(sum / counted), std::sqrt(1.94 * 1.06 / (cells * tile))};
+    }
+
+} // namespace
+
+void tst_NoiseNormaliser::levelsAreFollowed_data()
+{
+    QTest::addColumn<Pieces>("pieces");
+    // Windows are of 500 samples.
+    QTest::newRow("steady") << Pieces{{1000, 0}};
+    QTest::newRow("3 dB within two windows and a half, up and down") << Pieces{{1250, 3}, {1250, 0}};
+    QTest::newRow("6 dB within 15 windows") << Pieces{{7500, 6}, {7500, 0}};
+    QTest::newRow("25 dB within 30 windows") << Pieces{{15000, 25}, {20000, 25}, {15000, 0}, {20000, 0}};
+    QTest::newRow("steps of 20 dB") << Pieces{{1, 20}, {7777, 20}, {1, 0}, {13131, 0}, {1, -20}, {9191, -20}, {1, 0}, {31313, 0}};
+    QTest::newRow("bursts") << Pieces{{1, 15}, {300, 15}, {1, 0}, {15000, 0}, {1, 8}, {2000, 8}, {1, 0}, {15000, 0}};
+}
+
+void tst_NoiseNormaliser::levelsAreFollowed()
+{
+    QFETCH(Pieces, pieces);
+    std::vector<float> samples = gaussian(400000, 31);
+    const std::vector<float> gain = gains(samples.size(), pieces);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] *= gain[i];
+    const Normalised n = normalised(samples);
+    QVERIFY(n.isSound());
+    const auto [deviation, counting] = tileErrors(n);
+    QVERIFY2(deviation < 1.3 * counting, said("deviation over that of counting", deviation / counting));
+    // The background itself, against the known power of each frame: in tiles, no farther off than counting tells.
+    const std::vector<float> window = sampleWindow(WindowShape::Hann, 500);
+    std::vector<float> ln(static_cast<std::size_t>(n.frames->background().frequency.count));
+    double sum = 0.0;
+    double counted = 0.0;
+    for (Index first = 0; first + 16 <= n.frameCount; first += 16) {
+        double error = 0.0;
+        for (Index frame = first; frame < first + 16; ++frame) {
+            double power = 0.0;
+            for (std::size_t i = 0; i < 500; ++i)
+                power += std::pow(static_cast<double>(window[i] * gain[static_cast<std::size_t>(frame) * 250 + i]), 2.0);
+            n.frames->background().readLnPower(n.frames->time().value(static_cast<double>(frame)), ln);
+            double over = 0.0;
+            for (std::size_t cell = 6; cell + 6 < ln.size(); ++cell)
+                over += power / std::exp(static_cast<double>(ln[cell])) / static_cast<double>(ln.size() - 12);
+            error += (over - 1.0) / 16.0;
+        }
+        sum += error * error;
+        counted += 1.0;
+    }
+    QVERIFY2(std::sqrt(sum / counted) < 1.3 * counting, said("of the background", std::sqrt(sum / counted) / counting));
+}
+
+void tst_NoiseNormaliser::steadyLineAmidSteps()
+{
+    // A faint line keeps its level above the noise while the gain, line and all, jumps by 20 dB.
+    std::vector<float> samples = gaussian(400000, 32);
+    addTone(samples, 210.0, 3.0, 500.0);
+    const std::vector<float> gain = gains(samples.size(), {{1, 20}, {17777, 20}, {1, 0}, {13131, 0}});
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] *= gain[i];
+    const Normalised n = normalised(samples);
+    const double level = dB(n.meanOfBin(n.binAt(210.0)) - 1.0);
+    QVERIFY2(std::abs(level - 3.0) < 0.7, said("dB", level));
+}
+
+void tst_NoiseNormaliser::quietBandBesideAKeyedOne()
+{
+    // Half of the band 40 dB above the other, and off half of the time: what lies beside it stays at 1, whatever it does.
+    std::vector<float> loud = gaussian(400000, 33);
+    for (int pole = 0; pole < 6; ++pole) { // low-pass
+        float state = 0.0f;
+        for (float &sample : loud)
+            sample = state = 0.6f * state + 0.4f * sample;
+    }
+    const std::vector<float> gain = gains(loud.size(), {{1, 0}, {3000, 0}, {1, -40}, {2000, -40}});
+    std::vector<float> samples = gaussian(400000, 34, 0.01f);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] += gain[i] * loud[i];
+    const Normalised n = normalised(samples);
+    double largest = 0.0;
+    for (Index first = 16; first + 16 <= n.frameCount; first += 16)
+        largest = std::max(largest, std::abs(n.mean(first, first + 16, n.binAt(420.0), n.binAt(490.0)) - 1.0));
+    QVERIFY2(largest < 0.3, said("largest error of a tile", largest));
+}
+
+void tst_NoiseNormaliser::coloursThatTakeTurns()
+{
+    // A floor, and noise between two edges at four levels, for 3 s each, which is six windows.
+    constexpr int taps = 255; // a band-pass from 100 to 300 Hz
+    std::vector<float> filter(taps);
+    for (int i = 0; i < taps; ++i) {
+        const double t = i - taps / 2;
+        const double phase = 2.0 * std::numbers::pi * i / (taps - 1);
+        const double blackman = 0.42 - 0.5 * std::cos(phase) + 0.08 * std::cos(2.0 * phase);
+        const double sine = t == 0.0 ? 0.2 : std::sin(0.2 * std::numbers::pi * t) / (std::numbers::pi * t);
+        filter[static_cast<std::size_t>(i)] = static_cast<float>(2.0 * blackman * sine * std::cos(0.4 * std::numbers::pi * t));
+    }
+    const std::vector<float> white = gaussian(400000 + taps, 35);
+    const std::vector<float> gain = gains(400000, {{1, 0}, {3000, 0}, {1, -40}, {3000, -40}, {1, 10}, {3000, 10}, {1, -15}, {3000, -15}});
+    std::vector<float> samples = gaussian(400000, 36);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        samples[i] += 10.0f * gain[i] * std::inner_product(filter.begin(), filter.end(), white.begin() + static_cast<std::ptrdiff_t>(i), 0.0f);
+    const Normalised n = normalised(samples);
+    QVERIFY(!n.frames->background().stretches.empty());
+    double sum = 0.0;
+    double counted = 0.0;
+    for (Index first = 0; first + 16 <= n.frameCount; first += 16)
+        for (Index bin = 20; bin + 60 <= n.bins - 20; bin += 60) { // 30 cells
+            sum += std::pow(n.mean(first, first + 16, bin, bin + 60) - 1.0, 2.0);
+            counted += 1.0;
+        }
+    const double counting = std::sqrt(1.94 * 1.06 / (30.0 * 16.0));
+    QVERIFY2(std::sqrt(sum / counted) < 2.0 * counting, said("deviation over that of counting", std::sqrt(sum / counted) / counting));
 }
 
 void tst_NoiseNormaliser::sameAtTheEdges()

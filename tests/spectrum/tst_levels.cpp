@@ -4,6 +4,7 @@
 
 #include <QtTest>
 
+#include <array>
 #include <cmath>
 
 using namespace faintline;
@@ -35,11 +36,6 @@ double deviation(const std::vector<float> &a, const std::vector<float> &b)
     return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-bool isZero(const std::vector<float> &values)
-{
-    return std::ranges::all_of(values, [](float value) { return value == 0.0f; });
-}
-
 } // namespace
 
 /// The level of noise from its cells, and what a series of levels tells.
@@ -50,10 +46,13 @@ class tst_levels : public QObject
 private slots:
     void mediansOfExponentials();
     void truncatedMeanOfExponentials();
+    void meansOfCells();
     void aWalkIsFollowed();
-    void noiseIsNoWalk();
-    void stepsAndClicksAreNoWalk();
-    void whatIsSudden();
+    void scatterIsNotFollowed();
+    void stepsAndClicksAreKept();
+    void aRampCostsNothing();
+    void swingsAreFollowed();
+    void shortSeries();
 };
 
 void tst_levels::mediansOfExponentials()
@@ -84,48 +83,97 @@ void tst_levels::truncatedMeanOfExponentials()
     QCOMPARE(truncatedMean({}, 1.0f), 1.0f);
 }
 
+void tst_levels::meansOfCells()
+{
+    // Cells of a Hann window: two neighbours share 4/9 of their power's fluctuation, the next 1/36.
+    constexpr int cells = 96;
+    Random random(32, 2);
+    double sum = 0.0;
+    constexpr int trials = 2000;
+    for (int trial = 0; trial < trials; ++trial) {
+        std::array<double, cells + 2> re{};
+        std::array<double, cells + 2> im{};
+        for (std::size_t i = 0; i < re.size(); ++i) {
+            re[i] = random.normal();
+            im[i] = random.normal();
+        }
+        std::vector<float> y;
+        for (std::size_t i = 1; i + 1 < re.size(); ++i)
+            y.push_back(static_cast<float>((std::pow(re[i] - 0.5 * (re[i - 1] + re[i + 1]), 2.0) + std::pow(im[i] - 0.5 * (im[i - 1] + im[i + 1]), 2.0)) / 3.0));
+        sum += std::pow(std::log(static_cast<double>(truncatedMean(y, 1.0f))), 2.0);
+    }
+    const double measured = std::sqrt(sum / trials);
+    QVERIFY2(std::abs(measured / meanScatter(cells) - 1.0) < 0.1, qPrintable(QString::number(measured)));
+}
+
 void tst_levels::aWalkIsFollowed()
 {
     // Steps of a quarter of the noise: the best smoother leaves √(q·r)/2 of variance, a third of the noise's deviation.
     const Walk w(2000, 0.25, 1.0, 1);
-    const double left = deviation(slowPart(w.series), w.walk);
+    const double left = deviation(beyondScatter(w.series, 1.0), w.walk);
     QVERIFY2(left > 0.25 && left < 0.45, qPrintable(QString::number(left)));
 }
 
-void tst_levels::noiseIsNoWalk()
+void tst_levels::scatterIsNotFollowed()
 {
-    QVERIFY(isZero(slowPart(Walk(2000, 0.0, 1.0, 2).series)));
-    QVERIFY(isZero(slowPart(Walk(40, 1.0, 1.0, 3).series))); // too short to tell
-    QVERIFY(slowPart({}).empty());
+    // The mean of some 200 values would have a deviation of 0.07.
+    const std::vector<float> level = beyondScatter(Walk(20000, 0.0, 1.0, 2).series, 1.0);
+    const double left = deviation(level, std::vector<float>(level.size(), 0.0f));
+    QVERIFY2(left < 0.15, qPrintable(QString::number(left)));
 }
 
-void tst_levels::stepsAndClicksAreNoWalk()
+void tst_levels::stepsAndClicksAreKept()
 {
     Walk w(2000, 0.0, 1.0, 4);
     for (std::size_t i = 700; i < 1400; ++i)
-        w.series[i] += 30.0f;
-    for (std::size_t i = 0; i < 2000; i += 97)
-        w.series[i] += 50.0f;
-    QVERIFY(isZero(slowPart(w.series)));
+        w.walk[i] += 30.0f;
+    w.walk[100] += 50.0f;
+    for (std::size_t i = 0; i < w.series.size(); ++i)
+        w.series[i] += w.walk[i];
+    const std::vector<float> level = beyondScatter(w.series, 1.0);
+    for (std::size_t i = 0; i < level.size(); ++i)
+        QVERIFY2(std::abs(level[i] - w.walk[i]) < 4.5f, qPrintable(QString::number(i)));
+    // Away from them it is averaged as if they were not there.
+    double sum = 0.0;
+    for (std::size_t i = 1000; i < 1200; ++i)
+        sum += std::pow(static_cast<double>(level[i] - 30.0f), 2.0) / 200.0;
+    QVERIFY2(std::sqrt(sum) < 0.4, qPrintable(QString::number(std::sqrt(sum))));
 }
 
-void tst_levels::whatIsSudden()
+void tst_levels::aRampCostsNothing()
 {
     Walk w(2000, 0.0, 1.0, 5);
-    for (std::size_t i = 700; i < 1400; ++i)
-        w.series[i] += 30.0f;
-    w.series[100] = 50.0f; // one value of seven is no level
-    const std::vector<float> sudden = suddenPart(w.series, 1.0, 2.0);
-    QCOMPARE(sudden[100], 0.0f);
-    for (std::size_t i = 700; i < 1400; ++i)
-        QVERIFY(std::abs(sudden[i] - 30.0f) < 5.0f * 1.25f / std::sqrt(7.0f));
-    // Of white noise next to nothing: 5 % of the medians lie beyond two deviations, and those hardly count.
-    const double left = deviation(std::vector<float>(sudden.begin(), sudden.begin() + 690), std::vector<float>(690, 0.0f));
-    QVERIFY2(left < 0.25, qPrintable(QString::number(left)));
-    // Asked to be surer, it takes nothing for a change that is none, and the change itself as before.
-    const std::vector<float> sure = suddenPart(w.series, 1.0, 4.5);
-    QVERIFY(std::all_of(sure.begin(), sure.begin() + 690, [](float value) { return value == 0.0f; }));
-    QVERIFY(std::equal(sure.begin() + 700, sure.begin() + 1400, sudden.begin() + 700));
+    for (std::size_t i = 0; i < w.series.size(); ++i) {
+        w.walk[i] = 0.2f * static_cast<float>(i);
+        w.series[i] += w.walk[i];
+    }
+    const std::vector<float> level = beyondScatter(w.series, 1.0);
+    double sum = 0.0;
+    for (std::size_t i = 200; i < 1800; ++i)
+        sum += std::pow(static_cast<double>(level[i] - w.walk[i]), 2.0) / 1600.0;
+    QVERIFY2(std::sqrt(sum) < 0.2, qPrintable(QString::number(std::sqrt(sum))));
+}
+
+void tst_levels::swingsAreFollowed()
+{
+    // Periods from 6 values, which are kept as they are, to 1000, which are averaged over dozens: always less is left than there was.
+    for (const auto &[period, most] : {std::pair{6.0, 1.05}, {30.0, 0.75}, {200.0, 0.4}, {1000.0, 0.25}}) {
+        Walk w(4000, 0.0, 1.0, 6);
+        for (std::size_t i = 0; i < w.series.size(); ++i) {
+            w.walk[i] = static_cast<float>(10.0 * std::sin(6.2832 * static_cast<double>(i) / period));
+            w.series[i] += w.walk[i];
+        }
+        const double left = deviation(beyondScatter(w.series, 1.0), w.walk);
+        QVERIFY2(left < most, qPrintable(QString("%1: %2").arg(period).arg(left)));
+    }
+}
+
+void tst_levels::shortSeries()
+{
+    QVERIFY(beyondScatter({}, 1.0).empty());
+    QCOMPARE(beyondScatter({7.0f}, 1.0), std::vector<float>{7.0f});
+    for (const float value : beyondScatter({3.0f, 3.0f, 3.0f}, 1.0))
+        QVERIFY(std::abs(value - 3.0f) < 1e-5f);
 }
 
 QTEST_APPLESS_MAIN(tst_levels)

@@ -1,0 +1,246 @@
+#include "spectrum/noiseSources.h"
+
+#include "base/multiversion.h"
+#include "spectrum/medians.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t lanes = 16; // sums in so many parts, in one order on every processor
+    constexpr float least = 1e-12f;   // of B, in relation to frames that are near 1
+    constexpr float cut = 6.0f;       // a line is no more than six times its noise
+    constexpr int sweeps = 16;
+    constexpr int levelUpdates = 12;
+    constexpr Index profileCells = 24;
+
+    using Lanes = std::array<float, lanes>;
+
+    FAINTLINE_MULTIVERSION
+    void addSource(const float *colour, float level, std::size_t cells, float *sum)
+    {
+        for (std::size_t cell = 0; cell < cells; ++cell)
+            sum[cell] += level * colour[cell];
+    }
+
+    /// B → min(y, cB)/B² and 1/B.
+    FAINTLINE_MULTIVERSION
+    void weigh(const float *frame, const float *sum, std::size_t cells, float *pull, float *inverse)
+    {
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const float b = sum[cell] > least ? sum[cell] : least;
+            const float over = 1.0f / b;
+            const float y = frame[cell] < cut * b ? frame[cell] : cut * b;
+            inverse[cell] = over;
+            pull[cell] = y * over * over;
+        }
+    }
+
+    FAINTLINE_MULTIVERSION
+    void addProducts(const float *a, const float *b, std::size_t cells, float *parts)
+    {
+        std::size_t cell = 0;
+        for (; cell + lanes <= cells; cell += lanes)
+            for (std::size_t lane = 0; lane < lanes; ++lane)
+                parts[lane] += a[cell + lane] * b[cell + lane];
+        for (; cell < cells; ++cell)
+            parts[cell % lanes] += a[cell] * b[cell];
+    }
+
+    double product(const float *a, const float *b, std::size_t cells)
+    {
+        Lanes parts{};
+        addProducts(a, b, cells, parts.data());
+        return std::accumulate(parts.begin(), parts.end(), 0.0);
+    }
+
+    /// What one frame's updates need.
+    struct Scratch {
+        std::vector<float> sum, pull, inverse;
+
+        explicit Scratch(std::size_t cells) : sum(cells), pull(cells), inverse(cells) {}
+    };
+
+    void weigh(const NoiseSources &sources, std::span<const float> frame, std::span<const float> levels, Scratch &scratch)
+    {
+        sources.addUp(levels, scratch.sum);
+        weigh(frame.data(), scratch.sum.data(), frame.size(), scratch.pull.data(), scratch.inverse.data());
+    }
+
+    void updateLevels(const NoiseSources &sources, std::span<const float> frame, std::vector<float> &levels, Scratch &scratch)
+    {
+        weigh(sources, frame, levels, scratch);
+        for (std::size_t k = 0; k < levels.size(); ++k) {
+            const float *colour = sources.colours.data() + k * frame.size();
+            const double pull = product(colour, scratch.pull.data(), frame.size());
+            const double inverse = product(colour, scratch.inverse.data(), frame.size());
+            levels[k] = static_cast<float>(static_cast<double>(levels[k]) * (inverse > 0.0 ? pull / inverse : 0.0));
+        }
+    }
+
+    /// Every source with an equal part of what is there.
+    std::vector<float> firstLevels(const NoiseSources &sources, std::span<const float> frame)
+    {
+        const auto count = static_cast<std::size_t>(sources.count());
+        std::vector<float> levels(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            std::vector<float> ratios(frame.size());
+            for (std::size_t cell = 0; cell < frame.size(); ++cell)
+                ratios[cell] = frame[cell] / std::max(sources.colours[k * frame.size() + cell], least);
+            const auto middle = ratios.begin() + std::ssize(ratios) / 2;
+            std::nth_element(ratios.begin(), middle, ratios.end());
+            levels[k] = *middle / static_cast<float>(count);
+        }
+        return levels;
+    }
+
+    /// ln of a frame's means over stretches of cells, less their median: its colour, roughly.
+    std::vector<float> profileOf(std::span<const float> frame)
+    {
+        const Index cells = std::ssize(frame);
+        const Index parts = std::max<Index>(1, cells / profileCells);
+        std::vector<float> profile;
+        for (Index part = 0; part < parts; ++part) {
+            std::vector<float> values(frame.begin() + part * cells / parts, frame.begin() + (part + 1) * cells / parts);
+            const auto middle = values.begin() + std::ssize(values) / 2;
+            std::nth_element(values.begin(), middle, values.end());
+            profile.push_back(std::log(std::max(*middle, least)));
+        }
+        std::vector<float> sorted = profile;
+        std::nth_element(sorted.begin(), sorted.begin() + parts / 2, sorted.end());
+        for (float &value : profile)
+            value -= sorted[static_cast<std::size_t>(parts / 2)];
+        return profile;
+    }
+
+    double distance(const std::vector<float> &a, const std::vector<float> &b)
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            sum += std::abs(static_cast<double>(a[i] - b[i]));
+        return sum / static_cast<double>(a.size());
+    }
+
+    /// Colours to begin with: of the frames that lie farthest from those taken already, a few of the oddest left aside, each with those
+    /// nearest to it.
+    NoiseSources firstSources(std::span<const float> frames, Index cells, Index count)
+    {
+        constexpr double oddest = 0.03;
+        constexpr std::size_t alike = 5;
+        std::vector<std::vector<float>> profiles;
+        for (Index first = 0; first < std::ssize(frames); first += cells)
+            profiles.push_back(profileOf(frames.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(cells))));
+        std::vector<float> centre(profiles.front().size());
+        for (std::size_t part = 0; part < centre.size(); ++part) {
+            std::vector<float> values;
+            for (const auto &profile : profiles)
+                values.push_back(profile[part]);
+            std::nth_element(values.begin(), values.begin() + std::ssize(values) / 2, values.end());
+            centre[part] = values[values.size() / 2];
+        }
+        std::vector<double> far(profiles.size());
+        for (std::size_t i = 0; i < profiles.size(); ++i)
+            far[i] = distance(profiles[i], centre);
+        NoiseSources result{cells, {}};
+        std::vector<std::size_t> order(profiles.size());
+        for (Index k = 0; k < count; ++k) {
+            std::iota(order.begin(), order.end(), std::size_t(0));
+            std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return far[a] > far[b]; });
+            const std::size_t seed = order[static_cast<std::size_t>(oddest * static_cast<double>(order.size()))];
+            std::vector<double> near(profiles.size());
+            for (std::size_t i = 0; i < profiles.size(); ++i)
+                near[i] = distance(profiles[i], profiles[seed]);
+            std::iota(order.begin(), order.end(), std::size_t(0));
+            std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return near[a] < near[b]; });
+            const std::size_t taken = std::min(alike, order.size());
+            const Index parts = std::ssize(centre);
+            for (Index cell = 0; cell < cells; ++cell) {
+                const auto part = static_cast<std::size_t>(std::min(parts - 1, cell * parts / cells));
+                double sum = 0.0;
+                for (std::size_t i = 0; i < taken; ++i)
+                    sum += static_cast<double>(profiles[order[i]][part]);
+                result.colours.push_back(static_cast<float>(std::exp(sum / static_cast<double>(taken))));
+            }
+            for (std::size_t i = 0; i < profiles.size(); ++i)
+                far[i] = k == 0 ? near[i] : std::min(far[i], near[i]);
+        }
+        return result;
+    }
+
+    void smoothColours(NoiseSources &sources, Index half)
+    {
+        std::vector<float> ln(static_cast<std::size_t>(sources.cells));
+        for (Index k = 0; k < sources.count(); ++k) {
+            float *colour = sources.colours.data() + k * sources.cells;
+            for (std::size_t cell = 0; cell < ln.size(); ++cell)
+                ln[cell] = std::log(std::max(colour[cell], least));
+            const std::vector<float> smooth = runningMedian(ln, half);
+            for (std::size_t cell = 0; cell < ln.size(); ++cell)
+                colour[cell] = std::exp(smooth[cell]);
+        }
+    }
+
+} // namespace
+
+void NoiseSources::addUp(std::span<const float> levels, std::span<float> out) const
+{
+    std::fill(out.begin(), out.end(), 0.0f);
+    for (std::size_t k = 0; k < levels.size(); ++k)
+        addSource(colours.data() + k * out.size(), levels[k], out.size(), out.data());
+}
+
+std::vector<float> NoiseSources::levelsIn(std::span<const float> frame) const
+{
+    std::vector<float> levels(static_cast<std::size_t>(count()), 0.0f);
+    if (std::none_of(frame.begin(), frame.end(), [](float y) { return y > 0.0f; }))
+        return levels;
+    levels = firstLevels(*this, frame);
+    Scratch scratch(frame.size());
+    for (int i = 0; i < levelUpdates; ++i)
+        updateLevels(*this, frame, levels, scratch);
+    return levels;
+}
+
+NoiseSources fitSources(std::span<const float> frames, Index cells, Index count, Index half)
+{
+    const auto size = static_cast<std::size_t>(cells);
+    std::vector<float> loud; // the frames that are no digital silence
+    for (std::size_t first = 0; first < frames.size(); first += size)
+        if (const auto row = frames.subspan(first, size); std::any_of(row.begin(), row.end(), [](float y) { return y > 0.0f; }))
+            loud.insert(loud.end(), row.begin(), row.end());
+    if (loud.empty())
+        return {};
+    NoiseSources sources = firstSources(loud, cells, count);
+    const std::size_t frameCount = loud.size() / size;
+    std::vector<std::vector<float>> levels;
+    for (std::size_t frame = 0; frame < frameCount; ++frame)
+        levels.push_back(firstLevels(sources, std::span(loud).subspan(frame * size, size)));
+    Scratch scratch(size);
+    std::vector<float> pull(sources.colours.size());
+    std::vector<float> inverse(sources.colours.size());
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        std::fill(pull.begin(), pull.end(), 0.0f);
+        std::fill(inverse.begin(), inverse.end(), 0.0f);
+        for (std::size_t frame = 0; frame < frameCount; ++frame) {
+            const auto row = std::span<const float>(loud).subspan(frame * size, size);
+            for (int i = 0; i < (sweep == 0 ? levelUpdates : 2); ++i)
+                updateLevels(sources, row, levels[frame], scratch);
+            weigh(sources, row, levels[frame], scratch);
+            for (std::size_t k = 0; k < levels[frame].size(); ++k) {
+                addSource(scratch.pull.data(), levels[frame][k], size, pull.data() + k * size);
+                addSource(scratch.inverse.data(), levels[frame][k], size, inverse.data() + k * size);
+            }
+        }
+        for (std::size_t i = 0; i < pull.size(); ++i)
+            sources.colours[i] *= inverse[i] > 0.0f ? pull[i] / inverse[i] : 1.0f;
+        smoothColours(sources, half);
+    }
+    return sources;
+}
+
+} // namespace faintline
