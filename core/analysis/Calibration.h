@@ -33,6 +33,9 @@ struct Calibration {
     double exceedanceAt(double nats) const;
     double thresholdForEventRate(double eventsPerCellFrame) const;
     double thresholdForPfa(double probability) const;
+    /// The lowest simulated level that a cell exceeds with at most that probability, never continued: known while events are still being
+    /// counted. -∞ where nothing was simulated.
+    double levelExceededBy(double probability) const;
     /// 95 % half-width, in nats, of the threshold for an event rate.
     double thresholdUncertainty(double eventsPerCellFrame) const;
 
