@@ -149,7 +149,7 @@ std::vector<Track> Document::shownTracks() const
     std::vector<Track> result;
     if (m_analysis)
         std::copy_if(m_analysis->tracks.begin(), m_analysis->tracks.end(), std::back_inserter(result),
-                     [this](const Track &track) { return track.peakStatistic >= m_shownThreshold; });
+                     [this](const Track &track) { return statisticOf(track, *m_analysis) >= m_shownThreshold; });
     return result;
 }
 

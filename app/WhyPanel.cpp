@@ -3,6 +3,7 @@
 #include "app/Document.h"
 #include "app/Sight.h"
 #include "app/readingTable.h"
+#include "app/statisticUnit.h"
 #include "widgets/ChartPlot.h"
 #include "widgets/PingViewports.h"
 #include "widgets/axisWords.h"
@@ -111,12 +112,14 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
     }
     const Axis &time = analysis.time();
     const double margin = explanation.displayed - explanation.threshold;
-    QString words = QObject::tr("%1: D = %2 nat at %3 and %4, %5 nat %6 the threshold. ")
+    QString words = QObject::tr("%1: D = %2 %7 at %3 and %4, %5 %7 %6 the threshold. ")
                         .arg(explanation.isTracked ? QObject::tr("Followed by a track")
                                                    : margin >= 0.0 ? QObject::tr("Detected") : QObject::tr("Not detected"),
                              numberText(explanation.displayed, 2), secondsText(explanation.seconds, time.step),
                              placeWords(explanation.position, analysis.grid()), numberText(std::abs(margin), 2),
-                             margin >= 0.0 ? QObject::tr("above") : QObject::tr("below"));
+                             margin >= 0.0 ? QObject::tr("above") : QObject::tr("below"), statisticUnit(analysis.settings));
+    if (!isScoreOfPaths(analysis.settings.detector))
+        words += QObject::tr("The detector has no paths; this one, in nats, is its guide's, a sequential Markov detector's. ");
     if (explanation.inhibitedFor)
         words += *explanation.inhibitedFor > 0
             ? QObject::tr("The data here are kept from the detector for track %1. ").arg(*explanation.inhibitedFor)

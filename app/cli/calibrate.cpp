@@ -35,7 +35,8 @@ void addCalibrate(CLI::App &app, Common &common)
         Json json{{"detector", std::string(detectorNames[settings.detector.index()])},
                   {"lnK", calibration->lnK},
                   {"continuedFraction", calibration->continuedFraction},
-                  {"tailSlopePerNat", calibration->tailSlope}};
+                  {"tailSlopePerNat", calibration->tailSlope},
+                  {"statisticUnit", statisticUnit(settings.detector)}};
         Json pfa = Json::array();
         for (const double probability : {1e-3, 1e-4, 1e-5, 1e-6})
             pfa.push_back({{"pfaPerCell", probability}, {"thresholdNats", calibration->thresholdForPfa(probability)}});
@@ -78,11 +79,12 @@ void addCalibrate(CLI::App &app, Common &common)
         if (std::holds_alternative<SmdSettings>(settings.detector))
             std::printf("ln K               %.4f (K = %.4f), %.1f %% of the states continued on noise\n", calibration->lnK, std::exp(calibration->lnK),
                         100.0 * calibration->continuedFraction);
+        const std::string unit(statisticUnit(settings.detector));
         for (const Json &entry : pfa)
-            std::printf("Pfa per cell %.0e  threshold %.3f\n", entry["pfaPerCell"].get<double>(), entry["thresholdNats"].get<double>());
+            std::printf("Pfa per cell %.0e  threshold %.3f %s\n", entry["pfaPerCell"].get<double>(), entry["thresholdNats"].get<double>(), unit.c_str());
         if (const auto found = json.find("recording"); found != json.end())
-            std::printf("on this recording  threshold %.3f (95 %%: %.3f … %.3f), Pfa per cell %.2e, %.3g false alarms per hour (95 %%: %.3g … %.3g)\n",
-                        (*found)["thresholdNats"].get<double>(), (*found)["intervalNats"][0].get<double>(), (*found)["intervalNats"][1].get<double>(),
+            std::printf("on this recording  threshold %.3f %s (95 %%: %.3f … %.3f), Pfa per cell %.2e, %.3g false alarms per hour (95 %%: %.3g … %.3g)\n",
+                        (*found)["thresholdNats"].get<double>(), unit.c_str(), (*found)["intervalNats"][0].get<double>(), (*found)["intervalNats"][1].get<double>(),
                         (*found)["pfaPerCell"].get<double>(), (*found)["falseAlarmsPerHour"].get<double>(),
                         (*found)["falseAlarmsPerHourInterval"][0].get<double>(), (*found)["falseAlarmsPerHourInterval"][1].get<double>());
         if (const auto found = json.find("surrogates"); found != json.end()) {

@@ -10,6 +10,7 @@
 #include "exchange/NumPy.h"
 #include "base/AtomicFile.h"
 #include "detect/SumDetector.h"
+#include "detect/statisticDecimals.h"
 #include "evaluate/trackScore.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
@@ -57,8 +58,11 @@ namespace {
         const Axis &time = analysis.time();
         const std::vector<Event> found = events(analysis);
         std::printf("%td frames of %td cells, %s s a frame\n", time.count, analysis.grid().size(), formatNumber(time.step).c_str());
-        std::printf("ln K %.4f (%.1f %% of noise states continued), threshold %.2f nat", analysis.calibration->lnK,
-                    100.0 * analysis.calibration->continuedFraction, analysis.threshold);
+        const DetectorSettings &detector = analysis.settings.detector;
+        const std::string unit(statisticUnit(detector));
+        std::printf("ln K %.4f (%.1f %% of noise states continued%s), threshold %.2f %s", analysis.calibration->lnK,
+                    100.0 * analysis.calibration->continuedFraction, isScoreOfPaths(detector) ? "" : ", of the detector that guides the tracks",
+                    analysis.threshold, unit.c_str());
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
         std::printf(": %.3g false alarms an hour on noise\n", perHour);
         if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
@@ -71,7 +75,7 @@ namespace {
                 std::printf(" %.8g %s", e.position[axis], analysis.grid().axes[axis].unit.c_str());
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
                 std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], analysis.grid().axes[axis].unit.c_str());
-            std::printf(", %.1f nat%s%s%s\n", e.statistic, e.isConfirmed ? "" : ", not confirmed",
+            std::printf(", %.*f %s%s%s%s\n", statisticDecimals(detector), e.statistic, unit.c_str(), e.isConfirmed ? "" : ", not confirmed",
                         e.isOpen ? ", still there at the end" : "",
                         !analysis.bank.empty() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
         }
@@ -217,13 +221,18 @@ namespace {
     {
         const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[explanation.model].model.space;
         const std::vector<Axis> &axes = analysis.grid().axes;
+        // What is held against the threshold: the path's score, or the statistic of a detector that has no paths, in its own unit.
+        const bool isScore = isScoreOfPaths(analysis.settings.detector);
+        const double decided = isScore ? explanation.statistic : explanation.displayed;
+        const std::string unit(statisticUnit(analysis.settings.detector));
         Json json;
         json["time"] = explanation.seconds;
         json["position"] = explanation.position;
         json["statistic"] = explanation.statistic;
         json["displayed"] = explanation.displayed;
         json["threshold"] = explanation.threshold;
-        json["margin"] = explanation.statistic - explanation.threshold;
+        json["unit"] = unit;
+        json["margin"] = decided - explanation.threshold;
         json["tracked"] = explanation.isTracked;
         json["offset"] = explanation.offset;
         json["reset"]["cause"] = resetNames[static_cast<std::size_t>(explanation.reset.kind)];
@@ -251,9 +260,11 @@ namespace {
             std::printf("%s\n", json.dump(2).c_str());
             return;
         }
-        std::printf("statistic %.4f nat, threshold %.4f nat: %s by %.4f nat%s\n", explanation.statistic, explanation.threshold,
-                    explanation.statistic > explanation.threshold ? "above" : "below",
-                    std::abs(explanation.statistic - explanation.threshold), explanation.isTracked ? ", followed by a tracker" : "");
+        std::printf("statistic %.4f %s, threshold %.4f %s: %s by %.4f %s%s\n", decided, unit.c_str(), explanation.threshold, unit.c_str(),
+                    decided > explanation.threshold ? "above" : "below", std::abs(decided - explanation.threshold), unit.c_str(),
+                    explanation.isTracked ? ", followed by a tracker" : "");
+        if (!isScore)
+            std::printf("its tracks are guided by a sequential Markov detector, whose path there has %.4f nat:\n", explanation.statistic);
         std::printf("the best path began %zu frame(s) ago, where its past was worth nothing and it was reset\n", explanation.steps.size() - 1);
         if (axes.size() == 1)
             std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");

@@ -571,6 +571,14 @@ double Calibration::thresholdForPfa(double probability) const
     return 0.5 * (low + high);
 }
 
+double Calibration::levelExceededBy(double probability) const
+{
+    if (levels.empty())
+        return -std::numeric_limits<double>::infinity();
+    const auto first = std::find_if(exceedance.begin(), exceedance.end(), [&](double p) { return p <= probability; });
+    return levels[std::min(static_cast<std::size_t>(first - exceedance.begin()), levels.size() - 1)];
+}
+
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context, double cellFrames)
 {
     const AnalysisSettings bare = dimensionless(settings);

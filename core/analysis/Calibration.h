@@ -39,6 +39,9 @@ struct Calibration {
     double thresholdForPfa(double probability) const;
     /// The rate lies within this factor of what it is said to be, either way (95 %).
     double rateUncertaintyAt(double nats) const;
+    /// The lowest simulated level that a cell exceeds with at most that probability, never continued: known while events are still being
+    /// counted. -∞ where nothing was simulated.
+    double levelExceededBy(double probability) const;
     /// 95 % half-width, in nats, of the threshold for an event rate.
     double thresholdUncertainty(double eventsPerCellFrame) const;
 

@@ -231,6 +231,11 @@ namespace {
 
 } // namespace
 
+double statisticOf(const Track &track, const Analysis &analysis)
+{
+    return isScoreOfPaths(analysis.settings.detector) ? track.peakStatistic : track.detectStatistic;
+}
+
 std::vector<Event> events(const Analysis &analysis)
 {
     return events(analysis, analysis.tracks);
@@ -257,7 +262,7 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
             event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
         event.driftPerSecond = event.ratesPerSecond.back();
         event.model = track.model;
-        event.statistic = track.peakStatistic;
+        event.statistic = statisticOf(track, analysis);
         event.isConfirmed = track.isConfirmed;
         event.isOpen = track.isOpen;
         result.push_back(std::move(event));

@@ -69,12 +69,15 @@ struct Event {
     double endSeconds = 0.0;
     std::vector<double> position;   ///< at detection, one per axis (Hz; or m, degrees)
     double driftPerSecond = 0.0;    ///< straight-line slope of the track along the last axis
-    double statistic = 0.0;         ///< largest, nat
+    double statistic = 0.0;         ///< in the detector's unit: the path's largest where it is its score, else that of the detection
     bool isConfirmed = false;
     bool isOpen = false;
     std::vector<double> ratesPerSecond; ///< as driftPerSecond, along every axis
     std::size_t model = 0;          ///< of a bank, the one that found it
 };
+
+/// A track's statistic as its event has it.
+double statisticOf(const Track &track, const Analysis &analysis);
 
 /// The events of an analysis at its threshold, ordered by onset, then frequency.
 std::vector<Event> events(const Analysis &analysis);

@@ -13,6 +13,7 @@ namespace faintline {
 namespace {
 
     constexpr double shoulderNats = 8.0;
+    constexpr double noiseOnShoulder = 1e-3; ///< of the cells of a frame that decides
     constexpr Index manyStates = 1'000'000; ///< of so many, tracing a path back over tens of frames takes seconds
     constexpr Index onsetFramesOfMany = 16;
 
@@ -52,12 +53,32 @@ namespace {
         return {{0}, {bins - 1}};
     }
 
+    FrameGeometry geometryOf(const Analysis &analysis)
+    {
+        const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr;
+        return isSpectral ? frameGeometry(analysis.settings.spectrogram) : FrameGeometry{};
+    }
+
+    /// Where an excursion ends. The score of paths, in nats, is forgotten down to 8 nat below the threshold: what lies so near has branched
+    /// off the path that crossed it, and would cross in its turn. Of any other statistic: at the level that noise exceeds in one cell of
+    /// a thousand, in its own unit.
+    double shoulderOf(const Analysis &analysis)
+    {
+        const double threshold = analysis.threshold;
+        if (isScoreOfPaths(analysis.settings.detector))
+            return threshold - std::min(shoulderNats, 0.5 * std::abs(threshold));
+        const auto decision = static_cast<double>(framesPerDecision(analysis.settings.detector, geometryOf(analysis)));
+        return std::min(threshold, analysis.calibration->levelExceededBy(noiseOnShoulder / decision));
+    }
+
     ChainSettings chainSettings(const Analysis &analysis)
     {
         const AnalysisSettings &settings = analysis.settings;
         ChainSettings chain;
         chain.threshold = analysis.threshold;
-        chain.shoulder = analysis.threshold - std::min(shoulderNats, 0.5 * std::abs(analysis.threshold));
+        chain.shoulder = shoulderOf(analysis);
+        if (!isScoreOfPaths(settings.detector))
+            chain.trackThreshold = settings.track.endNats;
         chain.linkCells = perAxis(settings.decide.linkCells, analysis.grid());
         chain.track = settings.track;
         double binsPerCell = 1.0;
@@ -107,8 +128,7 @@ std::unique_ptr<Detector> makeDetector(const Analysis &analysis)
             members.push_back({member.model, resetRule(*smd, member.calibration->lnK), member.offset});
         return std::make_unique<ModelBank>(members);
     }
-    const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr;
-    return makeDetector(settings.detector, analysis.model, analysis.grid(), isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{},
+    return makeDetector(settings.detector, analysis.model, analysis.grid(), geometryOf(analysis),
                         smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
 }
 

@@ -15,8 +15,9 @@ const std::vector<Field<BlockViterbiSettings>> &BlockViterbiSettings::fields()
     return table;
 }
 
-BlockViterbi::BlockViterbi(const MarkovModel &model, Index framesPerBlock)
-    : m_smd(model, {ResetLaw::None}), m_beginning(m_smd.memory()), m_framesPerBlock(std::max<Index>(1, framesPerBlock))
+BlockViterbi::BlockViterbi(const MarkovModel &model, Index framesPerBlock, Index phase)
+    : m_smd(model, {ResetLaw::None}), m_beginning(m_smd.memory()), m_framesPerBlock(std::max<Index>(1, framesPerBlock)),
+      m_frame(phase % m_framesPerBlock)
 {
 }
 

@@ -26,7 +26,8 @@ struct BlockViterbiSettings {
 class BlockViterbi final : public Detector
 {
 public:
-    BlockViterbi(const MarkovModel &model, Index framesPerBlock);
+    /// `phase`: how many frames of a block have gone by before the first one, whose block is shorter by as many.
+    BlockViterbi(const MarkovModel &model, Index framesPerBlock, Index phase = 0);
 
     void update(std::span<const float> y, std::span<float> statistic) override;
     /// The cells' paths so far begin again with no evidence.
@@ -37,7 +38,7 @@ private:
     Smd m_smd;
     Smd::Memory m_beginning;
     Index m_framesPerBlock;
-    Index m_frame = 0; ///< in the block
+    Index m_frame; ///< in the block
 };
 
 } // namespace faintline

@@ -71,9 +71,9 @@ void Integrator::forget(const Grid &grid, const CellBox &box)
 {
     box.forEachCell(grid, [&](Index cell) {
         const auto i = static_cast<std::size_t>(cell);
-        m_sum[i] = 0.0;
+        m_sum[i] = m_past.empty() ? 1.0 : static_cast<double>(m_past.size());
         for (std::vector<float> &frame : m_past)
-            frame[i] = 0.0f;
+            frame[i] = 1.0f;
     });
 }
 

@@ -34,6 +34,7 @@ public:
     Integrator(Index cells, IntegratorSettings::Shape shape, Index frames);
 
     void update(std::span<const float> y, std::span<float> statistic) override;
+    /// The past of the cells becomes that of noise: D = 1.
     void forget(const Grid &grid, const CellBox &box) override;
 
 private:

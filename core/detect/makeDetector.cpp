@@ -2,6 +2,7 @@
 
 #include "detect/SumDetector.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -56,6 +57,12 @@ DetectorSettings detectorOfKind(std::size_t index)
     }(std::make_index_sequence<std::variant_size_v<DetectorSettings>>());
 }
 
+Index framesPerDecision(const DetectorSettings &settings, const FrameGeometry &geometry)
+{
+    const auto *blocks = std::get_if<BlockViterbiSettings>(&settings);
+    return blocks ? std::max<Index>(1, framesOf(blocks->durationWindows, geometry)) : 1;
+}
+
 std::unique_ptr<Detector> makeDetector(const DetectorSettings &settings, const MarkovModel &model, const Grid &grid,
                                        const FrameGeometry &geometry, const ResetRule &rule)
 {
@@ -70,7 +77,7 @@ std::unique_ptr<Detector> makeDetector(const DetectorSettings &settings, const M
             [&](const IntegratorSettings &s) -> Made { return integrator(s.shape, framesOf(s.durationWindows, geometry)); },
             [&](const EnergySettings &) -> Made { return integrator(IntegratorSettings::Shape::Boxcar, 1); },
             [&](const BlockViterbiSettings &s) -> Made {
-                return std::make_unique<BlockViterbi>(model, framesOf(s.durationWindows, geometry));
+                return std::make_unique<BlockViterbi>(model, framesOf(s.durationWindows, geometry), geometry.blockPhase);
             },
             [&](const ShiryaevRobertsSettings &s) -> Made {
                 return std::make_unique<SumDetector>(model, ResetRule{ResetLaw::Fixed, s.lnK});

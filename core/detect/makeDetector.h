@@ -51,6 +51,11 @@ inline constexpr std::array<std::string_view, std::variant_size_v<DetectorSettin
 /// What the statistics of these are measured in: log-likelihoods in nats, mean powers as multiples of the noise's.
 inline constexpr std::array<std::string_view, detectorNames.size()> detectorUnits{"nat", "× noise", "× noise", "× noise", "nat", "nat"};
 
+inline std::string_view statisticUnit(const DetectorSettings &settings)
+{
+    return detectorUnits[settings.index()];
+}
+
 /// The default settings of the alternative of that index.
 DetectorSettings detectorOfKind(std::size_t index);
 
@@ -58,7 +63,18 @@ DetectorSettings detectorOfKind(std::size_t index);
 struct FrameGeometry {
     double framesPerWindow = 1.0; ///< k_t
     double binsPerCell = 1.0;     ///< k_f
+    Index blockPhase = 0;         ///< frames of a block that have gone by before the first frame, for detectors that decide in blocks
 };
+
+/// Whether the statistic is the score of a path, in nats, which a tracker follows on. The tracks of the others start from the paths of a
+/// sequential Markov detector beside them (GuidedDetector), whose scores have nothing to do with the statistic.
+inline bool isScoreOfPaths(const DetectorSettings &settings)
+{
+    return std::holds_alternative<SmdSettings>(settings);
+}
+
+/// Frames from one decision to the next: a block's length where a detector decides at the end of blocks, else 1.
+Index framesPerDecision(const DetectorSettings &settings, const FrameGeometry &geometry);
 
 /// The detector that the settings describe. `rule`: the reset of the sequential Markov detector, as calibrated.
 std::unique_ptr<Detector> makeDetector(const DetectorSettings &settings, const MarkovModel &model, const Grid &grid,

@@ -41,15 +41,12 @@ namespace {
         return curve;
     }
 
-    /// Pd among the trials whose place was free of detections without the line.
     CurvePoint injectionPoint(const InjectionExperiment &experiment, const Campaign &campaign, std::size_t detector, std::size_t snr)
     {
         const double threshold = campaign.thresholds[detector];
         CurvePoint point{experiment.detectors[detector].name, experiment.snrDb[snr], 0.0, {}, 0, threshold};
         std::int64_t detections = 0;
         for (const RunOutcome &outcome : campaign.outcomes) {
-            if (static_cast<double>(outcome.noise[detector].front()) > threshold)
-                continue;
             ++point.trials;
             detections += static_cast<double>(outcome.signal[detector][snr].front()) > threshold ? 1 : 0;
         }

@@ -16,9 +16,13 @@ namespace faintline {
 
 /// Detection of known lines added to a real recording: Pd in this noise.
 ///
-/// A *trial* adds one line at a random time and frequency of the selection and asks every detector, at its threshold for the given
-/// false alarms per hour, whether the statistic exceeds it within half a resolution cell of the line while it lasts. Trials at
-/// places where a detector's statistic exceeds the threshold without the line are not counted for it: something is there already.
+/// A *trial* adds one line at a random time and frequency of the selection, away from all signals, and asks every detector whether its
+/// statistic exceeds its threshold within half a resolution cell of the line while it lasts; a detector that decides at the end of blocks,
+/// which stand where they do in the whole recording, also at the first end after the line. All trials count for all detectors.
+///
+/// Signals are what the chain of any detector tracks at a thousandth of the false alarms asked for; they are kept from all detectors alike
+/// (y = 0). Thresholds give every detector the same number of false alarms in the rest of this recording (measuredThreshold), counted in
+/// blocks as long as a line and 12 resolution cells wide, on the same statistic that the trials are judged by.
 struct InjectionExperiment {
     std::string recording; ///< path
     bool iq = false;       ///< two channels as I and Q
@@ -45,7 +49,8 @@ Json toJson(const InjectionExperiment &experiment);
 class InjectionTrials
 {
 public:
-    /// Opens the recording, estimates its noise, calibrates every detector. Throws Error, Cancelled.
+    /// Estimates the recording's noise, calibrates every detector, finds what signals there are and measures thresholds.
+    /// Throws Error, Cancelled.
     InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording, const RunContext &context = {});
     ~InjectionTrials();
 

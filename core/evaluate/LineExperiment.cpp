@@ -240,25 +240,40 @@ namespace {
         return recipes;
     }
 
-    std::vector<std::unique_ptr<Detector>> detectorsOf(const LineExperiment &experiment, const std::vector<Recipe> &recipes)
+    FrameGeometry geometryOf(const LineExperiment &experiment)
     {
-        const FrameGeometry geometry{static_cast<double>(experiment.stepsPerWindow), static_cast<double>(experiment.binsPerCell)};
+        return {static_cast<double>(experiment.stepsPerWindow), static_cast<double>(experiment.binsPerCell)};
+    }
+
+    /// Lines begin at random in their noise blocks, a detector's own blocks at random in the run: by the golden ratio, so that few runs already
+    /// have all phases.
+    Index blockPhase(int run, Index framesPerBlock)
+    {
+        const double turns = 0.6180339887498949 * (run + 1);
+        return static_cast<Index>((turns - std::floor(turns)) * static_cast<double>(framesPerBlock));
+    }
+
+    std::vector<std::unique_ptr<Detector>> detectorsOf(const LineExperiment &experiment, const std::vector<Recipe> &recipes, int run)
+    {
         std::vector<std::unique_ptr<Detector>> detectors;
-        for (const Recipe &recipe : recipes)
+        for (const Recipe &recipe : recipes) {
+            FrameGeometry geometry = geometryOf(experiment);
+            geometry.blockPhase = blockPhase(run, framesPerDecision(recipe.detector, geometry));
             detectors.push_back(makeDetector(recipe.detector, recipe.model, gridOf(experiment), geometry, recipe.rule));
+        }
         return detectors;
     }
 
     constexpr float lowest = -std::numeric_limits<float>::infinity();
 
-    /// Runs all detectors over the field; look(detector, frame, statistic) sees every frame.
+    /// Runs all detectors over the frames of a run's field; look(detector, frame, statistic) sees each.
     template <class Look>
-    void detect(const LineExperiment &experiment, const std::vector<Recipe> &recipes, const NoisyField &field, float amplitude, Look look)
+    void detect(const LineExperiment &experiment, int run, const std::vector<Recipe> &recipes, const NoisyField &field, float amplitude,
+                Index frames, Look look)
     {
-        const auto detectors = detectorsOf(experiment, recipes);
+        const auto detectors = detectorsOf(experiment, recipes, run);
         std::vector<float> y(static_cast<std::size_t>(experiment.bins()));
         std::vector<float> statistic(y.size());
-        const Index frames = static_cast<Index>(experiment.blocksInTime()) * experiment.blockFrames;
         for (Index frame = 0; frame < frames; ++frame) {
             powerOf(field, experiment.bins(), frame, amplitude, y);
             for (std::size_t d = 0; d < detectors.size(); ++d) {
@@ -275,7 +290,8 @@ namespace {
         RunOutcome outcome;
         outcome.run = run;
         outcome.noise.assign(recipes.size(), std::vector<float>(signals, lowest));
-        detect(experiment, recipes, field, 0.0f, [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
+        const Index frames = static_cast<Index>(experiment.blocksInTime()) * experiment.blockFrames;
+        detect(experiment, run, recipes, field, 0.0f, frames, [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
             const Index row = frame / experiment.blockFrames * experiment.blocksInFrequency();
             for (Index column = 0; column < experiment.blocksInFrequency(); ++column) {
                 const auto from = statistic.begin() + column * experiment.blockBins;
@@ -283,21 +299,33 @@ namespace {
                 largest = std::max(largest, *std::max_element(from, from + experiment.blockBins));
             }
         });
+        // A detector that decides at the end of blocks is read at the first one after the line, too, one resolution cell to either side of where
+        // that ended: at the latest, a block after it. In the frames between it says -∞.
+        std::vector<Index> waits;
+        for (const Recipe &recipe : recipes)
+            waits.push_back(framesPerDecision(recipe.detector, geometryOf(experiment)) - 1);
+        const Index longestWait = *std::max_element(waits.begin(), waits.end());
+        const Index onLine = experiment.binsPerCell;
         outcome.signal.assign(recipes.size(), std::vector<std::vector<float>>(experiment.snrDb.size(), std::vector<float>(signals, lowest)));
         for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
             const auto amplitude = static_cast<float>(std::sqrt(ratioFromDb(experiment.snrDb[s])));
-            detect(experiment, recipes, field, amplitude, [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
-                const Index row = frame / experiment.blockFrames * experiment.blocksInFrequency();
-                for (Index column = 0; column < experiment.blocksInFrequency(); ++column) {
-                    const auto i = static_cast<std::size_t>(row + column);
+            const auto see = [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
+                for (std::size_t i = 0; i < signals; ++i) {
                     const Place &place = field.places[i];
                     const Index k = frame - place.firstFrame;
-                    if (k < 0 || k >= std::ssize(place.bins))
+                    if (k < 0 || k >= std::ssize(place.bins) + waits[d])
                         continue;
                     float &largest = outcome.signal[d][s][i];
-                    largest = std::max(largest, statistic[static_cast<std::size_t>(place.bins[static_cast<std::size_t>(k)])]);
+                    if (k < std::ssize(place.bins)) {
+                        largest = std::max(largest, statistic[static_cast<std::size_t>(place.bins[static_cast<std::size_t>(k)])]);
+                        continue;
+                    }
+                    const Index end = place.bins.back();
+                    for (Index bin = std::max<Index>(0, end - onLine); bin <= std::min<Index>(experiment.bins() - 1, end + onLine); ++bin)
+                        largest = std::max(largest, statistic[static_cast<std::size_t>(bin)]);
                 }
-            });
+            };
+            detect(experiment, run, recipes, field, amplitude, longestWait > 0 ? experiment.frames : frames, see);
         }
         return outcome;
     }

@@ -2,6 +2,7 @@
 
 #include "base/AtomicFile.h"
 #include "base/json.h"
+#include "detect/statisticDecimals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,7 @@ namespace {
     {
         Json json;
         json["threshold"] = analysis.threshold;
+        json["statisticUnit"] = statisticUnit(analysis.settings.detector);
         json["lnK"] = analysis.calibration->lnK;
         json["settings"] = parseJson(settingsToJson(analysis.settings), "settings");
         json["events"] = Json::array();
@@ -111,12 +113,19 @@ namespace {
         return json.dump(2) + "\n";
     }
 
+    /// Rounded as it is shown, with its unit.
+    std::string shownStatistic(const Event &e, const Analysis &analysis)
+    {
+        const double steps = std::pow(10.0, statisticDecimals(analysis.settings.detector));
+        return formatNumber(std::round(steps * e.statistic) / steps) + " " + std::string(statisticUnit(analysis.settings.detector));
+    }
+
     std::string audacityLabels(const Analysis &analysis)
     {
         std::string text;
         for (const Event &e : events(analysis))
             text += formatNumber(e.onsetSeconds) + "\t" + formatNumber(e.endSeconds) + "\t" + formatNumber(e.position.back()) + " Hz, "
-                + formatNumber(std::round(10.0 * e.statistic) / 10.0) + " nat\n";
+                + shownStatistic(e, analysis) + "\n";
         return text;
     }
 
@@ -128,7 +137,10 @@ namespace {
         const double centre = analysis.recording->info().centreHz;
         Json json;
         json["global"] = {{"core:version", "1.0.0"}, {"core:sample_rate", rate},
-                          {"core:description", "Events found by Faintline's sequential Markov detector"}};
+                          {"core:description", std::string("Events found by Faintline's ")
+                                                   + (isScoreOfPaths(analysis.settings.detector)
+                                                          ? "sequential Markov detector"
+                                                          : "detector " + std::string(detectorNames[analysis.settings.detector.index()]))}};
         json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
         json["annotations"] = Json::array();
         for (const Event &e : events(analysis)) {
@@ -146,7 +158,7 @@ namespace {
             annotation["core:freq_lower_edge"] = centre + low;
             annotation["core:freq_upper_edge"] = centre + high;
             annotation["core:label"] = "line " + std::to_string(e.id);
-            annotation["core:comment"] = "statistic " + formatNumber(e.statistic) + " nat";
+            annotation["core:comment"] = "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
             json["annotations"].push_back(annotation);
         }
         return json.dump(2) + "\n";

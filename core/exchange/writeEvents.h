@@ -9,7 +9,8 @@ namespace faintline {
 /// Writes the events of an analysis, the kind by the extension: .csv, .json, .txt (Audacity labels), .sigmf-meta (annotations).
 ///
 /// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz at detection; or one column per axis), drift_hz_per_s
-/// (along the last axis), statistic (nat), confirmed, open; on several axes AXIS_per_s of each. Numbers in the C locale, shortest form that
+/// (along the last axis), statistic (in the detector's unit: nat, or multiples of the noise; the .json names it), confirmed, open; on several
+/// axes AXIS_per_s of each. Numbers in the C locale, shortest form that
 /// reads back the same. Files appear only when complete. Throws Error for an unknown extension or a full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
 
@@ -17,7 +18,8 @@ void writeEvents(const Analysis &analysis, const std::string &path);
 void checkEventsPath(const std::string &path);
 void checkTracksPath(const std::string &path);
 
-/// Writes the tracks: .csv with a row per frame of each track (track, t, f, statistic), or .json.
+/// Writes the tracks: .csv with a row per frame of each track (track, t, f, statistic), or .json. The statistic is the score of the track's path,
+/// in nats whatever the detector: where it has no paths, that of the sequential Markov detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);
 
 } // namespace faintline

@@ -1,6 +1,7 @@
 #include "exchange/writeReport.h"
 
 #include "base/utc.h"
+#include "detect/statisticDecimals.h"
 #include "spectrum/NormalisedFrames.h"
 
 #include <algorithm>
@@ -178,13 +179,14 @@ namespace {
         const double eventRate = calibration.eventRateAt(analysis.threshold);
         const double perHour = eventRate * analysis.cellFramesPerHour;
         const double halfWidth = calibration.thresholdUncertainty(eventRate);
+        const std::string unit = " " + std::string(statisticUnit(analysis.settings.detector));
         std::string text = "<table class=\"facts\">\n";
-        text += fact("Threshold", fixed(analysis.threshold, 2) + " nat; simulation knows it to \u00b1" + fixed(halfWidth, 2) + " nat (95 %)");
+        text += fact("Threshold", fixed(analysis.threshold, 2) + unit + "; simulation knows it to \u00b1" + fixed(halfWidth, 2) + unit + " (95 %)");
         const double factor = std::exp(calibration.tailSlope * halfWidth);
         text += fact("False alarms on noise", rough(perHour) + " per hour; 95 % interval " + rough(perHour / factor) + " \u2026 " + rough(perHour * factor));
         text += fact("Pfa per cell", rough(calibration.exceedanceAt(analysis.threshold)));
         text += fact("ln K", fixed(calibration.lnK, 3) + " nat; " + fixed(100.0 * calibration.continuedFraction, 1) + " % of noise's paths continued");
-        text += fact("Tail e^(\u2212\u03b8T)", "\u03b8 = " + fixed(calibration.tailSlope, 3) + " \u00b1 " + fixed(calibration.slopeError, 3) + " per nat");
+        text += fact("Tail e^(\u2212\u03b8T)", "\u03b8 = " + fixed(calibration.tailSlope, 3) + " \u00b1 " + fixed(calibration.slopeError, 3) + " per" + unit);
         return text + "</table>\n";
     }
 
@@ -201,7 +203,7 @@ namespace {
             units.push_back(rateUnit(axes[axis], material.events, axis));
             names.push_back((axes.size() == 1 ? "Drift" : capitalised(axes[axis].name) + " rate") + " (" + units.back().name + ")");
         }
-        names.push_back("D (nat)");
+        names.push_back("D (" + std::string(statisticUnit(analysis.settings.detector)) + ")");
         const std::size_t numeric = names.size();
         names.insert(names.end(), {"State", "Review", "Note"});
         std::string text = "<table class=\"numbers\">\n" + numbers(names, numeric, "th");
@@ -216,7 +218,7 @@ namespace {
                 review += (review.empty() ? "part of " : ", part of ") + std::to_string(said[i].signal);
             for (std::size_t axis = 0; axis < axes.size(); ++axis)
                 row.push_back(rough(units[axis].scale * event.ratesPerSecond[axis]));
-            row.insert(row.end(), {fixed(event.statistic, 1),
+            row.insert(row.end(), {fixed(event.statistic, statisticDecimals(analysis.settings.detector)),
                                    std::string(event.isConfirmed ? "confirmed" : "tentative") + (event.isOpen ? ", open" : ""), review, said[i].note});
             std::string line = numbers(row, numeric);
             if (said[i].verdict == Verdict::Rejected)
@@ -244,9 +246,15 @@ namespace {
         const Explanation &why = one.explanation;
         const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[why.model].model.space;
         const std::vector<Axis> &axes = analysis.grid().axes;
-        std::string text = "<details>\n<summary>Event " + std::to_string(one.event) + ": " + fixed(why.statistic, 2) + " nat over "
-                           + std::to_string(why.steps.size()) + " frames, " + fixed(std::abs(why.statistic - why.threshold), 2)
-                           + (why.statistic > why.threshold ? " nat above" : " nat below") + " the threshold</summary>\n";
+        // Of a detector without paths: its statistic there, and the path of the detector that guides its tracks.
+        const bool isScore = isScoreOfPaths(analysis.settings.detector);
+        const double decided = isScore ? why.statistic : why.displayed;
+        const std::string unit = " " + std::string(statisticUnit(analysis.settings.detector));
+        std::string text = "<details>\n<summary>Event " + std::to_string(one.event) + ": "
+                           + (isScore ? "" : fixed(decided, 2) + unit + "; its guide's path has ") + fixed(why.statistic, 2) + " nat over "
+                           + std::to_string(why.steps.size()) + " frames, " + (isScore ? "" : "the statistic is ")
+                           + fixed(std::abs(decided - why.threshold), 2) + unit + (decided > why.threshold ? " above" : " below")
+                           + " the threshold</summary>\n";
         std::vector<std::string> names{"t (s)"};
         for (const Axis &axis : axes)
             names.push_back(heading(axis));

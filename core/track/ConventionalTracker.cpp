@@ -63,6 +63,7 @@ void ConventionalTracker::take(Candidate &candidate, Index frame, const Hit &hit
     track.peakStatistic =
         std::accumulate(strongest.begin(), strongest.end(), 0.0, [](double sum, float y) { return sum + static_cast<double>(y); })
         / static_cast<double>(strongest.size());
+    track.detectStatistic = track.peakStatistic;
     track.points.push_back({frame, hit.cell, 0, static_cast<double>(hit.y)});
     track.endFrame = frame;
 }

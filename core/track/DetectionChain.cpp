@@ -63,7 +63,8 @@ DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid
       m_seenLimit(framesOf(grid, m_settings)), m_checkpointLimit(checkpointsOf(m_models, m_settings)), m_lambda(static_cast<std::size_t>(grid.size()))
 {
     for (const MarkovModel &model : m_models)
-        m_trackerModels.push_back(std::make_unique<TrackerModel>(model, grid, m_settings.track, m_settings.threshold));
+        m_trackerModels.push_back(
+            std::make_unique<TrackerModel>(model, grid, m_settings.track, m_settings.trackThreshold.value_or(m_settings.threshold)));
 }
 
 void DetectionChain::update(Index frame, std::span<const float> y, std::span<float> statistic)
@@ -80,9 +81,7 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
 
     Seen seen;
     seen.y.assign(y.begin(), y.end());
-    m_boxes.clear();
-    m_newBoxes.clear();
-    m_boxTracks.clear();
+    keepExcursions();
     for (const HmmTracker &tracker : m_trackers) {
         m_boxes.push_back(boxRound(tracker.coordinates(), y));
         m_boxTracks.push_back(tracker.track().id);
@@ -91,7 +90,7 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         m_boxes.push_back(boxRound(place, y));
         m_boxTracks.push_back(0);
     }
-    const std::size_t leftAlone = m_settings.inhibits ? 0 : m_trackers.size();
+    const std::size_t leftAlone = m_settings.inhibits ? 0 : m_excursions + m_trackers.size();
     keepFromDetector(std::span(m_boxes).subspan(leftAlone), seen.y);
     m_detector->update(seen.y, statistic);
     for (std::size_t i = 0; i < m_detector->memberCount(); ++i)
@@ -102,9 +101,15 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
     for (const Cluster &cluster : clusters)
         startTrack(frame, cluster, y);
     if (m_settings.resets)
-        m_seen.back().forgotten = forgottenBoxes();
-    for (const HmmTracker &tracker : m_trackers)
-        tracker.paint(statistic);
+        m_seen.back().forgotten.assign(forgottenBoxes().begin(), forgottenBoxes().end());
+    for (const HmmTracker &tracker : m_trackers) {
+        if (!m_settings.trackThreshold) {
+            tracker.paint(statistic);
+            continue;
+        }
+        float &value = statistic[static_cast<std::size_t>(tracker.cell())];
+        value = std::max(value, static_cast<float>(tracker.track().detectStatistic));
+    }
 }
 
 void DetectionChain::remember(Index frame, Seen seen)
@@ -135,9 +140,20 @@ void DetectionChain::remember(Index frame, Seen seen)
     m_checkpoints.push_back(std::move(checkpoint));
 }
 
-const std::vector<CellBox> &DetectionChain::forgottenBoxes() const
+std::span<const CellBox> DetectionChain::forgottenBoxes() const
 {
-    return m_settings.forgetCells.empty() ? m_boxes : m_newBoxes;
+    return m_settings.forgetCells.empty() ? std::span(m_boxes).subspan(m_excursions) : std::span(m_newBoxes);
+}
+
+void DetectionChain::keepExcursions()
+{
+    // A whole excursion is forgotten with its track's start: in the frame after it, all of that is kept from the detector, be it wider
+    // than the box its track has by now.
+    m_excursions = m_settings.trackThreshold && m_settings.forgetCells.empty() ? m_newBoxes.size() : 0;
+    const auto begun = static_cast<std::ptrdiff_t>(m_excursions);
+    m_boxes.erase(m_boxes.begin(), m_boxes.end() - begun);
+    m_boxTracks.erase(m_boxTracks.begin(), m_boxTracks.end() - begun);
+    m_newBoxes.clear();
 }
 
 void DetectionChain::keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y)
@@ -347,6 +363,7 @@ struct DetectionChain::Snapshot {
     std::vector<CellBox> boxes;
     std::vector<CellBox> newBoxes;
     std::vector<int> boxTracks;
+    std::size_t excursions = 0;
     int nextId = 1;
 };
 
@@ -374,6 +391,7 @@ std::shared_ptr<const DetectionChain::Snapshot> DetectionChain::snapshot() const
     result->boxes = m_boxes;
     result->newBoxes = m_newBoxes;
     result->boxTracks = m_boxTracks;
+    result->excursions = m_excursions;
     result->nextId = m_nextId;
     return result;
 }
@@ -388,6 +406,7 @@ void DetectionChain::resume(const Snapshot &snapshot)
     m_boxes = snapshot.boxes;
     m_newBoxes = snapshot.newBoxes;
     m_boxTracks = snapshot.boxTracks;
+    m_excursions = snapshot.excursions;
     m_nextId = snapshot.nextId;
     m_seen.clear();
     m_checkpoints.clear();
@@ -395,7 +414,7 @@ void DetectionChain::resume(const Snapshot &snapshot)
 
 std::span<const CellBox> DetectionChain::forgotten() const
 {
-    return m_settings.resets ? std::span<const CellBox>(forgottenBoxes()) : std::span<const CellBox>();
+    return m_settings.resets ? forgottenBoxes() : std::span<const CellBox>();
 }
 
 void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<const float> y)
@@ -417,7 +436,8 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     track.isConfirmed = m_settings.track.confirmFrames <= 1 && m_settings.track.confirmNats <= 0.0;
     track.confirmFrame = track.isConfirmed ? frame : -1;
 
-    const double offset = static_cast<double>(cluster.peakStatistic) - scoreOf(state, model);
+    track.detectStatistic = static_cast<double>(cluster.peakStatistic);
+    const double offset = m_settings.trackThreshold ? 0.0 : track.detectStatistic - scoreOf(state, model);
     m_boxTracks.push_back(track.id);
     m_trackers.emplace_back(*m_trackerModels[model], std::move(track), state, cluster.cells, m_detector->member(model).scores(), offset);
 
@@ -454,7 +474,7 @@ std::vector<Track> DetectionChain::takeJoinedTracks()
         for (std::size_t axis = 0; axis < reach.size(); ++axis)
             reach[axis] = std::max(reach[axis], model->reach[axis]);
     return joinTracks(std::exchange(m_ended, {}), m_grid,
-                      {m_settings.threshold, m_settings.track.smoothingFrames, m_settings.linkCells, reach, m_trackerModels.front()->halfWidth});
+                      {m_trackerModels.front()->threshold, m_settings.track.smoothingFrames, m_settings.linkCells, reach, m_trackerModels.front()->halfWidth});
 }
 
 } // namespace faintline

@@ -11,6 +11,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,6 +21,9 @@ namespace faintline {
 /// What the chain needs to know besides the model: everything in cells of the grid and nats.
 struct ChainSettings {
     double threshold = 0.0;           ///< on the detector's statistic
+    /// Nat, where the statistic is not the score of the paths that trackers follow (GuidedDetector): what a tracker's level is held against,
+    /// and begins with at least, for its signal has been detected.
+    std::optional<double> trackThreshold;
     double shoulder = 0.0;            ///< cells above this round a crossing belong to the same excursion and are forgotten with it
     std::vector<Index> linkCells;     ///< crossings this near belong to one cluster, per axis
     std::vector<Index> inhibitCells;  ///< half the box kept from the detector round a track, per axis
@@ -44,7 +48,8 @@ struct ChainSettings {
 /// round every track and the detector takes the rest; crossings are clustered; the peak of each cluster starts a track,
 /// whose past is traced back to its onset, and the detector forgets the box round it. The statistic shown is the
 /// detector's, raised to the trackers' scores where they follow something. Under a bank of models a track belongs to the model
-/// whose statistic crossed: its path is traced, and followed, with that one. Deterministic; one object per thread.
+/// whose statistic crossed: its path is traced, and followed, with that one. Of a detector that is guided, a track's cell shows the statistic
+/// that it was detected with, for its tracker's scores are something else. Deterministic; one object per thread.
 class DetectionChain
 {
 public:
@@ -107,7 +112,8 @@ private:
     };
 
     void remember(Index frame, Seen seen);
-    const std::vector<CellBox> &forgottenBoxes() const;
+    std::span<const CellBox> forgottenBoxes() const;
+    void keepExcursions();
     void keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y);
     void updateTrackers(Index frame, std::span<const float> y);
     std::vector<std::pair<Index, float>> hideOthers(const PlaceIndex &places, std::size_t own);
@@ -128,6 +134,7 @@ private:
     std::vector<CellBox> m_boxes;
     std::vector<CellBox> m_newBoxes;  ///< of them, those of tracks started in the last frame
     std::vector<int> m_boxTracks;     ///< the track of each box
+    std::size_t m_excursions = 0;     ///< the first of the boxes: what was forgotten before the last frame with the tracks that had just begun
     std::deque<Seen> m_seen;
     Index m_firstSeen = 0;
     std::size_t m_seenLimit;

@@ -142,7 +142,7 @@ HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<
         }
     }
     m_history.push_back(std::move(slice));
-    m_level = std::min(m_statistic, model.threshold + model.settings.ceilingNats);
+    m_level = std::clamp(m_statistic, model.threshold, model.threshold + model.settings.ceilingNats);
     holdLevel();
     m_track.peakStatistic = m_statistic;
     if (!m_track.points.empty())

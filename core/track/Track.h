@@ -20,17 +20,18 @@ struct Track {
     Index onsetFrame = 0;    ///< where the detecting path's score began to grow
     Index detectFrame = 0;   ///< where the statistic first exceeded the threshold
     Index endFrame = 0;      ///< last frame with evidence
-    double peakStatistic = 0.0;
+    double peakStatistic = 0.0; ///< largest score of the path, nat
     bool isConfirmed = false;
     bool isOpen = false;     ///< still followed when the data ended
     std::vector<TrackPoint> points; ///< onset … end, one per frame
     Index confirmFrame = -1; ///< where it was confirmed, -1: never
     std::size_t model = 0;   ///< which of a bank's models found it and follows it
+    double detectStatistic = 0.0; ///< the detector's, in its own unit, where it was detected
 
     /// All but the points, without copying them first.
     Track withoutPoints() const
     {
-        return {id, onsetFrame, detectFrame, endFrame, peakStatistic, isConfirmed, isOpen, {}, confirmFrame, model};
+        return {id, onsetFrame, detectFrame, endFrame, peakStatistic, isConfirmed, isOpen, {}, confirmFrame, model, detectStatistic};
     }
 };
 

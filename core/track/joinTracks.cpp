@@ -79,6 +79,7 @@ namespace {
         }
         earlier.points.insert(earlier.points.end(), later.points.begin() + static_cast<std::ptrdiff_t>(joint.point), later.points.end());
         earlier.endFrame = later.endFrame;
+        earlier.detectStatistic = std::max(earlier.detectStatistic, later.detectStatistic);
         earlier.peakStatistic = std::max(earlier.peakStatistic, later.peakStatistic);
         earlier.isConfirmed = earlier.isConfirmed || later.isConfirmed;
         earlier.isOpen = later.isOpen;

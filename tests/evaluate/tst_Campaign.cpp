@@ -1,8 +1,12 @@
 #include "base/Error.h"
+#include "base/Random.h"
 #include "evaluate/Campaign.h"
 #include "evaluate/PdCurve.h"
+#include "evaluate/SignalMask.h"
+#include "evaluate/measuredThreshold.h"
 #include "exchange/CampaignFile.h"
 #include "recording/SimulatedRecording.h"
+#include "recording/openRecording.h"
 #include "recording/writeRecording.h"
 
 #include <QtTest>
@@ -69,6 +73,10 @@ private slots:
     void strongLinesAreFoundAndAbsentOnesNot();
     void jsonRoundTrip();
     void injectedIntoARecording();
+    void allDetectorsAreTriedWhereNoSignalIs();
+    void thresholdsAreOfFalseAlarmsCounted();
+    void signalsAreMasked();
+    void aBlockThatEndsAfterItsLineCounts();
     void refusals_data();
     void refusals();
 
@@ -236,6 +244,94 @@ void tst_Campaign::injectedIntoARecording()
     Campaign again = begin(injection);
     carryOut(again, {5, 2}, onThreads(1));
     QVERIFY(again.outcomes[0] == campaign.outcomes[2] && again.outcomes[1] == campaign.outcomes[5]);
+}
+
+void tst_Campaign::allDetectorsAreTriedWhereNoSignalIs()
+{
+    // A strong steady tone in half of the band's middle: nobody may be judged by it, nor excused for it.
+    LineScene scene;
+    scene.sampleRateHz = 200.0;
+    scene.durationSeconds = 200.0;
+    LineSettings tone;
+    tone.snrDb = 25.0;
+    tone.referenceSeconds = 0.5;
+    tone.frequencyHz = 50.0;
+    scene.lines = {tone};
+    writeRecording(SimulatedRecording(scene), path("tone.wav"), WrittenType::Float32);
+    InjectionExperiment injection;
+    injection.recording = path("tone.wav");
+    injection.trials = 12;
+    injection.snrDb = {-30.0, 15.0};
+    injection.durationSeconds = 20.0;
+    injection.settings.spectrogram.windowSeconds = 0.5;
+    injection.detectors = {contestant("energy", EnergySettings{}), contestant("3 of 4", PofNSettings{3, 4}), contestant("SMD", SmdSettings{})};
+    Campaign campaign = begin(injection);
+    carryOut(campaign, firstRuns(12), onThreads(2));
+    const InjectionTrials trials(injection, openRecording(injection.recording));
+    for (int trial = 0; trial < 12; ++trial)
+        for (const double hz : trials.remake(trial, 0.0).truth.frequencyHz)
+            QVERIFY2(std::abs(hz - 50.0) > 4.0, qPrintable(QString("trial %1 at %2 Hz").arg(trial).arg(hz)));
+    for (const CurvePoint &point : pdCurve(campaign)) {
+        QCOMPARE(point.trials, 12);
+        QVERIFY2(point.snrDb > 0.0 ? point.pd > 0.9 : point.pd < 0.1, qPrintable(QString::fromStdString(point.detector)));
+    }
+}
+
+void tst_Campaign::thresholdsAreOfFalseAlarmsCounted()
+{
+    Random random(3, 0);
+    std::vector<float> maxima(2000);
+    random.exponentials(maxima);
+    std::vector<float> inOtherUnits = maxima;
+    for (float &value : inOtherUnits)
+        value = 1.0f + 0.01f * value;
+    Calibration calibration;
+    calibration.eventRate = 1e-3;
+    const auto counted = [](const std::vector<float> &values, double threshold) {
+        const auto n = std::count_if(values.begin(), values.end(), [&](float value) { return static_cast<double>(value) > threshold; });
+        return -static_cast<double>(values.size()) * std::log1p(-static_cast<double>(n) / static_cast<double>(values.size()));
+    };
+    // The calibration, wrong for both, does not matter where there is enough to count.
+    for (const double wanted : {12.0, 100.0}) {
+        QVERIFY(std::abs(counted(maxima, measuredThreshold(maxima, wanted, calibration, 1e-6)) - wanted) < 0.6);
+        QVERIFY(std::abs(counted(inOtherUnits, measuredThreshold(inOtherUnits, wanted, calibration, 1e-6)) - wanted) < 0.6);
+    }
+    // One of them is ten, moved on by its slope.
+    QVERIFY(std::abs(measuredThreshold(maxima, 1.0, calibration, 1e-6) - measuredThreshold(maxima, 10.0, calibration, 1e-5) - std::log(10.0)) < 1e-9);
+    const std::vector<float> undecided(2000, -std::numeric_limits<float>::infinity());
+    QCOMPARE(measuredThreshold(undecided, 1.0, calibration, 1e-6), calibration.thresholdForEventRate(1e-6));
+}
+
+void tst_Campaign::signalsAreMasked()
+{
+    SignalMask mask(3, 10);
+    mask.add(1, 2, 3);
+    mask.add(1, 7, 12);
+    mask.add(1, 3, 5);
+    mask.add(5, 0, 9);
+    std::vector<float> y(6, 1.0f);
+    mask.blank(1, 4, y); // bins 4 … 9
+    QCOMPARE(y, (std::vector<float>{0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f}));
+    QVERIFY(mask.touches(1, 5, 6) && !mask.touches(1, 6, 6) && !mask.touches(1, -3, 1) && !mask.touches(0, 0, 9) && !mask.touches(7, 0, 9));
+    QVERIFY(std::abs(mask.freeShare() - 23.0 / 30.0) < 1e-12);
+}
+
+void tst_Campaign::aBlockThatEndsAfterItsLineCounts()
+{
+    // A line as long as a block has half of itself at least in one of two, and the second one ends after it.
+    LineExperiment experiment;
+    experiment.frames = 600;
+    experiment.runs = 3;
+    experiment.durationWindows = 40.0;
+    experiment.snrDb = {6.0};
+    experiment.detectors = {contestant("block Viterbi", BlockViterbiSettings{40.0})};
+    Campaign campaign{experiment, {}, {}};
+    carryOut(campaign, firstRuns(3), onThreads(2));
+    for (const RunOutcome &outcome : campaign.outcomes)
+        for (const float largest : outcome.signal[0][0])
+            QVERIFY(std::isfinite(largest));
+    // Read while the line lasts alone, those whose block ends early in it would be lost.
+    QVERIFY2(pdCurve(campaign).front().pd > 0.75, qPrintable(QString::number(pdCurve(campaign).front().pd)));
 }
 
 void tst_Campaign::refusals_data()

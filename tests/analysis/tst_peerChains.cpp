@@ -1,0 +1,201 @@
+#include "analysis/Calibration.h"
+#include "analysis/analyse.h"
+#include "analysis/chain.h"
+#include "base/Random.h"
+
+#include <QtTest>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace faintline;
+
+namespace {
+
+    constexpr Index cellCount = 200;
+
+    Grid grid()
+    {
+        return {{{"frequency", "Hz", 0.0, 1.0, cellCount, false}}};
+    }
+
+    AnalysisSettings settingsOf(std::size_t kind)
+    {
+        AnalysisSettings settings;
+        settings.detector = detectorOfKind(kind);
+        if (auto *integrator = std::get_if<IntegratorSettings>(&settings.detector))
+            integrator->durationWindows = 60.0;
+        if (auto *blocks = std::get_if<BlockViterbiSettings>(&settings.detector))
+            blocks->durationWindows = 40.0;
+        return settings;
+    }
+
+    /// Noise, and a line of that power in cell 100 in a stretch of frames.
+    std::shared_ptr<const FrameArray> framesOf(std::uint64_t seed, Index frames, float power = 0.0f, Index from = 0, Index to = 0)
+    {
+        std::vector<float> y(static_cast<std::size_t>(frames * cellCount));
+        Random(seed, 0).exponentials(y);
+        for (Index frame = from; frame < to; ++frame)
+            y[static_cast<std::size_t>(frame * cellCount + 100)] += power;
+        return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid(), std::move(y));
+    }
+
+    /// Few, so that it is quick; of the frames of a block only one decides.
+    double calibrationCellFrames(const DetectorSettings &detector)
+    {
+        return framesPerDecision(detector, {}) > 1 ? 2e7 : 4e6;
+    }
+
+    /// An analysis whose chain can be made, at so many false alarms per cell and frame.
+    Analysis prepared(std::size_t kind, std::shared_ptr<const FrameArray> frames, double eventsPerCellFrame)
+    {
+        Analysis analysis;
+        analysis.settings = settingsOf(kind);
+        analysis.frames = std::move(frames);
+        analysis.model = makeModel(analysis.settings.model, grid());
+        analysis.calibration = calibrateOnIndependentCells(analysis.model, analysis.settings, {}, calibrationCellFrames(analysis.settings.detector));
+        analysis.threshold = analysis.calibration->thresholdForEventRate(eventsPerCellFrame);
+        return analysis;
+    }
+
+    float medianOf(std::vector<float> values)
+    {
+        std::nth_element(values.begin(), values.begin() + cellCount / 2, values.end());
+        return values[cellCount / 2];
+    }
+
+    void addKinds(std::size_t first = 0)
+    {
+        QTest::addColumn<std::size_t>("kind");
+        for (std::size_t kind = first; kind < detectorNames.size(); ++kind)
+            QTest::newRow(detectorNames[kind].data()) << kind;
+    }
+
+} // namespace
+
+/// Every detector in a chain: what it forgets, what its tracks are measured in, how often it is wrong.
+class tst_peerChains : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void aCrossingForgetsItsOwnPlace();
+    void theShoulderIsAboveTheNoise_data() { addKinds(1); } // what has branched off a path lies within 8 nat of it, whatever noise does
+    void theShoulderIsAboveTheNoise();
+    void eventsHaveTheDetectorsUnit_data() { addKinds(); }
+    void eventsHaveTheDetectorsUnit();
+    void anOrderIsKept_data() { addKinds(); }
+    void anOrderIsKept();
+};
+
+void tst_peerChains::aCrossingForgetsItsOwnPlace()
+{
+    // An integrator's statistic lies at 1, wherever its threshold: one crossing must not take the whole band with it.
+    constexpr std::size_t integrator = 2;
+    const Analysis analysis = prepared(integrator, framesOf(5, 400, 1.5f, 150, 400), 1e-6);
+    const auto chain = makeChain(analysis);
+    std::vector<float> y(cellCount);
+    std::vector<float> statistic(cellCount);
+    std::vector<float> before;
+    for (Index frame = 0; frame < 400; ++frame) {
+        analysis.frames->read(frame, 1, y);
+        before = statistic;
+        const bool hasBegun = !chain->trackers().empty();
+        chain->update(frame, y, statistic);
+        if (!hasBegun)
+            continue;
+        QVERIFY(medianOf(before) > 0.9f);
+        QVERIFY(medianOf(statistic) > 0.9f);
+        const std::size_t taken = chain->inhibited().size();
+        QVERIFY(taken > 0);
+        Index changed = 0;
+        for (Index cell = 0; cell < cellCount; ++cell) {
+            const auto i = static_cast<std::size_t>(cell);
+            if (std::abs(statistic[i] - before[i]) < 0.15f) // a frame is a sixtieth of the mean
+                continue;
+            ++changed;
+            const auto &boxes = chain->inhibited();
+            QVERIFY2(std::any_of(boxes.begin(), boxes.end(), [&](const CellBox &box) { return box.contains(grid(), {cell}); }),
+                     qPrintable(QString("cell %1 was forgotten, but is not kept from the detector").arg(cell)));
+        }
+        QVERIFY(changed < 15);
+        return;
+    }
+    QFAIL("the line was not found");
+}
+
+void tst_peerChains::theShoulderIsAboveTheNoise()
+{
+    QFETCH(std::size_t, kind);
+    // Found on other noise, without an event to disturb it.
+    Analysis analysis = prepared(kind, framesOf(6, 2000), 1e-6);
+    const Index decision = framesPerDecision(analysis.settings.detector, {});
+    const double shoulder = analysis.calibration->levelExceededBy(1e-3 / static_cast<double>(decision));
+    QVERIFY(shoulder < analysis.threshold);
+    const auto detector = makeDetector(analysis);
+    std::vector<float> y(cellCount);
+    std::vector<float> statistic(cellCount);
+    double above = 0.0;
+    double decided = 0.0;
+    for (Index frame = 0; frame < 2000; ++frame) {
+        analysis.frames->read(frame, 1, y);
+        detector->update(y, statistic);
+        if (frame < 300 || std::isinf(statistic.front()))
+            continue;
+        decided += cellCount;
+        above += static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [&](float d) { return static_cast<double>(d) > shoulder; }));
+    }
+    // Nobody knows a thousandth of neighbouring cells and frames to better than a factor of two.
+    QVERIFY2(above / decided < 2e-3, qPrintable(QString("%1 of %2").arg(above).arg(decided)));
+}
+
+void tst_peerChains::eventsHaveTheDetectorsUnit()
+{
+    QFETCH(std::size_t, kind);
+    // So strong a line for so long has hundreds of nats, but not hundreds of times the noise.
+    Analysis analysis = prepared(kind, framesOf(7, 600, 20.0f, 200, 400), 1e-6);
+    const auto chain = makeChain(analysis);
+    std::vector<float> y(cellCount);
+    std::vector<float> statistic(cellCount);
+    float largest = 0.0f;
+    for (Index frame = 0; frame < 600; ++frame) {
+        analysis.frames->read(frame, 1, y);
+        chain->update(frame, y, statistic);
+        largest = std::max(largest, *std::max_element(statistic.begin(), statistic.end()));
+    }
+    chain->finish();
+    analysis.tracks = chain->joinedTracks();
+    const std::vector<Event> found = events(analysis);
+    QVERIFY(!found.empty());
+    const auto strongest = std::max_element(found.begin(), found.end(), [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
+    QVERIFY(std::abs(strongest->position.front() - 100.0) <= 1.0);
+    QVERIFY(strongest->statistic > analysis.threshold);
+    QVERIFY(strongest->statistic <= static_cast<double>(largest) * 1.000001);
+    if (statisticUnit(analysis.settings.detector) == "nat")
+        return;
+    QVERIFY2(largest < 60.0f, qPrintable(QString::number(static_cast<double>(largest))));
+    QVERIFY(analysis.tracks.front().peakStatistic > 100.0);
+}
+
+void tst_peerChains::anOrderIsKept()
+{
+    QFETCH(std::size_t, kind);
+    constexpr Index frames = 20000;
+    constexpr double ordered = 60.0;
+    const double rate = ordered / (static_cast<double>(frames) * cellCount);
+    const Analysis analysis = prepared(kind, framesOf(900 + kind, frames), rate);
+    const auto chain = makeChain(analysis, makeDetector(analysis), false);
+    std::vector<float> y(cellCount);
+    std::vector<float> statistic(cellCount);
+    for (Index frame = 0; frame < frames; ++frame) {
+        analysis.frames->read(frame, 1, y);
+        chain->update(frame, y, statistic);
+    }
+    chain->finish();
+    const double ratio = static_cast<double>(chain->tracks().size()) / ordered;
+    QVERIFY2(ratio > 0.7 && ratio < 1.4, qPrintable(QString::number(ratio)));
+}
+
+QTEST_APPLESS_MAIN(tst_peerChains)
+#include "tst_peerChains.moc"
