@@ -123,7 +123,7 @@ void addCompare(CLI::App &app, Common &common)
     const auto options = std::make_shared<CompareOptions>();
     CLI::App *command = app.add_subcommand(
         "compare", "Two detectors or two settings on one recording: what both find, and what only one does");
-    options->common.addTo(*command);
+    options->common.addTo(*command, common);
     command->add_option("--preset-a", options->presetA, "Named settings that A starts from, in place of --preset");
     command->add_option("--preset-b", options->presetB, "Named settings that B starts from, in place of --preset");
     command->add_option("--set-a", options->setA, "A setting of A alone, name=value; may be repeated")->take_all()->allow_extra_args(false);
@@ -134,8 +134,8 @@ void addCompare(CLI::App &app, Common &common)
     command->add_option("--frames", options->tolerance.frames, "How far apart in time, in frames of the coarser one")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    command->add_option("--events", options->events, "Write the events of both, .csv: column 'in' is A, B or both");
-    command->add_option("--difference", options->difference,
+    addOutput(*command, common, "--events", options->events, "Write the events of both, .csv: column 'in' is A, B or both");
+    addOutput(*command, common, "--difference", options->difference,
                         "Write the difference layer, .npy: how much farther above its threshold B lies than A, nat, to a quarter of one");
     command->add_flag("--cost", options->cost, "Say what each costs, in seconds of this machine");
     command->callback([options, &common] { compare(*options, common); });

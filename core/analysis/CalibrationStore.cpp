@@ -97,6 +97,11 @@ fs::path CalibrationStore::usualFolder()
     return {};
 }
 
+bool CalibrationStore::isNamedSo(const fs::path &file)
+{
+    return file.filename().string().starts_with(filePrefix);
+}
+
 fs::path CalibrationStore::fileFor(const std::string &key) const
 {
     return m_folder / (std::string(filePrefix) + hashOf(key) + ".json");
@@ -143,7 +148,7 @@ void CalibrationStore::removeOldest() const
     std::error_code code;
     std::vector<std::pair<fs::file_time_type, fs::path>> files;
     for (fs::directory_iterator entry(m_folder, code), end; entry != end; entry.increment(code))
-        if (entry->path().filename().string().starts_with(filePrefix))
+        if (isNamedSo(entry->path()))
             files.emplace_back(entry->last_write_time(code), entry->path());
     if (files.size() <= largestFileCount)
         return;

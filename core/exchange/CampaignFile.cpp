@@ -2,8 +2,10 @@
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/oneLine.h"
 #include "base/readingJson.h"
 #include "evaluate/sweepCurve.h"
+#include "exchange/csvText.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -123,11 +125,16 @@ namespace {
     CurvePoint pointFrom(std::string_view line, const std::string &where)
     {
         const Error refusal(where, std::string("must be ") + curveHead);
-        const std::size_t quote = line.starts_with('"') ? line.find('"', 1) : std::string_view::npos;
-        if (quote == std::string_view::npos || quote + 1 >= line.size())
-            throw refusal;
         CurvePoint point;
-        point.detector = line.substr(1, quote - 1);
+        std::size_t quote = line.starts_with('"') ? 1 : line.size();
+        for (; quote < line.size(); ++quote) {
+            if (line[quote] == '"' && (quote + 1 == line.size() || line[quote + 1] != '"'))
+                break;
+            quote += line[quote] == '"' ? 1 : 0; // doubled: one of the name's own
+            point.detector += line[quote];
+        }
+        if (quote + 1 >= line.size())
+            throw refusal;
         std::vector<std::optional<double>> values;
         for (std::string_view rest = line.substr(quote + 2);;) {
             const std::size_t comma = rest.find(',');
@@ -198,7 +205,7 @@ void writeCurve(const Campaign &campaign, const std::string &path)
         return writeTextFile(path, sweepCsv(campaign));
     std::string csv = std::string(curveHead) + "\n";
     for (const CurvePoint &point : pdCurve(campaign))
-        csv += "\"" + point.detector + "\"," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + "," + formatNumber(point.interval.low) + ","
+        csv += csvText(oneLine(point.detector)) + "," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + "," + formatNumber(point.interval.low) + ","
             + formatNumber(point.interval.high) + "," + std::to_string(point.trials) + ","
             + (point.threshold ? formatNumber(*point.threshold) : std::string()) + "\n";
     writeTextFile(path, csv);

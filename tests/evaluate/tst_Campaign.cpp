@@ -62,6 +62,7 @@ class tst_Campaign : public QObject
 private slots:
     void threadsAndOrderChangeNothing();
     void shardsMergeToTheWhole();
+    void namesOfDetectorsInACurve();
     void killedAndResumed();
     void everyTrialCanBeMadeAgain();
     void billonsEstimateByHand();
@@ -114,6 +115,19 @@ void tst_Campaign::shardsMergeToTheWhole()
     Campaign foreign = whole;
     setSeed(foreign.experiment, 99);
     QVERIFY_EXCEPTION_THROWN(merge({whole, foreign}), Error);
+}
+
+void tst_Campaign::namesOfDetectorsInACurve()
+{
+    LineExperiment experiment = smallExperiment();
+    experiment.detectors = {contestant("a\",9\n\"b\",1,1,1,1,1,1", PofNSettings{3, 4})};
+    Campaign campaign = begin(experiment);
+    carryOut(campaign, firstRuns(1));
+    writeCurve(campaign, path("names.csv"));
+    const std::vector<CurvePoint> curve = readCurve(path("names.csv"));
+    QCOMPARE(curve.size(), 2u); // one for each SNR, and no row that a name brought with it
+    QCOMPARE(curve[1].detector, std::string("a\",9 \"b\",1,1,1,1,1,1"));
+    QCOMPARE(curve[1].snrDb, 3.0);
 }
 
 void tst_Campaign::killedAndResumed()
