@@ -57,6 +57,9 @@ namespace {
             provenance.arguments = fromCommandOn(provenance.arguments);
             const bool isKnown = !provenance.arguments.empty()
                 && std::find(std::begin(commands), std::end(commands), provenance.arguments.front()) != std::end(commands);
+            constexpr std::size_t most = 1000;
+            if (provenance.arguments.size() > most || provenance.outputs.size() > most)
+                throw Error(path, "is a longer command line than any that is written here");
             if (provenance.outputs.empty() || !isKnown)
                 throw Error(path, "is no provenance of something that detect, compare, simulate or inject wrote");
             return provenance;

@@ -157,6 +157,9 @@ namespace {
         checkKeys(json, path, {"axes", "likelihood", "reset", "initial", "semiring", "scaleTransitions"});
         if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].empty())
             throw Error(path, "needs \"axes\", a list of at least one axis");
+        constexpr std::size_t mostAxes = 8; // a law of one may take megabytes
+        if (json["axes"].size() > mostAxes)
+            throw Error(path + ": axes", "must be at most " + std::to_string(mostAxes));
         if (!json.contains("likelihood") || !json["likelihood"].is_object())
             throw Error(path, "needs \"likelihood\", such as {\"kind\": \"rice\", \"r0\": 0.5}");
         return json;
