@@ -11,8 +11,8 @@ namespace faintline {
 /// Calibrations kept on disk from one run of the program to the next: a JSON file for each key in one folder.
 ///
 /// Keeping changes no result: numbers are written in the form that reads back the same, and a file counts only if it was
-/// written for the same key by a program made from the same sources of the core. Anything else (unreadable, cut short, foreign) is
-/// as if it were not there, and a folder that cannot be written keeps nothing; neither is an error. The oldest files
+/// written for the same key by a program made from the same sources of the core, and its checksum is right. Anything else (unreadable,
+/// cut short, changed, foreign) is as if it were not there, and a folder that cannot be written keeps nothing; neither is an error. The oldest files
 /// go when there are more than `largestFileCount`. Files appear whole, so any number of programs may share a folder.
 class CalibrationStore
 {

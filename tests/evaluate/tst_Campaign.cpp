@@ -1,3 +1,4 @@
+#include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "evaluate/Campaign.h"
 #include "evaluate/PdCurve.h"
@@ -64,6 +65,7 @@ private slots:
     void shardsMergeToTheWhole();
     void namesOfDetectorsInACurve();
     void killedAndResumed();
+    void changedPartsAreMadeAgain();
     void everyTrialCanBeMadeAgain();
     void billonsEstimateByHand();
     void thresholdsAndRoc();
@@ -150,6 +152,30 @@ void tst_Campaign::killedAndResumed()
     QVERIFY_EXCEPTION_THROWN(carryOutResumably(other, {0}, out), Error);
     removeParts(out);
     QVERIFY(!QFile::exists(QString::fromStdString(out + ".part")));
+}
+
+void tst_Campaign::changedPartsAreMadeAgain()
+{
+    const Experiment experiment = smallExperiment();
+    const std::string out = path("changed");
+    const Campaign whole = carryOutResumably(experiment, firstRuns(3), out);
+    const QString parts = QString::fromStdString(out + ".part");
+    const auto change = [&](int line, const QByteArray &before, const QByteArray &after) {
+        QFile file(parts);
+        if (!file.open(QFile::ReadOnly))
+            return false;
+        QList<QByteArray> lines = file.readAll().split('\n');
+        file.close();
+        const QByteArray old = lines[line];
+        lines[line].replace(lines[line].lastIndexOf(before), before.size(), after);
+        writeTextFile(out + ".part", lines.join('\n').toStdString());
+        return old != lines[line];
+    };
+    QVERIFY(change(2, "\"signal\":[[[", "\"signal\":[[[9")); // a run that found more than it did
+    QVERIFY(carryOutResumably(experiment, firstRuns(3), out).outcomes == whole.outcomes);
+    QVERIFY(change(0, "\"thresholds\":[", "\"thresholds\":[1,"));
+    const Campaign again = carryOutResumably(experiment, firstRuns(3), out);
+    QVERIFY(again.outcomes == whole.outcomes && again.thresholds == whole.thresholds);
 }
 
 void tst_Campaign::everyTrialCanBeMadeAgain()
