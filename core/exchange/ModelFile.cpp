@@ -1,6 +1,7 @@
 #include "exchange/ModelFile.h"
 
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "exchange/NumPy.h"
 
 #include <algorithm>
@@ -67,7 +68,8 @@ namespace {
             return otherwise;
         if (!found->is_string())
             throw Error(jsonName(where, key), "must be a text");
-        return found->get<std::string>();
+        constexpr std::size_t mostBytes = 80; // a name or a unit, which goes onto labels and to terminals
+        return oneLine(found->get<std::string>(), mostBytes);
     }
 
     void readRates(KinematicAxis &axis, const std::vector<double> &rates, const std::string &where)
