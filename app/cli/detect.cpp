@@ -6,6 +6,7 @@
 #include "analysis/judgeByBoxes.h"
 #include "analysis/regulation.h"
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "base/AtomicFile.h"
@@ -68,9 +69,9 @@ namespace {
         for (const Event &e : found) {
             std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
-                std::printf(" %.8g %s", e.position[axis], analysis.grid().axes[axis].unit.c_str());
+                std::printf(" %.8g %s", e.position[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
-                std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], analysis.grid().axes[axis].unit.c_str());
+                std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
             std::printf(", %.1f nat%s%s%s\n", e.statistic, e.isConfirmed ? "" : ", not confirmed",
                         e.isOpen ? ", still there at the end" : "",
                         !analysis.bank.empty() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
@@ -185,6 +186,10 @@ namespace {
         const auto analysis = frames ? detectInFrames(options, context, sink, frames)
                                      : analyse(recording, settings, context, nullptr, sink);
         context.checkpoint(1.0, "done");
+        std::vector<std::string> inputs = options.analysis.inputs();
+        inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
+        CommitTogether files;
+        writeProvenance(common, inputs, {options.events, options.tracks, options.statistic, options.conventional});
         if (!options.annotations.empty())
             writeJudged(*analysis, annotations, options);
         else if (!options.events.empty())
@@ -195,9 +200,7 @@ namespace {
             writeEvents(conventionally(*analysis), options.conventional);
         if (writer)
             writer->finish();
-        std::vector<std::string> inputs = options.analysis.inputs();
-        inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
-        writeProvenance(common, inputs, {options.events, options.tracks, options.statistic, options.conventional});
+        files.commit();
         if (options.summary)
             printSummary(*analysis);
         if (options.summary && recording && recording->nonFiniteCount() > 0)
@@ -248,7 +251,7 @@ namespace {
                 json["steps"].back()["runner_up_margin"] = step.runnerUp;
         }
         if (asJson) {
-            std::printf("%s\n", json.dump(2).c_str());
+            std::printf("%s\n", json.dump(2, ' ', true).c_str());
             return;
         }
         std::printf("statistic %.4f nat, threshold %.4f nat: %s by %.4f nat%s\n", explanation.statistic, explanation.threshold,
@@ -260,7 +263,7 @@ namespace {
         else {
             std::printf("%12s", "t (s)");
             for (const Axis &axis : axes)
-                std::printf(" %14s %8s", (axis.name + " (" + axis.unit + ")").c_str(), "rate");
+                std::printf(" %14s %8s", oneLine(axis.name + " (" + axis.unit + ")").c_str(), "rate");
             std::printf(" %10s %10s %10s %12s\n", "llr", "ln P", "ln K", "sum");
         }
         for (const Json &step : json["steps"]) {

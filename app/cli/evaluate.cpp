@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "base/AtomicFile.h"
 #include "evaluate/campaignCharts.h"
 #include "evaluate/sweepCurve.h"
@@ -72,7 +73,7 @@ namespace {
             return printSweep(campaign);
         std::printf("%-28s %8s %8s   %-17s %8s\n", "detector", "SNR (dB)", "Pd", "95 % interval", "trials");
         for (const CurvePoint &point : pdCurve(campaign))
-            std::printf("%-28s %8s %8.4f   %.4f … %.4f   %8lld\n", point.detector.c_str(), formatNumber(point.snrDb).c_str(), point.pd,
+            std::printf("%-28s %8s %8.4f   %.4f … %.4f   %8lld\n", oneLine(point.detector).c_str(), formatNumber(point.snrDb).c_str(), point.pd,
                         point.interval.low, point.interval.high, static_cast<long long>(point.trials));
     }
 

@@ -5,8 +5,10 @@
 #include "analysis/CalibrationStore.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
+#include "base/temporaries.h"
 #include "recording/SigmfRecording.h"
 #include "recording/fileHash.h"
 
@@ -35,6 +37,28 @@ namespace {
         std::vector<std::string> outputs;
     };
 
+    // Names are bytes, and need not be the text that JSON holds.
+    std::string nameFrom(const Json &text)
+    {
+        return fileNameFromText(text.get<std::string>());
+    }
+
+    std::vector<std::string> namesFrom(const Json &texts)
+    {
+        std::vector<std::string> names;
+        for (const Json &text : texts)
+            names.push_back(nameFrom(text));
+        return names;
+    }
+
+    Json textsFrom(const std::vector<std::string> &names)
+    {
+        Json texts = Json::array();
+        for (const std::string &name : names)
+            texts.push_back(textFromFileName(name));
+        return texts;
+    }
+
     /// Without what stands before the sub-command: threads and progress, which change no byte.
     std::vector<std::string> fromCommandOn(std::vector<std::string> arguments)
     {
@@ -49,9 +73,10 @@ namespace {
     {
         const Json json = readJsonFile(path);
         try {
-            Provenance provenance{json.at("faintline"), json.at("folder").get<std::string>(), json.at("arguments"), {}, json.at("outputs")};
+            Provenance provenance{json.at("faintline"), nameFrom(json.at("folder")), namesFrom(json.at("arguments")), {},
+                                  namesFrom(json.at("outputs"))};
             for (const Json &input : json.at("inputs"))
-                provenance.inputs.emplace_back(input.at("file"), input.at("hash"));
+                provenance.inputs.emplace_back(nameFrom(input.at("file")), input.at("hash"));
             // What was not written by one of these might do anything, or call itself.
             constexpr std::string_view commands[]{"detect", "compare", "simulate", "inject"};
             provenance.arguments = fromCommandOn(provenance.arguments);
@@ -74,15 +99,19 @@ namespace {
     public:
         TemporaryFolder()
         {
-            std::string name = (fs::temp_directory_path() / "faintline-replay-XXXXXX").string();
-            if (!mkdtemp(name.data()))
-                throw Error(name, "cannot be made", Error::Kind::Failure);
-            m_path = name;
+            makeTemporary([this] {
+                std::string name = (fs::temp_directory_path() / "faintline-replay-XXXXXX").string();
+                if (!mkdtemp(name.data()))
+                    throw Error(name, "cannot be made", Error::Kind::Failure);
+                m_path = name;
+                return name;
+            });
         }
         ~TemporaryFolder()
         {
             std::error_code ignored;
             fs::remove_all(m_path, ignored);
+            forgetTemporary(m_path.string());
         }
         TemporaryFolder(const TemporaryFolder &) = delete;
         TemporaryFolder &operator=(const TemporaryFolder &) = delete;
@@ -294,17 +323,20 @@ void writeProvenance(const Common &common, const std::vector<std::string> &input
     const auto isLost = [](const std::string &input) { return !input.empty() && !fs::is_regular_file(input); };
     if (!common.keepsProvenance || std::any_of(inputs.begin(), inputs.end(), isLost)) // what came through a pipe is not there again
         return;
-    Json json = {{"faintline", FAINTLINE_VERSION}, {"folder", fs::current_path().string()}, {"arguments", fromCommandOn(common.arguments)}};
+    Json json = {{"faintline", FAINTLINE_VERSION},
+                 {"folder", textFromFileName(fs::current_path().string())},
+                 {"arguments", textsFrom(fromCommandOn(common.arguments))}};
     json["inputs"] = Json::array();
     for (const std::string &input : inputs)
         if (!input.empty())
-            json["inputs"].push_back({{"file", input}, {"hash", fileHash(input)}});
-    json["outputs"] = Json::array();
+            json["inputs"].push_back({{"file", textFromFileName(input)}, {"hash", fileHash(input)}});
+    std::vector<std::string> kept;
     for (const std::string &output : outputs)
-        if (!output.empty() && fs::is_regular_file(output)) // nothing is kept beside /dev/null
-            json["outputs"].push_back(output);
-    for (const Json &output : json["outputs"])
-        writeTextFile(output.get<std::string>() + suffix, json.dump(2) + "\n");
+        if (!output.empty() && (fs::is_regular_file(output) || !fs::exists(output))) // nothing is kept beside /dev/null
+            kept.push_back(output);
+    json["outputs"] = textsFrom(kept);
+    for (const std::string &output : kept)
+        writeTextFile(output + suffix, json.dump(2) + "\n");
 }
 
 void addReplay(CLI::App &app, Common &common)

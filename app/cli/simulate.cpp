@@ -72,7 +72,6 @@ namespace {
 
     void simulate(const Options &options, const Common &common)
     {
-        checkOutputs({options.out, options.truth});
         const Json json = readJsonFile(options.scene);
         if (json.is_object() && json.value("kind", Json()) == "scans") {
             simulateScans(inFile(options.scene, [&] { return scanSceneFromJson(json); }), options.seed, options.out, options.truth, common.context());
@@ -104,8 +103,11 @@ void addSimulate(CLI::App &app, Common &common)
     command->add_option("--seed", options->seed, "Seed in place of the scene's own")->check(CLI::Range(0, 2147483647));
     command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
     command->callback([options, &common] {
-        simulate(*options, common);
+        checkOutputs({options->out, options->truth});
+        CommitTogether files;
         writeProvenance(common, {options->scene}, {options->out, options->truth});
+        simulate(*options, common);
+        files.commit();
     });
 }
 
