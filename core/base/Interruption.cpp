@@ -3,6 +3,7 @@
 #include "base/temporaries.h"
 
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <string_view>
 
@@ -27,18 +28,31 @@ Interruption::Interruption(std::chrono::milliseconds patience) : m_patience(pati
 {
     const sigset_t signals = bothSignals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    m_thread = std::thread([this] { wait(); });
+    // A small stack, whatever the usual size is: all of it counts where addresses are limited.
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, std::size_t(256) << 10);
+    const auto work = [](void *self) -> void * {
+        static_cast<Interruption *>(self)->wait();
+        return nullptr;
+    };
+    m_isWaiting = pthread_create(&m_thread, &attributes, work, this) == 0;
+    pthread_attr_destroy(&attributes);
+    if (!m_isWaiting)
+        pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }
 
 Interruption::~Interruption()
 {
+    if (!m_isWaiting)
+        return;
     {
         const std::lock_guard lock(m_guard);
         m_isOver = true;
     }
     m_ended.notify_all();
-    pthread_kill(m_thread.native_handle(), SIGTERM); // wakes it where it waits for a signal
-    m_thread.join();
+    pthread_kill(m_thread, SIGTERM); // wakes it where it waits for a signal
+    pthread_join(m_thread, nullptr);
 }
 
 void Interruption::wait()

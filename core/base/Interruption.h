@@ -4,14 +4,16 @@
 #include <condition_variable>
 #include <mutex>
 #include <stop_token>
-#include <thread>
+
+#include <pthread.h>
 
 namespace faintline {
 
 /// Ctrl+C and SIGTERM, from its construction on: they ask what runs to stop. What has not stopped within the patience (it waits for a pipe, it
 /// reads something large) is ended all the same, with exit code 1, after what is half-written was removed.
 ///
-/// Construct it before any other thread is started: those that come later leave the two signals to the one that waits for them here.
+/// Construct it before any other thread is started: those that come later leave the two signals to the one that waits for them here. Where there
+/// is no room for that one, they end the program as they do by themselves.
 class Interruption
 {
 public:
@@ -32,7 +34,8 @@ private:
     std::mutex m_guard;
     std::condition_variable m_ended;
     bool m_isOver = false;
-    std::thread m_thread;
+    pthread_t m_thread = {};
+    bool m_isWaiting = false;
 };
 
 } // namespace faintline
