@@ -1,24 +1,19 @@
 #include "app/cli/commands.h"
 
 #include "base/Error.h"
+#include "base/Interruption.h"
 #include "base/oneLine.h"
+#include "base/standardStreams.h"
 
 #include <CLI/CLI.hpp>
 
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
 
 namespace {
 
-std::stop_source interrupted;
-
-void interrupt(int)
-{
-    interrupted.request_stop();
-}
-
+constexpr auto unwritable = "standard output: cannot be written, so what was to be told is not";
 constexpr auto programName = "faintline-cli";
 constexpr auto description = "Faintline: track-before-detect for what is too faint to see.";
 
@@ -59,18 +54,20 @@ void faintline::cli::runCommandLine(const std::vector<std::string> &arguments, C
 
 int main(int argc, char **argv)
 {
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
+    faintline::openStandardStreams();
+    const faintline::Interruption interruption;
     faintline::cli::Common common;
-    common.stop = interrupted.get_token();
+    common.stop = interruption.token();
     common.arguments.assign(argv + 1, argv + argc);
     CLI::App app{description, programName};
     addCommands(app, common);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError &error) {
-        if (error.get_exit_code() == 0)
-            return app.exit(error); // --help, --version
+        if (error.get_exit_code() == 0) {
+            app.exit(error); // --help, --version
+            return faintline::flushStandardOutput() ? 0 : complain(unwritable, 1);
+        }
         return complain(std::string("command line: ") + error.what(), 2);
     } catch (const faintline::Error &error) {
         return complain(error.what(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);
@@ -81,5 +78,5 @@ int main(int argc, char **argv)
     } catch (const std::exception &error) {
         return complain(std::string("failure: ") + error.what(), 1);
     }
-    return 0;
+    return faintline::flushStandardOutput() ? 0 : complain(unwritable, 1);
 }

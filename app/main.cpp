@@ -7,6 +7,7 @@
 #include "app/renderCommand.h"
 #include "app/replayPicture.h"
 #include "base/oneLine.h"
+#include "base/standardStreams.h"
 #include "widgets/icon.h"
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #ifdef __GLIBC__
@@ -154,11 +156,22 @@ namespace {
         return file;
     }
 
-    /// What Qt has to say about the machine is no result and no error of ours.
+    /// What Qt has to say about the machine is no result and no error of ours. Where it gives up, so do we, but in one line.
     void keepQuiet(QtMsgType type, const QMessageLogContext &, const QString &message)
     {
         if (type == QtFatalMsg)
-            std::fprintf(stderr, "error: Qt: %s\n", qPrintable(message));
+            std::_Exit(fail("Qt", message.toStdString(), 1));
+    }
+
+    /// While the window's screen is looked for.
+    void missScreen(QtMsgType type, const QMessageLogContext &, const QString &)
+    {
+        const auto value = [](const char *name) {
+            return qEnvironmentVariableIsSet(name) ? " is \"" + qEnvironmentVariable(name).toStdString() + "\"" : std::string(" is not set");
+        };
+        if (type == QtFatalMsg)
+            std::_Exit(fail("screen", "there is none for a window (DISPLAY" + value("DISPLAY") + ", WAYLAND_DISPLAY" + value("WAYLAND_DISPLAY")
+                                + ", QT_QPA_PLATFORM" + value("QT_QPA_PLATFORM") + "); 'faintline render' draws without one", 1));
     }
 
     /// What "nan" and "inf" are read as, which no range refuses.
@@ -209,7 +222,9 @@ namespace {
     {
         keepNoHoles();
         Theme::prepareEnvironment();
+        const QtMessageHandler before = qInstallMessageHandler(missScreen);
         QApplication application(argc, argv);
+        qInstallMessageHandler(before);
         QApplication::setApplicationName(QStringLiteral("faintline"));
         QApplication::setApplicationDisplayName(QStringLiteral("Faintline"));
         QApplication::setWindowIcon(programIcon());
@@ -272,8 +287,12 @@ namespace {
 
 int main(int argc, char *argv[])
 {
+    faintline::openStandardStreams();
     try {
-        return faintline::run(argc, argv);
+        const int code = faintline::run(argc, argv);
+        if (code == 0 && !faintline::flushStandardOutput())
+            return faintline::fail("standard output", "cannot be written, so what was to be told is not", 1);
+        return code;
     } catch (const faintline::Error &error) {
         return faintline::fail(error.where(), error.why(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);
     } catch (const std::exception &error) {

@@ -21,7 +21,7 @@ void addCalibrate(CLI::App &app, Common &common)
     };
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("calibrate", "K for a 50 % reset probability, and thresholds with their intervals, on simulated noise");
-    options->analysis.addTo(*command);
+    options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
     command
         ->add_option("--surrogates", options->surrogates,

@@ -6,6 +6,7 @@
 #include "recording/openRecording.h"
 #include "spectrum/SimulatedPings.h"
 
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -13,6 +14,7 @@
 
 namespace CLI {
 class App;
+class Option;
 }
 
 namespace faintline::cli {
@@ -24,6 +26,8 @@ struct Common {
     std::string progress = "auto";
     std::vector<std::string> arguments; ///< of this run, for the provenance of what it writes
     bool keepsProvenance = true;
+    /// What every path of a file to be read, and of one to be written, goes through before it is used; as they are where empty.
+    std::function<std::string(const std::string &path)> read, written;
 
     /// Shows progress on standard error as asked for.
     RunContext context() const;
@@ -42,7 +46,7 @@ struct AnalysisOptions {
     double high = 0.0;
     OpenOptions open;
 
-    void addTo(CLI::App &command);
+    void addTo(CLI::App &command, Common &common);
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
     std::vector<std::string> inputs() const; ///< the files that it all comes from; a SigMF recording is two
@@ -72,6 +76,11 @@ std::shared_ptr<const SimulatedPings> openPings(const std::string &path);
 
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);
+
+/// Options that name a file to be read, and one to be written. A file that a command makes has to be named by the second: only then a
+/// replay, which runs what a stranger may have written, sends it elsewhere.
+CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path, const std::string &description);
+CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path, const std::string &description);
 
 /// Throws where one of these files cannot be written, before anything is computed that would be lost. Empty names are none.
 void checkOutputs(const std::vector<std::string> &paths);

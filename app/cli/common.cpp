@@ -36,10 +36,22 @@ RunContext Common::context() const
     return context;
 }
 
-void AnalysisOptions::addTo(CLI::App &command)
+CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path, const std::string &description)
 {
-    command.add_option("FILE", file, "Recording (WAV, FLAC, SigMF …), or a scene to simulate (.json)")->required();
-    command.add_option("--session", session, "Session or settings file to start from");
+    const auto read = [&common](const std::string &asked) { return common.read && !asked.empty() ? common.read(asked) : asked; };
+    return command.add_option(name, path, description)->transform(read);
+}
+
+CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path, const std::string &description)
+{
+    const auto written = [&common](const std::string &asked) { return common.written && !asked.empty() ? common.written(asked) : asked; };
+    return command.add_option(name, path, description)->transform(written);
+}
+
+void AnalysisOptions::addTo(CLI::App &command, Common &common)
+{
+    addInput(command, common, "FILE", file, "Recording (WAV, FLAC, SigMF …), or a scene to simulate (.json)")->required();
+    addInput(command, common, "--session", session, "Session or settings file to start from");
     command.add_option("--preset", preset, "Named settings to start from (see 'describe')");
     command.add_option("--set", assignments, "A setting, name=value; may be repeated")->take_all()->allow_extra_args(false);
     command.add_option("--channel", channel, "Channel, counted from 0")->check(CLI::Range(0, 1023));

@@ -2,7 +2,9 @@
 #include "app/cli/provenance.h"
 
 #include "analysis/analyse.h"
+#include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/oneLine.h"
 #include "evaluate/compareAnalyses.h"
 #include "evaluate/differencePicture.h"
 #include "evaluate/measureCost.h"
@@ -56,7 +58,7 @@ namespace {
         std::printf("%s\n", differences.empty() ? "their settings are the same" : "A and B differ in");
         for (const SettingDifference &difference : differences)
             std::printf("  %s%s%s: %s in A, %s in B\n", difference.field.name.c_str(), difference.field.unit.empty() ? "" : ", ",
-                        difference.field.unit.c_str(), orNone(difference.a).c_str(), orNone(difference.b).c_str());
+                        difference.field.unit.c_str(), oneLine(orNone(difference.a)).c_str(), oneLine(orNone(difference.b)).c_str());
     }
 
     void printEvents(const Comparison &comparison, const Grid &grid)
@@ -69,7 +71,7 @@ namespace {
             std::printf("%-4s  %.6g … %.6g s, at", compared.in() == In::A ? "A" : compared.in() == In::B ? "B" : "both", event.onsetSeconds,
                         event.endSeconds);
             for (std::size_t axis = 0; axis < event.position.size(); ++axis)
-                std::printf(" %.8g %s", event.position[axis], grid.axes[axis].unit.c_str());
+                std::printf(" %.8g %s", event.position[axis], oneLine(grid.axes[axis].unit).c_str());
             for (const auto &[name, side] : {std::pair{"A", &compared.a}, std::pair{"B", &compared.b}})
                 if (*side)
                     std::printf("; %s: event %d, detected at %.6g s, %.1f", name, (*side)->id, (*side)->detectSeconds, (*side)->statistic);
@@ -99,6 +101,8 @@ namespace {
         context.checkpoint(1.0, "done");
         RunContext quiet;
         quiet.stop = context.stop;
+        CommitTogether files;
+        writeProvenance(common, options.common.inputs(), {options.events, options.difference});
         if (!options.events.empty())
             writeComparison(comparison, b->grid(), options.events);
         if (!options.difference.empty()) {
@@ -107,7 +111,7 @@ namespace {
                 throw Error("--difference", "is of lines over time; pings have no such picture");
             writeDifference(*difference, options.difference);
         }
-        writeProvenance(common, options.common.inputs(), {options.events, options.difference});
+        files.commit();
         printSide("A", *a);
         printSide("B", *b);
         printDifferences(settingsA, settingsB);
@@ -123,7 +127,7 @@ void addCompare(CLI::App &app, Common &common)
     const auto options = std::make_shared<CompareOptions>();
     CLI::App *command = app.add_subcommand(
         "compare", "Two detectors or two settings on one recording: what both find, and what only one does");
-    options->common.addTo(*command);
+    options->common.addTo(*command, common);
     command->add_option("--preset-a", options->presetA, "Named settings that A starts from, in place of --preset");
     command->add_option("--preset-b", options->presetB, "Named settings that B starts from, in place of --preset");
     command->add_option("--set-a", options->setA, "A setting of A alone, name=value; may be repeated")->take_all()->allow_extra_args(false);
@@ -134,8 +138,8 @@ void addCompare(CLI::App &app, Common &common)
     command->add_option("--frames", options->tolerance.frames, "How far apart in time, in frames of the coarser one")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    command->add_option("--events", options->events, "Write the events of both, .csv: column 'in' is A, B or both");
-    command->add_option("--difference", options->difference,
+    addOutput(*command, common, "--events", options->events, "Write the events of both, .csv: column 'in' is A, B or both");
+    addOutput(*command, common, "--difference", options->difference,
                         "Write the difference layer, .npy: how much farther above its threshold B lies than A, nat, to a quarter of one");
     command->add_flag("--cost", options->cost, "Say what each costs, in seconds of this machine");
     command->callback([options, &common] { compare(*options, common); });

@@ -6,6 +6,7 @@
 #include "analysis/judgeByBoxes.h"
 #include "analysis/regulation.h"
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "base/AtomicFile.h"
@@ -72,9 +73,9 @@ namespace {
         for (const Event &e : found) {
             std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
-                std::printf(" %.8g %s", e.position[axis], analysis.grid().axes[axis].unit.c_str());
+                std::printf(" %.8g %s", e.position[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
-                std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], analysis.grid().axes[axis].unit.c_str());
+                std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
             std::printf(", %.*f %s%s%s%s\n", statisticDecimals(detector), e.statistic, unit.c_str(), e.isConfirmed ? "" : ", not confirmed",
                         e.isOpen ? ", still there at the end" : "",
                         !analysis.bank.empty() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
@@ -189,6 +190,10 @@ namespace {
         const auto analysis = frames ? detectInFrames(options, context, sink, frames)
                                      : analyse(recording, settings, context, nullptr, sink);
         context.checkpoint(1.0, "done");
+        std::vector<std::string> inputs = options.analysis.inputs();
+        inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
+        CommitTogether files;
+        writeProvenance(common, inputs, {options.events, options.tracks, options.statistic, options.conventional});
         if (!options.annotations.empty())
             writeJudged(*analysis, annotations, options);
         else if (!options.events.empty())
@@ -199,9 +204,7 @@ namespace {
             writeEvents(conventionally(*analysis), options.conventional);
         if (writer)
             writer->finish();
-        std::vector<std::string> inputs = options.analysis.inputs();
-        inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
-        writeProvenance(common, inputs, {options.events, options.tracks, options.statistic, options.conventional});
+        files.commit();
         if (options.summary)
             printSummary(*analysis);
         if (options.summary && recording && recording->nonFiniteCount() > 0)
@@ -257,7 +260,7 @@ namespace {
                 json["steps"].back()["runner_up_margin"] = step.runnerUp;
         }
         if (asJson) {
-            std::printf("%s\n", json.dump(2).c_str());
+            std::printf("%s\n", json.dump(2, ' ', true).c_str());
             return;
         }
         std::printf("statistic %.4f %s, threshold %.4f %s: %s by %.4f %s%s\n", decided, unit.c_str(), explanation.threshold, unit.c_str(),
@@ -271,7 +274,7 @@ namespace {
         else {
             std::printf("%12s", "t (s)");
             for (const Axis &axis : axes)
-                std::printf(" %14s %8s", (axis.name + " (" + axis.unit + ")").c_str(), "rate");
+                std::printf(" %14s %8s", oneLine(axis.name + " (" + axis.unit + ")").c_str(), "rate");
             std::printf(" %10s %10s %10s %12s\n", "llr", "ln P", "ln K", "sum");
         }
         for (const Json &step : json["steps"]) {
@@ -356,20 +359,20 @@ void addDetect(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<DetectOptions>();
     CLI::App *command = app.add_subcommand("detect", "Find lines in a recording, or signals in ready-made frames");
-    options->analysis.addTo(*command);
+    options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
-    command->add_option("--frames", options->frames, "Ready-made normalised frames, .npy of shape (frames, cells…), noise mean 1");
-    command->add_option("--grid", options->grid, "JSON that names the frames' axes");
-    command->add_option("--model", options->model, "JSON of a model for the frames");
-    command->add_option("--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
-    command->add_option(
+    addInput(*command, common, "--frames", options->frames, "Ready-made normalised frames, .npy of shape (frames, cells…), noise mean 1");
+    addInput(*command, common, "--grid", options->grid, "JSON that names the frames' axes");
+    addInput(*command, common, "--model", options->model, "JSON of a model for the frames");
+    addOutput(*command, common, "--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
+    addInput(*command, common,
         "--annotations", options->annotations,
         "Boxes with judgements (Raven, Audacity, SigMF, CSV, JSON): the events written gain review and note where they match");
-    command->add_option("--tracks", options->tracks, "Write the tracks: .csv or .json");
-    command->add_option("--conventional", options->conventional,
+    addOutput(*command, common, "--tracks", options->tracks, "Write the tracks: .csv or .json");
+    addOutput(*command, common, "--conventional", options->conventional,
                         "Of pings: write the events of the conventional detector beside it (one ping's threshold, then "
                         "M of N in a gate), like --events");
-    command->add_option("--statistic", options->statistic, "Write the statistic: .npy, float32, shape (frames, cells…)");
+    addOutput(*command, common, "--statistic", options->statistic, "Write the statistic: .npy, float32, shape (frames, cells…)");
     command->add_flag("--summary", options->summary, "Say in numbers what was found");
     command->callback([options, &common] { detect(*options, common); });
 }
@@ -378,11 +381,11 @@ void addStatistic(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<StatisticOptions>();
     CLI::App *command = app.add_subcommand("statistic", "The recursion's ln Λ for every frame and state, without decisions");
-    command->add_option("--frames", options->frames, "Normalised frames, .npy of shape (frames, cells…)")->required();
-    command->add_option("--model", options->model, "JSON of the model")->required();
-    command->add_option("--out", options->out, "Write the statistic of all states, .npy")->required();
-    command->add_option("--projected", options->projected, "Write its maximum over the rates, .npy");
-    command->add_option("--log", options->log, "Write K and reset fraction per frame, .csv");
+    addInput(*command, common, "--frames", options->frames, "Normalised frames, .npy of shape (frames, cells…)")->required();
+    addInput(*command, common, "--model", options->model, "JSON of the model")->required();
+    addOutput(*command, common, "--out", options->out, "Write the statistic of all states, .npy")->required();
+    addOutput(*command, common, "--projected", options->projected, "Write its maximum over the rates, .npy");
+    addOutput(*command, common, "--log", options->log, "Write K and reset fraction per frame, .csv");
     command->callback([options, &common] { statistic(*options, common); });
 }
 
@@ -399,12 +402,12 @@ void addExplain(CLI::App &app, Common &common)
     };
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("explain", "Why a cell has the statistic it has: the terms of the best path that ends there");
-    options->analysis.addTo(*command);
+    options->analysis.addTo(*command, common);
     command->add_option("--time", options->seconds, "Time, s")->required();
     command->add_option("--frequency", options->hz, "Frequency, Hz");
     command->add_option("--range", options->range, "Of pings: range, in the unit of its axis");
     command->add_option("--bearing", options->bearing, "Of pings: bearing, degrees");
-    command->add_option("--grid", options->grid, "Of a stack of frames (FILE.npy): JSON that names its axes");
+    addInput(*command, common, "--grid", options->grid, "Of a stack of frames (FILE.npy): JSON that names its axes");
     command->add_flag("--json", options->json, "As JSON");
     command->callback([options, &common] {
         const RunContext context = common.context();

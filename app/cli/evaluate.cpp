@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "base/AtomicFile.h"
 #include "evaluate/campaignCharts.h"
 #include "evaluate/sweepCurve.h"
@@ -72,7 +73,7 @@ namespace {
             return printSweep(campaign);
         std::printf("%-28s %8s %8s   %-17s %8s\n", "detector", "SNR (dB)", "Pd", "95 % interval", "trials");
         for (const CurvePoint &point : pdCurve(campaign))
-            std::printf("%-28s %8s %8.4f   %.4f … %.4f   %8lld\n", point.detector.c_str(), formatNumber(point.snrDb).c_str(), point.pd,
+            std::printf("%-28s %8s %8.4f   %.4f … %.4f   %8lld\n", oneLine(point.detector).c_str(), formatNumber(point.snrDb).c_str(), point.pd,
                         point.interval.low, point.interval.high, static_cast<long long>(point.trials));
     }
 
@@ -101,8 +102,8 @@ void addEvaluate(CLI::App &app, Common &common)
                         "The experiment, JSON, of kind lines, injection or sweep (the values of one setting tried on the same lines: Pd, "
                         "false alarms, latency); or: merge SHARD…")
         ->required();
-    command->add_option("--out", options->out, "Curve to write, .csv; with --shard the shard's runs");
-    command->add_option("--chart", options->chart, "Pd against SNR to draw, .svg");
+    addOutput(*command, common, "--out", options->out, "Curve to write, .csv; with --shard the shard's runs");
+    addOutput(*command, common, "--chart", options->chart, "Pd against SNR to draw, .svg");
     command->add_option("--shard", options->shard, "Only part I of N, for 'merge'");
     command->add_option("--seed", options->seed, "Seed in place of the experiment's own")->check(CLI::Range(0, 2147483647));
     command->add_flag("--cost", options->cost, "Of a sweep: say what each value costs, in seconds of this machine");
@@ -148,7 +149,7 @@ void addEvaluate(CLI::App &app, Common &common)
     });
 }
 
-void addMerge(CLI::App &app, Common &)
+void addMerge(CLI::App &app, Common &common)
 {
     struct Options {
         std::vector<std::string> shards;
@@ -157,7 +158,7 @@ void addMerge(CLI::App &app, Common &)
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("merge", "Put the shards of an experiment together: the same bytes as without shards");
     command->add_option("SHARD", options->shards, "Shards, in any order")->required();
-    command->add_option("--out", options->out, "Curve to write, .csv")->required();
+    addOutput(*command, common, "--out", options->out, "Curve to write, .csv")->required();
     command->callback([options] {
         checkOutputs({options->out});
         mergeFiles(options->shards, options->out);

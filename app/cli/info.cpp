@@ -1,6 +1,8 @@
 #include "app/cli/commands.h"
 
+#include "base/fileName.h"
 #include "base/json.h"
+#include "base/oneLine.h"
 
 #include <CLI/CLI.hpp>
 
@@ -14,7 +16,7 @@ namespace {
     Json toJson(const RecordingInfo &info)
     {
         Json json;
-        json["path"] = info.path;
+        json["path"] = textFromFileName(info.path);
         json["container"] = info.container;
         json["sampleType"] = info.sampleType;
         json["sampleRateHz"] = info.sampleRateHz;
@@ -30,8 +32,8 @@ namespace {
 
     void print(const RecordingInfo &info)
     {
-        std::printf("file          %s\n", info.path.c_str());
-        std::printf("container     %s, %s\n", info.container.c_str(), info.sampleType.c_str());
+        std::printf("file          %s\n", oneLine(info.path).c_str());
+        std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
         std::printf("sample rate   %s Hz\n", formatNumber(info.sampleRateHz).c_str());
         std::printf("channels      %d%s\n", info.channelCount, info.isComplex ? ", I/Q" : "");
         std::printf("length        %td samples, %s s\n", info.sampleCount, formatNumber(info.durationSeconds()).c_str());
@@ -40,7 +42,7 @@ namespace {
         if (info.startUnixSeconds)
             std::printf("start         %s s after 1970-01-01 UTC\n", formatNumber(*info.startUnixSeconds).c_str());
         for (const std::string &note : info.notes)
-            std::printf("note          %s\n", note.c_str());
+            std::printf("note          %s\n", oneLine(note).c_str());
     }
 
     void print(const SimulatedPings &pings, const std::string &file)
@@ -48,7 +50,7 @@ namespace {
         const PingScene &scene = pings.scene();
         const Axis &range = pings.grid().axes[0];
         const Axis &bearing = pings.grid().axes[1];
-        std::printf("file          %s\n", file.c_str());
+        std::printf("file          %s\n", oneLine(file).c_str());
         std::printf("container     scene of sonar pings, seed %d\n", scene.seed);
         std::printf("pings         %d, one every %s s\n", scene.pings, formatNumber(scene.priSeconds).c_str());
         std::printf("range         %td cells of %s m, %s … %s m\n", range.count, formatNumber(range.step).c_str(),
@@ -108,14 +110,14 @@ void addInfo(CLI::App &app, Common &)
     command->callback([options] {
         if (const auto pings = openPings(options->file)) {
             if (options->json)
-                std::printf("%s\n", toJson(pings->scene()).dump(2).c_str());
+                std::printf("%s\n", toJson(pings->scene()).dump(2, ' ', true).c_str());
             else
                 print(*pings, options->file);
             return;
         }
         const RecordingPointer recording = openAny(options->file, options->open);
         if (options->json)
-            std::printf("%s\n", toJson(recording->info()).dump(2).c_str());
+            std::printf("%s\n", toJson(recording->info()).dump(2, ' ', true).c_str());
         else
             print(recording->info());
     });

@@ -26,7 +26,7 @@ void addInject(CLI::App &app, Common &common)
     options->line.referenceSeconds = 0.0;
     LineSettings &line = options->line;
     CLI::App *command = app.add_subcommand("inject", "Add a known line to a recording");
-    options->analysis.addTo(*command);
+    options->analysis.addTo(*command, common);
     command->add_option("--snr", line.snrDb, "SNR over the noise at the line's place, dB in a window of --reference seconds")->required();
     command->add_option("--reference", line.referenceSeconds, "Window the SNR refers to, s; by default the spectrogram's");
     command->add_option("--start", line.startSeconds, "Start, s")->capture_default_str();
@@ -39,8 +39,8 @@ void addInject(CLI::App &app, Common &common)
     command->add_option("--fading-time", line.fadingSeconds, "Correlation time of the fading, s")->capture_default_str();
     command->add_option("--seed", options->seed, "Seed of phase, wander and fading")->check(CLI::Range(0, 2147483647))->capture_default_str();
     command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
-    command->add_option("--out", options->out, "Recording to write")->required();
-    command->add_option("--truth", options->truth, "Write the truth, .json");
+    addOutput(*command, common, "--out", options->out, "Recording to write")->required();
+    addOutput(*command, common, "--truth", options->truth, "Write the truth, .json");
     command->callback([options, &common] {
         if (!(options->line.referenceSeconds >= 0.0))
             throw Error("--reference " + formatNumber(options->line.referenceSeconds), "must be above 0 s");
@@ -50,10 +50,12 @@ void addInject(CLI::App &app, Common &common)
         options->line.fading = options->fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
         const InjectedLine injected = lineInNoise(options->line, recording, settings, common.context().part(0.0, 0.3));
         const InjectedRecording made(recording, {injected}, settings.selection.channel, static_cast<std::uint64_t>(options->seed));
+        CommitTogether files;
+        writeProvenance(common, options->analysis.inputs(), {options->out, options->truth});
         writeRecording(made, options->out, options->type == "int16" ? WrittenType::Int16 : WrittenType::Float32, common.context().part(0.3, 1.0));
         if (!options->truth.empty())
             writeTextFile(options->truth, toJson(made.truth()).dump(2) + "\n");
-        writeProvenance(common, options->analysis.inputs(), {options->out, options->truth});
+        files.commit();
     });
 }
 

@@ -2,15 +2,21 @@
 #include "app/cli/provenance.h"
 #include "app/cli/windowExport.h"
 
+#include "analysis/CalibrationStore.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/fileName.h"
 #include "base/json.h"
+#include "base/oneLine.h"
+#include "base/temporaries.h"
+#include "recording/SigmfRecording.h"
 #include "recording/fileHash.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -31,18 +37,55 @@ namespace {
         std::vector<std::string> outputs;
     };
 
+    // Names are bytes, and need not be the text that JSON holds.
+    std::string nameFrom(const Json &text)
+    {
+        return fileNameFromText(text.get<std::string>());
+    }
+
+    std::vector<std::string> namesFrom(const Json &texts)
+    {
+        std::vector<std::string> names;
+        for (const Json &text : texts)
+            names.push_back(nameFrom(text));
+        return names;
+    }
+
+    Json textsFrom(const std::vector<std::string> &names)
+    {
+        Json texts = Json::array();
+        for (const std::string &name : names)
+            texts.push_back(textFromFileName(name));
+        return texts;
+    }
+
+    /// Without what stands before the sub-command: threads and progress, which change no byte.
+    std::vector<std::string> fromCommandOn(std::vector<std::string> arguments)
+    {
+        while (!arguments.empty() && arguments.front().starts_with("--")) {
+            const bool takesNext = arguments.front().find('=') == std::string::npos;
+            arguments.erase(arguments.begin(), arguments.begin() + std::min<std::ptrdiff_t>(takesNext ? 2 : 1, std::ssize(arguments)));
+        }
+        return arguments;
+    }
+
     Provenance readProvenance(const std::string &path)
     {
         const Json json = readJsonFile(path);
         try {
-            Provenance provenance{json.at("faintline"), json.at("folder").get<std::string>(), json.at("arguments"), {}, json.at("outputs")};
+            Provenance provenance{json.at("faintline"), nameFrom(json.at("folder")), namesFrom(json.at("arguments")), {},
+                                  namesFrom(json.at("outputs"))};
             for (const Json &input : json.at("inputs"))
-                provenance.inputs.emplace_back(input.at("file"), input.at("hash"));
+                provenance.inputs.emplace_back(nameFrom(input.at("file")), input.at("hash"));
             // What was not written by one of these might do anything, or call itself.
-            const auto is = [&](const char *command) {
-                return std::find(provenance.arguments.begin(), provenance.arguments.end(), command) != provenance.arguments.end();
-            };
-            if (provenance.outputs.empty() || is("replay") || !(is("detect") || is("compare") || is("simulate") || is("inject")))
+            constexpr std::string_view commands[]{"detect", "compare", "simulate", "inject"};
+            provenance.arguments = fromCommandOn(provenance.arguments);
+            const bool isKnown = !provenance.arguments.empty()
+                && std::find(std::begin(commands), std::end(commands), provenance.arguments.front()) != std::end(commands);
+            constexpr std::size_t most = 1000;
+            if (provenance.arguments.size() > most || provenance.outputs.size() > most)
+                throw Error(path, "is a longer command line than any that is written here");
+            if (provenance.outputs.empty() || !isKnown)
                 throw Error(path, "is no provenance of something that detect, compare, simulate or inject wrote");
             return provenance;
         } catch (const Json::exception &) {
@@ -56,15 +99,19 @@ namespace {
     public:
         TemporaryFolder()
         {
-            std::string name = (fs::temp_directory_path() / "faintline-replay-XXXXXX").string();
-            if (!mkdtemp(name.data()))
-                throw Error(name, "cannot be made", Error::Kind::Failure);
-            m_path = name;
+            makeTemporary([this] {
+                std::string name = (fs::temp_directory_path() / "faintline-replay-XXXXXX").string();
+                if (!mkdtemp(name.data()))
+                    throw Error(name, "cannot be made", Error::Kind::Failure);
+                m_path = name;
+                return name;
+            });
         }
         ~TemporaryFolder()
         {
             std::error_code ignored;
             fs::remove_all(m_path, ignored);
+            forgetTemporary(m_path.string());
         }
         TemporaryFolder(const TemporaryFolder &) = delete;
         TemporaryFolder &operator=(const TemporaryFolder &) = delete;
@@ -72,6 +119,38 @@ namespace {
 
     private:
         fs::path m_path;
+    };
+
+    /// Where replay may read: in the folder in which the result lies, and in those that the user allows besides. Whoever wrote the
+    /// provenance may name any file of this machine.
+    class ReadableFolders
+    {
+    public:
+        ReadableFolders(const fs::path &result, const std::vector<std::string> &allowed) : m_result(result.filename().string())
+        {
+            m_folders.push_back(fs::canonical(result.parent_path()));
+            for (const std::string &folder : allowed) {
+                std::error_code code;
+                m_folders.push_back(fs::canonical(folder, code));
+                if (code || !fs::is_directory(m_folders.back()))
+                    throw Error("--allow " + folder, "there is no such folder");
+            }
+        }
+
+        /// Throws where a path, through all links, leads out of them.
+        void check(const std::string &path) const
+        {
+            const fs::path real = fs::weakly_canonical(path);
+            const auto holds = [&](const fs::path &folder) {
+                return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
+            };
+            if (std::none_of(m_folders.begin(), m_folders.end(), holds))
+                throw Error(path, "lies outside of the folder of " + m_result + ", which asks for it; --allow FOLDER lets replay read there");
+        }
+
+    private:
+        std::string m_result;
+        std::vector<fs::path> m_folders;
     };
 
     bool sameBytes(const fs::path &a, const fs::path &b)
@@ -87,18 +166,39 @@ namespace {
     bool compare(const fs::path &kept, const fs::path &remade)
     {
         const bool isSame = sameBytes(kept, remade);
-        std::printf("%s: %s\n", kept.filename().c_str(), isSame ? "the same bytes" : "differs");
+        std::printf("%s: %s\n", oneLine(kept.filename().string()).c_str(), isSame ? "the same bytes" : "differs");
         return isSame;
     }
 
-    void replayWindowExport(const Json &json, const fs::path &kept, const std::string &recording, const Common &common)
+    void tellVersion(const std::string &version)
     {
-        const std::string version = json.value("version", std::string());
         if (version != FAINTLINE_VERSION)
-            std::printf("made with version %s, this is %s\n", version.c_str(), FAINTLINE_VERSION);
+            std::printf("made with version %s, this is %s\n", oneLine(version, 40).c_str(), FAINTLINE_VERSION);
+    }
+
+    /// From now on calibrations are kept in a copy of the folder where they usually are.
+    void keepCalibrationsIn(const fs::path &folder)
+    {
+        const fs::path usual = CalibrationStore::usualFolder();
+        if (usual.empty())
+            return;
+        std::error_code ignored;
+        fs::create_directory(folder, ignored);
+        for (fs::directory_iterator entry(usual, ignored), end; entry != end; entry.increment(ignored))
+            if (std::error_code code; entry->is_regular_file(code) && CalibrationStore::isNamedSo(entry->path()))
+                fs::copy_file(entry->path(), folder / entry->path().filename(), code);
+        ::setenv("FAINTLINE_CACHE", folder.c_str(), 1);
+    }
+
+    void replayWindowExport(const Json &json, const fs::path &kept, const std::string &recording, const ReadableFolders &readable,
+                            const Common &common)
+    {
+        tellVersion(json.value("version", std::string()));
         const TemporaryFolder folder;
+        keepCalibrationsIn(folder.path() / "calibrations");
         const fs::path remade = folder.path() / kept.filename();
-        remakeWindowExport(json, kept.string(), recording, remade.string(), common.context());
+        const auto mayRead = [&](const std::string &path) { readable.check(path); };
+        remakeWindowExport(json, kept.string(), recording, remade.string(), mayRead, common.context());
         if (!compare(kept, remade))
             throw Error(kept.string(), "is not what its provenance makes", Error::Kind::Failure);
     }
@@ -108,62 +208,112 @@ namespace {
         return name.ends_with(".png") || name.ends_with(".svg") || name.ends_with(".pdf") || name.ends_with(".html");
     }
 
-    void replay(const std::string &result, const std::string &recording, const Common &common)
+    /// Every file that the provenance names among what went in, before anything is made of it.
+    void checkInputs(const Provenance &provenance, const std::string &result, const ReadableFolders &readable)
     {
-        const fs::path asked = fs::absolute(result);
-        const fs::path path = fs::absolute(result.ends_with(suffix) ? result : result + suffix);
+        for (const auto &[file, hash] : provenance.inputs) {
+            readable.check(file);
+            if (!fs::is_regular_file(file) || fileHash(file) != hash)
+                throw Error(file, "is not what " + result + " was made from");
+        }
+    }
+
+    /// What a command line of somebody else's writes goes into a folder, each file into one of its own under its name.
+    struct Redirection {
+        fs::path folder;
+        std::vector<fs::path> written;
+
+        std::string operator()(const std::string &asked)
+        {
+            const fs::path own = folder / std::to_string(written.size());
+            fs::create_directory(own);
+            const fs::path name = fs::path(asked).filename();
+            if (name.empty() || name == "." || name == "..")
+                throw Error(asked, "is not the name of a file");
+            written.push_back(own / name);
+            return written.back().string();
+        }
+    };
+
+    /// Whether all are the same that are beside the result still; `asked` has to be among them.
+    void compareAll(const std::vector<fs::path> &written, const fs::path &folder, const fs::path &asked)
+    {
+        std::string different;
+        bool isMade = false;
+        for (const fs::path &one : written) {
+            std::vector<fs::path> made; // with a recording of two files, and the grid of frames
+            for (const fs::directory_entry &entry : fs::directory_iterator(one.parent_path()))
+                made.push_back(entry.path());
+            std::sort(made.begin(), made.end());
+            for (const fs::path &remade : made) {
+                const fs::path kept = folder / remade.filename();
+                isMade = isMade || kept == asked;
+                if (!fs::exists(kept) && kept != asked)
+                    continue; // another file of the same run, kept elsewhere
+                if (!compare(kept, remade) && different.empty())
+                    different = kept.string();
+            }
+        }
+        if (!isMade)
+            throw Error(asked.string(), "is not among what its provenance makes");
+        if (!different.empty())
+            throw Error(different, "is not what its provenance makes", Error::Kind::Failure);
+    }
+
+    void runAgain(const std::vector<std::string> &arguments, const std::string &path, const Common &common)
+    {
+        try {
+            runCommandLine(arguments, common);
+        } catch (const CLI::ParseError &error) { // --help is one, too
+            throw Error(path, std::string("holds a command line that makes nothing: ") + error.what());
+        }
+    }
+
+    void replay(const std::string &result, const std::string &recording, const std::vector<std::string> &allowed, const Common &common)
+    {
+        const fs::path path = fs::absolute(result.ends_with(suffix) ? result : result + suffix).lexically_normal();
+        const fs::path asked = path.string().substr(0, path.string().size() - suffix.size());
         if (!fs::exists(path) && isPicture(result))
             throw Error(result,
                         "is a picture, which the window's program makes: 'faintline replay' takes a PNG that 'faintline render' wrote");
         if (!fs::exists(path))
             throw Error(result, "has no provenance: there is no " + path.filename().string() + " beside it");
-        if (const Json json = readJsonFile(path.string()); isOfWindow(json)) {
-            const std::string kept = path.string().substr(0, path.string().size() - suffix.size());
-            return replayWindowExport(json, kept, recording, common);
-        }
+        const ReadableFolders readable(asked, allowed);
+        if (const Json json = readJsonFile(path.string()); isOfWindow(json))
+            return replayWindowExport(json, asked, recording, readable, common);
         if (!recording.empty())
             throw Error("--recording", "is for what the window exported; " + result + " was written by a command, which names its own");
         const Provenance provenance = readProvenance(path.string());
-        if (provenance.version != FAINTLINE_VERSION)
-            std::printf("made with version %s, this is %s\n", provenance.version.c_str(), FAINTLINE_VERSION);
-        // Where the results are now, in the order in which they were named.
-        const TemporaryFolder folder;
-        std::vector<fs::path> kept;
-        std::vector<fs::path> remade;
+        tellVersion(provenance.version);
         std::vector<std::string> arguments = provenance.arguments;
         std::erase(arguments, "--summary"); // what is said here is about the files
         for (const std::string &output : provenance.outputs) {
-            kept.push_back(path.parent_path() / fs::path(output).filename());
-            remade.push_back(folder.path() / (std::to_string(remade.size()) + "-" + fs::path(output).filename().string()));
-            bool isNamed = false;
-            for (std::string &argument : arguments) {
-                const bool isOption = argument.starts_with("--") && argument.ends_with("=" + output);
-                if (argument != output && !isOption)
-                    continue;
-                argument = argument.substr(0, argument.size() - output.size()) + remade.back().string();
-                isNamed = true;
-            }
-            if (!isNamed)
+            const auto names = [&](const std::string &argument) {
+                return argument == output || (argument.starts_with("--") && argument.ends_with("=" + output));
+            };
+            if (std::none_of(arguments.begin(), arguments.end(), names))
                 throw Error(path.string(), "tells of " + output + ", which its own command line does not name");
         }
         if (!fs::is_directory(provenance.folder))
             throw Error(provenance.folder.string(), "is the folder it was made in, and is not there any more");
         fs::current_path(provenance.folder);
-        for (const auto &[file, hash] : provenance.inputs)
-            if (!fs::exists(file) || fileHash(file) != hash)
-                throw Error(file, "is not what " + result + " was made from");
-        Common quiet = common;
-        quiet.keepsProvenance = false;
-        runCommandLine(arguments, quiet);
-        std::string different;
-        for (std::size_t i = 0; i < kept.size(); ++i) {
-            if (!fs::exists(kept[i]) && kept[i] != asked)
-                continue; // another file of the same run, kept elsewhere
-            if (!compare(kept[i], remade[i]) && different.empty())
-                different = kept[i].string();
-        }
-        if (!different.empty())
-            throw Error(different, "is not what its provenance makes", Error::Kind::Failure);
+        checkInputs(provenance, result, readable);
+        const TemporaryFolder folder;
+        keepCalibrationsIn(folder.path() / "calibrations");
+        const auto redirection = std::make_shared<Redirection>(Redirection{folder.path(), {}});
+        Common confined = common;
+        confined.keepsProvenance = false;
+        confined.read = [&readable](const std::string &file) {
+            readable.check(file);
+            if (SigmfRecording::isNamedSo(file) && fs::exists(file)) {
+                readable.check(SigmfRecording::metaPath(file));
+                readable.check(SigmfRecording::dataPath(file));
+            }
+            return file;
+        };
+        confined.written = [redirection](const std::string &file) { return (*redirection)(file); };
+        runAgain(arguments, path.string(), confined);
+        compareAll(redirection->written, path.parent_path(), asked);
     }
 
 } // namespace
@@ -173,23 +323,27 @@ void writeProvenance(const Common &common, const std::vector<std::string> &input
     const auto isLost = [](const std::string &input) { return !input.empty() && !fs::is_regular_file(input); };
     if (!common.keepsProvenance || std::any_of(inputs.begin(), inputs.end(), isLost)) // what came through a pipe is not there again
         return;
-    Json json = {{"faintline", FAINTLINE_VERSION}, {"folder", fs::current_path().string()}, {"arguments", common.arguments}};
+    Json json = {{"faintline", FAINTLINE_VERSION},
+                 {"folder", textFromFileName(fs::current_path().string())},
+                 {"arguments", textsFrom(fromCommandOn(common.arguments))}};
     json["inputs"] = Json::array();
     for (const std::string &input : inputs)
         if (!input.empty())
-            json["inputs"].push_back({{"file", input}, {"hash", fileHash(input)}});
-    json["outputs"] = Json::array();
+            json["inputs"].push_back({{"file", textFromFileName(input)}, {"hash", fileHash(input)}});
+    std::vector<std::string> kept;
     for (const std::string &output : outputs)
-        if (!output.empty() && fs::is_regular_file(output)) // nothing is kept beside /dev/null
-            json["outputs"].push_back(output);
-    for (const Json &output : json["outputs"])
-        writeTextFile(output.get<std::string>() + suffix, json.dump(2) + "\n");
+        if (!output.empty() && (fs::is_regular_file(output) || !fs::exists(output))) // nothing is kept beside /dev/null
+            kept.push_back(output);
+    json["outputs"] = textsFrom(kept);
+    for (const std::string &output : kept)
+        writeTextFile(output + suffix, json.dump(2) + "\n");
 }
 
 void addReplay(CLI::App &app, Common &common)
 {
     const auto result = std::make_shared<std::string>();
     const auto recording = std::make_shared<std::string>();
+    const auto allowed = std::make_shared<std::vector<std::string>>();
     CLI::App *command = app.add_subcommand("replay", "Make a result again from its own provenance, and compare");
     command
         ->add_option("RESULT", *result,
@@ -197,7 +351,10 @@ void addReplay(CLI::App &app, Common &common)
                      ".provenance.json beside it")
         ->required();
     command->add_option("--recording", *recording, "Of a table exported from the window: the recording, if it is not beside it");
-    command->callback([result, recording, &common] { replay(*result, *recording, common); });
+    command->add_option("--allow", *allowed, "A folder that may be read besides the one in which RESULT lies; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false);
+    command->callback([result, recording, allowed, &common] { replay(*result, *recording, *allowed, common); });
 }
 
 } // namespace faintline::cli

@@ -107,10 +107,10 @@ void addSequential(CLI::App &app, Common &common)
     const auto options = std::make_shared<Options>();
     CLI::App *command =
         app.add_subcommand("sequential", "Stage after stage until it is clear whether a signal is there, and where it has been");
-    options->analysis.addTo(*command);
+    options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
-    command->add_option("--frames", options->frames, "Ready-made normalised frames, .npy of shape (stages, cells…), noise mean 1");
-    command->add_option("--model", options->model, "JSON of the model; without it the settings' line model");
+    addInput(*command, common, "--frames", options->frames, "Ready-made normalised frames, .npy of shape (stages, cells…), noise mean 1");
+    addInput(*command, common, "--model", options->model, "JSON of the model; without it the settings' line model");
     command->add_option("--alpha", options->sprt.falseAlarm, "Wanted probability of accepting a signal on noise")->capture_default_str();
     command->add_option("--beta", options->sprt.miss, "Wanted probability of accepting noise with a signal")->capture_default_str();
     command->add_option("--cutoff", options->sprt.cutOffStage, "Stage at which a decision is forced; 0 is never")->capture_default_str();
@@ -118,7 +118,7 @@ void addSequential(CLI::App &app, Common &common)
                         "Cells round each one, along the model's last axis, whose mean stands for a noise power that is not known; "
                         "0: noise has mean 1")
         ->capture_default_str();
-    command->add_option("--out", options->out, "Write decision, ln Λ of every stage and trajectory, .json")->required();
+    addOutput(*command, common, "--out", options->out, "Write decision, ln Λ of every stage and trajectory, .json")->required();
     command->callback([options, &common] { sequential(*options, common); });
 }
 

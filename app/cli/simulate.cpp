@@ -72,7 +72,6 @@ namespace {
 
     void simulate(const Options &options, const Common &common)
     {
-        checkOutputs({options.out, options.truth});
         const Json json = readJsonFile(options.scene);
         if (json.is_object() && json.value("kind", Json()) == "scans") {
             simulateScans(inFile(options.scene, [&] { return scanSceneFromJson(json); }), options.seed, options.out, options.truth, common.context());
@@ -98,14 +97,17 @@ void addSimulate(CLI::App &app, Common &common)
     const auto options = std::make_shared<Options>();
     CLI::App *command =
         app.add_subcommand("simulate", "Make a recording of known lines in noise, or pings with known targets, and its truth");
-    command->add_option("SCENARIO", options->scene, "The scene, JSON")->required();
-    command->add_option("--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; a sonar's pings or a radar's scans: .npy")->required();
-    command->add_option("--truth", options->truth, "Write the truth, .json");
+    addInput(*command, common, "SCENARIO", options->scene, "The scene, JSON")->required();
+    addOutput(*command, common, "--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; a sonar's pings or a radar's scans: .npy")->required();
+    addOutput(*command, common, "--truth", options->truth, "Write the truth, .json");
     command->add_option("--seed", options->seed, "Seed in place of the scene's own")->check(CLI::Range(0, 2147483647));
     command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
     command->callback([options, &common] {
-        simulate(*options, common);
+        checkOutputs({options->out, options->truth});
+        CommitTogether files;
         writeProvenance(common, {options->scene}, {options->out, options->truth});
+        simulate(*options, common);
+        files.commit();
     });
 }
 

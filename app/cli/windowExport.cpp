@@ -87,9 +87,21 @@ namespace {
         writeReviewed(*analysis, shown, annotations, out);
     }
 
-    void remakeCurve(const Json &provenance, const std::string &out, const RunContext &context)
+    /// Empty where it simulates all of its noise.
+    std::string recordingOf(const Experiment &experiment)
+    {
+        if (const auto *injection = std::get_if<InjectionExperiment>(&experiment))
+            return injection->recording;
+        const auto *sweep = std::get_if<SweepExperiment>(&experiment);
+        return sweep ? sweep->recording : std::string();
+    }
+
+    void remakeCurve(const Json &provenance, const std::string &out, const std::function<void(const std::string &)> &mayRead,
+                     const RunContext &context)
     {
         const Experiment experiment = experimentFromJson(provenance.at("experiment"), "experiment");
+        if (const std::string recording = recordingOf(experiment); !recording.empty())
+            mayRead(recording);
         std::vector<int> runs(static_cast<std::size_t>(runCount(experiment)));
         std::iota(runs.begin(), runs.end(), 0);
         if (provenance.contains("runs")) // it was stopped
@@ -107,14 +119,14 @@ bool isOfWindow(const Json &provenance)
 }
 
 void remakeWindowExport(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,
-                        const RunContext &context)
+                        const std::function<void(const std::string &path)> &mayRead, const RunContext &context)
 {
     try {
         if (provenance.contains("sequential"))
             throw Error(result, "is a chart of a sequential test, which the window's program makes: 'faintline replay' does where it was "
                                 "on a radar's scans");
         if (provenance.contains("experiment"))
-            return remakeCurve(provenance, out, context);
+            return remakeCurve(provenance, out, mayRead, context);
         if (provenance.contains("recording"))
             return remakeEvents(provenance, result, recording, out, context);
     } catch (const Json::exception &error) {

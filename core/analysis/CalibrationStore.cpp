@@ -2,12 +2,12 @@
 
 #include "analysis/sourceFingerprint.h"
 #include "base/AtomicFile.h"
+#include "base/checksum.h"
 #include "base/json.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 #include <vector>
@@ -20,17 +20,6 @@ namespace {
 
     constexpr std::string_view filePrefix = "calibration-";
     constexpr std::uintmax_t largestFileBytes = 4u << 20;
-
-    /// FNV-1a: only names the file; the key itself is compared with the one inside.
-    std::string hashOf(std::string_view text)
-    {
-        std::uint64_t hash = 0xcbf29ce484222325u;
-        for (const char c : text)
-            hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-        char digits[17];
-        std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-        return digits;
-    }
 
     std::string environment(const char *name)
     {
@@ -73,6 +62,12 @@ namespace {
         return c;
     }
 
+    /// What a file holds of a calibration, but for its checksum.
+    Json contentOf(const std::string &key, const Calibration &calibration)
+    {
+        return {{"sources", sourceFingerprint()}, {"key", key}, {"calibration", toJson(calibration)}};
+    }
+
     bool isUsable(const Calibration &c)
     {
         return c.levels.size() >= 2 && c.levels.size() == c.exceedance.size() && c.tailSlope > 0.0 && c.eventRate > 0.0
@@ -97,9 +92,14 @@ fs::path CalibrationStore::usualFolder()
     return {};
 }
 
+bool CalibrationStore::isNamedSo(const fs::path &file)
+{
+    return file.filename().string().starts_with(filePrefix);
+}
+
 fs::path CalibrationStore::fileFor(const std::string &key) const
 {
-    return m_folder / (std::string(filePrefix) + hashOf(key) + ".json");
+    return m_folder / (std::string(filePrefix) + checksum(key) + ".json");
 }
 
 std::shared_ptr<const Calibration> CalibrationStore::load(const std::string &key) const
@@ -115,7 +115,8 @@ std::shared_ptr<const Calibration> CalibrationStore::load(const std::string &key
         if (json.at("sources") != sourceFingerprint() || json.at("key") != key)
             return nullptr;
         const Calibration calibration = fromJson(json.at("calibration"));
-        return isUsable(calibration) ? std::make_shared<const Calibration>(calibration) : nullptr;
+        const bool isWhole = json.at("checksum") == checksum(contentOf(key, calibration).dump());
+        return isWhole && isUsable(calibration) ? std::make_shared<const Calibration>(calibration) : nullptr;
     } catch (const Error &) {
         return nullptr;
     } catch (const Json::exception &) {
@@ -130,8 +131,9 @@ void CalibrationStore::save(const std::string &key, const Calibration &calibrati
     std::error_code code;
     fs::create_directories(m_folder, code);
     try {
-        const Json json{{"sources", sourceFingerprint()}, {"key", key}, {"calibration", toJson(calibration)}};
-        writeTextFile(fileFor(key).string(), json.dump());
+        Json json = contentOf(key, calibration);
+        json["checksum"] = checksum(json.dump());
+        writeTextFile(fileFor(key).string(), json.dump(), Durability::Program); // what a crash spoils is made again
         removeOldest();
     } catch (const Error &) {
         // Kept for the life of the program only.
@@ -143,7 +145,7 @@ void CalibrationStore::removeOldest() const
     std::error_code code;
     std::vector<std::pair<fs::file_time_type, fs::path>> files;
     for (fs::directory_iterator entry(m_folder, code), end; entry != end; entry.increment(code))
-        if (entry->path().filename().string().starts_with(filePrefix))
+        if (isNamedSo(entry->path()))
             files.emplace_back(entry->last_write_time(code), entry->path());
     if (files.size() <= largestFileCount)
         return;

@@ -11,8 +11,8 @@ namespace faintline {
 /// Calibrations kept on disk from one run of the program to the next: a JSON file for each key in one folder.
 ///
 /// Keeping changes no result: numbers are written in the form that reads back the same, and a file counts only if it was
-/// written for the same key by a program made from the same sources of the core. Anything else (unreadable, cut short, foreign) is
-/// as if it were not there, and a folder that cannot be written keeps nothing; neither is an error. The oldest files
+/// written for the same key by a program made from the same sources of the core, and its checksum is right. Anything else (unreadable,
+/// cut short, changed, foreign) is as if it were not there, and a folder that cannot be written keeps nothing; neither is an error. The oldest files
 /// go when there are more than `largestFileCount`. Files appear whole, so any number of programs may share a folder.
 class CalibrationStore
 {
@@ -24,6 +24,9 @@ public:
 
     /// The folder the user wants: FAINTLINE_CACHE (a folder, or `off`), else $XDG_CACHE_HOME/faintline, else ~/.cache/faintline.
     static std::filesystem::path usualFolder();
+
+    /// Whether a file is called like one that is kept.
+    static bool isNamedSo(const std::filesystem::path &file);
 
     /// What was kept under a key, or null.
     std::shared_ptr<const Calibration> load(const std::string &key) const;

@@ -1,12 +1,18 @@
 #include "base/AtomicFile.h"
 
 #include "base/Error.h"
+#include "base/checksum.h"
+#include "base/temporaries.h"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace faintline {
@@ -24,6 +30,8 @@ namespace {
         namespace fs = std::filesystem;
         if (path.empty())
             throw Error("a file to write", "has no name");
+        if (path.find('\0') != std::string::npos)
+            throw Error(path, "is no name of a file: it holds a zero byte");
         std::error_code code;
         const fs::file_status status = fs::status(path, code);
         if (!fs::exists(status))
@@ -36,15 +44,90 @@ namespace {
         return code ? path : resolved.string();
     }
 
+    thread_local CommitTogether *together = nullptr;
+
+    /// What a file's temporary neighbours begin with: its name, or as much of it as leaves room for their ending.
+    std::string beginningOf(const std::string &path)
+    {
+        constexpr std::size_t most = 200;
+        const std::size_t slash = path.rfind('/') + 1;
+        const std::string name = path.substr(slash);
+        return path.substr(0, slash) + (name.size() <= most ? name : name.substr(0, most - 17) + "~" + checksum(name));
+    }
+
+    /// "NAME.PID-N.part"
+    bool isTemporaryOf(std::string_view name, std::string_view temporary)
+    {
+        if (!temporary.starts_with(name) || !temporary.substr(name.size()).starts_with('.') || !temporary.ends_with(".part"))
+            return false;
+        const std::string_view middle = temporary.substr(name.size() + 1, temporary.size() - name.size() - std::string_view("..part").size());
+        return middle.find('-') != std::string_view::npos && middle.find_first_not_of("0123456789-") == std::string_view::npos;
+    }
+
+    /// Whoever writes one keeps it locked; a killed program's locks are gone.
+    void removeAbandoned(const std::string &path)
+    {
+        namespace fs = std::filesystem;
+        const fs::path target(beginningOf(path));
+        const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+        std::error_code code;
+        for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+            if (!isTemporaryOf(target.filename().native(), entry->path().filename().native()))
+                continue;
+            const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+            if (descriptor < 0)
+                continue;
+            if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+                ::unlink(entry->path().c_str());
+            ::close(descriptor);
+        }
+    }
+
+    /// A name that a folder was given is on the disk only when the folder is. Where it cannot be opened or has no such thing, so be it.
+    void syncFolder(const std::string &path)
+    {
+        namespace fs = std::filesystem;
+        const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
+        const int descriptor = ::open(folder.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY);
+        if (descriptor < 0)
+            return;
+        ::fsync(descriptor);
+        ::close(descriptor);
+    }
+
 } // namespace
 
-AtomicFile::AtomicFile(const std::string &path) : m_path(target(path))
+AtomicFile::AtomicFile(const std::string &path, Durability durability) : m_path(target(path)), m_durability(durability)
+{
+    removeAbandoned(m_path);
+    makeTemporary([&] {
+        makeTemporaryFile(path);
+        return m_temporaryPath;
+    });
+}
+
+AtomicFile::AtomicFile(AtomicFile &&other) noexcept
+    : m_path(std::move(other.m_path)), m_temporaryPath(std::move(other.m_temporaryPath)), m_durability(other.m_durability),
+      m_descriptor(std::exchange(other.m_descriptor, -1))
+{
+    other.m_path = m_path; // it may be asked for after the commit
+}
+
+void AtomicFile::makeTemporaryFile(const std::string &path)
 {
     for (int attempt = 0; m_descriptor < 0; ++attempt) {
-        m_temporaryPath = m_path + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
+        m_temporaryPath = beginningOf(m_path) + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
         m_descriptor = ::open(m_temporaryPath.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (m_descriptor < 0 && (errno != EEXIST || attempt > 1000))
             throw Error(path, "cannot be written: " + systemMessage(errno));
+        if (m_descriptor < 0)
+            continue;
+        const bool isLocked = ::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+        struct stat status = {};
+        if (!isLocked || (::fstat(m_descriptor, &status) == 0 && status.st_nlink == 0)) { // taken for abandoned before it was locked
+            ::close(m_descriptor);
+            m_descriptor = -1;
+        }
     }
 }
 
@@ -52,8 +135,9 @@ AtomicFile::~AtomicFile()
 {
     if (m_descriptor < 0)
         return;
-    ::close(m_descriptor);
     ::unlink(m_temporaryPath.c_str());
+    ::close(m_descriptor);
+    forgetTemporary(m_temporaryPath);
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes)
@@ -70,19 +154,52 @@ void AtomicFile::write(std::span<const std::byte> bytes)
 
 void AtomicFile::commit()
 {
-    const int descriptor = m_descriptor;
-    m_descriptor = -1;
-    const bool closed = ::close(descriptor) == 0; // network file systems report a full disk here
-    if (!closed || ::rename(m_temporaryPath.c_str(), m_path.c_str()) != 0) {
-        const int code = errno;
-        ::unlink(m_temporaryPath.c_str());
-        throw Error(m_path, "cannot be written: " + systemMessage(code), Error::Kind::Failure);
-    }
+    if (m_durability == Durability::Machine && ::fsync(m_descriptor) != 0 && errno != EINVAL) // a disk may turn out to be full here
+        throw Error(m_path, "cannot be written: " + systemMessage(errno), Error::Kind::Failure);
+    if (!together)
+        return rename();
+    together->m_files.push_back(std::unique_ptr<AtomicFile>(new AtomicFile(std::move(*this))));
 }
 
-void writeTextFile(const std::string &path, std::string_view text)
+void AtomicFile::rename()
 {
-    AtomicFile file(path);
+    const int descriptor = std::exchange(m_descriptor, -1);
+    const bool renamed = ::rename(m_temporaryPath.c_str(), m_path.c_str()) == 0;
+    const int renaming = errno;
+    const bool closed = ::close(descriptor) == 0; // network file systems report a full disk here
+    if (!renamed || !closed) {
+        const int code = renamed ? errno : renaming;
+        if (!renamed)
+            ::unlink(m_temporaryPath.c_str());
+        forgetTemporary(m_temporaryPath);
+        throw Error(m_path, "cannot be written: " + systemMessage(code), Error::Kind::Failure);
+    }
+    forgetTemporary(m_temporaryPath);
+    if (m_durability == Durability::Machine)
+        syncFolder(m_path);
+}
+
+CommitTogether::CommitTogether()
+{
+    together = this;
+}
+
+CommitTogether::~CommitTogether()
+{
+    together = nullptr;
+}
+
+void CommitTogether::commit()
+{
+    together = nullptr;
+    for (const auto &file : m_files)
+        file->rename();
+    m_files.clear();
+}
+
+void writeTextFile(const std::string &path, std::string_view text, Durability durability)
+{
+    AtomicFile file(path, durability);
     file.write(text);
     file.commit();
 }

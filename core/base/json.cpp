@@ -25,6 +25,56 @@ namespace {
         return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - lineStart + 1);
     }
 
+    /// Builds a value as the library's own parser does, in a time that grows with the text's length only: objects may have so many keys,
+    /// each of which is looked for among the others. (The library's call-backs look through a whole list for each of its members.)
+    class BoundedParser : public nlohmann::detail::json_sax_dom_parser<Json>
+    {
+        using Base = nlohmann::detail::json_sax_dom_parser<Json>;
+        static constexpr std::size_t deepest = 100; // what goes through a value calls itself for every level
+        static constexpr int mostKeys = 1000;
+
+    public:
+        BoundedParser(Json &value, const std::string &where) : Base(value), m_where(where) {}
+
+        bool start_object(std::size_t size)
+        {
+            goDown();
+            return Base::start_object(size);
+        }
+        bool start_array(std::size_t size)
+        {
+            goDown();
+            return Base::start_array(size);
+        }
+        bool end_object()
+        {
+            m_keys.pop_back();
+            return Base::end_object();
+        }
+        bool end_array()
+        {
+            m_keys.pop_back();
+            return Base::end_array();
+        }
+        bool key(std::string &name)
+        {
+            if (++m_keys.back() > mostKeys)
+                throw Error(m_where, "has an object of more than " + std::to_string(mostKeys) + " keys; nothing that is read here has");
+            return Base::key(name);
+        }
+
+    private:
+        void goDown()
+        {
+            m_keys.push_back(0);
+            if (m_keys.size() > deepest)
+                throw Error(m_where, "is nested more than " + std::to_string(deepest) + " levels deep; nothing that is read here is");
+        }
+
+        const std::string &m_where;
+        std::vector<int> m_keys; ///< of each level
+    };
+
     /// A value in an error message. Never the inside of an array or object, which may be long.
     std::string shown(const Json &value)
     {
@@ -39,14 +89,11 @@ Json parseJson(std::string_view text, const std::string &where)
 {
     if (text.starts_with("\xEF\xBB\xBF"))
         text.remove_prefix(3);
-    constexpr int deepest = 100; // what goes through a value calls itself for every level
-    const auto checkDepth = [&](int depth, Json::parse_event_t, const Json &) {
-        if (depth > deepest)
-            throw Error(where, "is nested more than " + std::to_string(deepest) + " levels deep; nothing that is read here is");
-        return true;
-    };
+    Json value;
     try {
-        return Json::parse(text, checkDepth);
+        BoundedParser parser(value, where);
+        Json::sax_parse(text, &parser);
+        return value;
     } catch (const Json::parse_error &error) {
         throw Error(where, "is not valid JSON at " + place(text, error.byte));
     } catch (const Json::exception &) {
@@ -56,7 +103,7 @@ Json parseJson(std::string_view text, const std::string &where)
 
 Json readJsonFile(const std::string &path)
 {
-    constexpr std::uintmax_t largest = std::uintmax_t(256) << 20;
+    constexpr std::uintmax_t largest = std::uintmax_t(64) << 20;
     std::error_code code;
     if (!std::filesystem::exists(path, code))
         throw Error(path, "there is no such file");
@@ -64,7 +111,7 @@ Json readJsonFile(const std::string &path)
         throw Error(path, "is not a file; a JSON file is wanted here");
     const std::uintmax_t size = std::filesystem::file_size(path, code);
     if (!code && size > largest)
-        throw Error(path, "is larger than 256 MiB, too large for a JSON file");
+        throw Error(path, "is larger than 64 MiB, too large for a JSON file");
     std::ifstream stream(path, std::ios::binary);
     std::string text(static_cast<std::size_t>(code ? 0 : size), '\0');
     if (code || !stream || !stream.read(text.data(), static_cast<std::streamsize>(text.size())))

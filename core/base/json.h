@@ -15,10 +15,10 @@ namespace faintline {
 /// JSON whose keys keep the order in which they were written.
 using Json = nlohmann::ordered_json;
 
-/// Text → JSON; throws Error{where, line and column and what is wrong}.
+/// Text → JSON, of at most 100 levels and 1000 keys an object; throws Error{where, line and column and what is wrong}.
 Json parseJson(std::string_view text, const std::string &where);
 
-/// The JSON in a file of at most 256 MiB; throws Error naming the file.
+/// The JSON in a file of at most 64 MiB; throws Error naming the file.
 Json readJsonFile(const std::string &path);
 
 /// Checks that a value is an object that holds no key but the known ones; throws Error naming the key and the known

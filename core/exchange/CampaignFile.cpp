@@ -2,16 +2,24 @@
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
+#include "base/checksum.h"
+#include "base/oneLine.h"
 #include "base/readingJson.h"
 #include "evaluate/sweepCurve.h"
+#include "exchange/csvText.h"
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <memory>
+#include <optional>
+#include <string_view>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace faintline {
 
@@ -59,28 +67,70 @@ namespace {
         return outcome;
     }
 
-    struct Close {
-        void operator()(std::FILE *file) const { std::fclose(file); }
+    /// The end of a file to which lines are added. They survive the program at once, and the machine a second later.
+    class Lines
+    {
+    public:
+        explicit Lines(const std::string &path) : m_path(path), m_descriptor(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC))
+        {
+            if (m_descriptor < 0)
+                fail();
+        }
+        ~Lines()
+        {
+            ::fdatasync(m_descriptor);
+            ::close(m_descriptor);
+        }
+        Lines(const Lines &) = delete;
+        Lines &operator=(const Lines &) = delete;
+
+        void add(std::string line)
+        {
+            line += '\n';
+            for (std::string_view rest = line; !rest.empty();) {
+                const ssize_t written = ::write(m_descriptor, rest.data(), rest.size());
+                if (written < 0 && errno != EINTR)
+                    fail();
+                rest.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+            }
+            if (const auto now = std::chrono::steady_clock::now(); now > m_synced + std::chrono::seconds(1)) {
+                if (::fdatasync(m_descriptor) != 0)
+                    fail();
+                m_synced = now;
+            }
+        }
+
+    private:
+        [[noreturn]] void fail() const
+        {
+            throw Error(m_path, std::string("cannot be written: ") + std::strerror(errno), Error::Kind::Failure);
+        }
+
+        std::string m_path;
+        int m_descriptor;
+        std::chrono::steady_clock::time_point m_synced = std::chrono::steady_clock::now();
     };
-    using File = std::unique_ptr<std::FILE, Close>;
-
-    File openToAppend(const std::string &path)
-    {
-        File file(std::fopen(path.c_str(), "a"));
-        if (!file)
-            throw Error(path, std::string("cannot be written: ") + std::strerror(errno), Error::Kind::Failure);
-        return file;
-    }
-
-    void appendLine(std::FILE *file, const std::string &path, const std::string &line)
-    {
-        if (std::fputs((line + "\n").c_str(), file) < 0 || std::fflush(file) != 0)
-            throw Error(path, std::string("cannot be written: ") + std::strerror(errno), Error::Kind::Failure);
-    }
 
     std::string partsPath(const std::string &path)
     {
         return path + ".part";
+    }
+
+    constexpr std::string_view checkKey = ",\"checksum\":\"";
+
+    /// A line of JSON that carries the checksum of what it was before.
+    std::string withChecksum(std::string line)
+    {
+        const std::string own = checksum(line);
+        line.pop_back();
+        return line + std::string(checkKey) + own + "\"}";
+    }
+
+    /// Whether it is as it was written.
+    bool isAsWritten(const std::string &line)
+    {
+        const std::size_t at = line.rfind(checkKey);
+        return at != std::string::npos && line == withChecksum(line.substr(0, at) + "}");
     }
 
     /// Every detector and SNR of the experiment must have its answers.
@@ -123,11 +173,16 @@ namespace {
     CurvePoint pointFrom(std::string_view line, const std::string &where)
     {
         const Error refusal(where, std::string("must be ") + curveHead);
-        const std::size_t quote = line.starts_with('"') ? line.find('"', 1) : std::string_view::npos;
-        if (quote == std::string_view::npos || quote + 1 >= line.size())
-            throw refusal;
         CurvePoint point;
-        point.detector = line.substr(1, quote - 1);
+        std::size_t quote = line.starts_with('"') ? 1 : line.size();
+        for (; quote < line.size(); ++quote) {
+            if (line[quote] == '"' && (quote + 1 == line.size() || line[quote + 1] != '"'))
+                break;
+            quote += line[quote] == '"' ? 1 : 0; // doubled: one of the name's own
+            point.detector += line[quote];
+        }
+        if (quote + 1 >= line.size())
+            throw refusal;
         std::vector<std::optional<double>> values;
         for (std::string_view rest = line.substr(quote + 2);;) {
             const std::size_t comma = rest.find(',');
@@ -144,6 +199,30 @@ namespace {
         point.trials = static_cast<std::int64_t>(*values[4]);
         point.threshold = values[5];
         return point;
+    }
+
+    void writeParts(const Campaign &campaign, const std::string &parts)
+    {
+        std::string text = withChecksum(headOf(campaign)) + "\n";
+        for (const RunOutcome &outcome : campaign.outcomes)
+            text += withChecksum(lineOf(outcome)) + "\n";
+        writeTextFile(parts, text);
+    }
+
+    /// What a killed run left, without lines that are not as they were written: their runs are made again. Nothing where the first is
+    /// none of ours.
+    std::optional<Campaign> readParts(const std::string &parts)
+    {
+        std::ifstream file(parts);
+        std::string line;
+        if (!std::filesystem::is_regular_file(parts) || !std::getline(file, line) || !isAsWritten(line))
+            return std::nullopt;
+        std::string text = line + "\n";
+        while (std::getline(file, line) && !file.eof())
+            if (isAsWritten(line))
+                text += line + "\n";
+        writeTextFile(parts, text);
+        return readCampaign(parts);
     }
 
 } // namespace
@@ -198,7 +277,7 @@ void writeCurve(const Campaign &campaign, const std::string &path)
         return writeTextFile(path, sweepCsv(campaign));
     std::string csv = std::string(curveHead) + "\n";
     for (const CurvePoint &point : pdCurve(campaign))
-        csv += "\"" + point.detector + "\"," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + "," + formatNumber(point.interval.low) + ","
+        csv += csvText(oneLine(point.detector)) + "," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + "," + formatNumber(point.interval.low) + ","
             + formatNumber(point.interval.high) + "," + std::to_string(point.trials) + ","
             + (point.threshold ? formatNumber(*point.threshold) : std::string()) + "\n";
     writeTextFile(path, csv);
@@ -221,18 +300,14 @@ std::vector<CurvePoint> readCurve(const std::string &path)
 Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> &runs, const std::string &path, const RunContext &context)
 {
     const std::string parts = partsPath(path);
-    Campaign campaign;
-    if (std::filesystem::exists(parts)) {
-        campaign = readCampaign(parts);
-        if (!(campaign.experiment == experiment))
-            throw Error(parts, "holds runs of another experiment; remove it or choose another name for the result");
-        writeCampaign(campaign, parts); // without a line that was cut off
-    } else {
-        campaign = begin(experiment, context.part(0.0, 0.1));
-        writeCampaign(campaign, parts);
-    }
-    const File file = openToAppend(parts);
-    carryOut(campaign, runs, context.part(0.1, 1.0), [&](const RunOutcome &outcome) { appendLine(file.get(), parts, lineOf(outcome)); });
+    std::optional<Campaign> begun = readParts(parts);
+    if (begun && !(begun->experiment == experiment))
+        throw Error(parts, "holds runs of another experiment; remove it or choose another name for the result");
+    Campaign campaign = begun ? std::move(*begun) : begin(experiment, context.part(0.0, 0.1));
+    if (!begun)
+        writeParts(campaign, parts);
+    Lines lines(parts);
+    carryOut(campaign, runs, context.part(0.1, 1.0), [&](const RunOutcome &outcome) { lines.add(withChecksum(lineOf(outcome))); });
     return campaign;
 }
 

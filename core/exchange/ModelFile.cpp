@@ -1,6 +1,7 @@
 #include "exchange/ModelFile.h"
 
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "exchange/NumPy.h"
 
 #include <algorithm>
@@ -67,7 +68,8 @@ namespace {
             return otherwise;
         if (!found->is_string())
             throw Error(jsonName(where, key), "must be a text");
-        return found->get<std::string>();
+        constexpr std::size_t mostBytes = 80; // a name or a unit, which goes onto labels and to terminals
+        return oneLine(found->get<std::string>(), mostBytes);
     }
 
     void readRates(KinematicAxis &axis, const std::vector<double> &rates, const std::string &where)
@@ -157,6 +159,9 @@ namespace {
         checkKeys(json, path, {"axes", "likelihood", "reset", "initial", "semiring", "scaleTransitions"});
         if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].empty())
             throw Error(path, "needs \"axes\", a list of at least one axis");
+        constexpr std::size_t mostAxes = 8; // a law of one may take megabytes
+        if (json["axes"].size() > mostAxes)
+            throw Error(path + ": axes", "must be at most " + std::to_string(mostAxes));
         if (!json.contains("likelihood") || !json["likelihood"].is_object())
             throw Error(path, "needs \"likelihood\", such as {\"kind\": \"rice\", \"r0\": 0.5}");
         return json;

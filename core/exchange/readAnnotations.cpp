@@ -11,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string_view>
 
 namespace faintline {
@@ -45,17 +44,34 @@ namespace {
         return text;
     }
 
-    std::vector<std::string> linesOf(const std::string &text)
+    /// A text's lines one after the other: a million empty ones need no room.
+    class Lines
     {
-        std::vector<std::string> lines;
-        std::istringstream stream(text);
-        for (std::string line; std::getline(stream, line);) {
+    public:
+        explicit Lines(const std::string &text) : m_text(text) {}
+
+        /// The next line, or false after the last.
+        bool next(std::string &line)
+        {
+            if (m_at >= m_text.size())
+                return false;
+            const std::size_t end = std::min(m_text.find('\n', m_at), m_text.size());
+            line.assign(m_text, m_at, end - m_at);
             if (!line.empty() && line.back() == '\r')
                 line.pop_back();
-            lines.push_back(std::move(line));
+            m_at = end + 1;
+            ++m_number;
+            return true;
         }
-        return lines;
-    }
+
+        /// Of the line read last, counted from 1.
+        std::size_t number() const { return m_number; }
+
+    private:
+        const std::string &m_text;
+        std::size_t m_at = 0;
+        std::size_t m_number = 0;
+    };
 
     std::vector<std::string> splitAtTabs(const std::string &line)
     {
@@ -113,12 +129,10 @@ namespace {
         all.push_back(std::move(box));
     }
 
-    /// A table with named columns.
-    struct Table {
+    /// The names in a table's first line.
+    struct Header {
         std::string path;
         std::vector<std::string> names;
-        std::vector<std::vector<std::string>> rows; ///< as many cells as names
-        std::size_t firstLine = 2;
 
         std::ptrdiff_t column(const std::string &name) const
         {
@@ -131,23 +145,12 @@ namespace {
                 return found;
             throw Error(where(path, 1), "there is no column \"" + name + "\"");
         }
-        static std::string cell(const std::vector<std::string> &row, std::ptrdiff_t column)
-        {
-            return column < 0 ? std::string() : row[static_cast<std::size_t>(column)];
-        }
     };
 
-    Table readTable(const std::string &path, const std::vector<std::string> &lines, std::vector<std::string> (*split)(const std::string &))
+    /// A row's cell; empty where the row ends before it.
+    std::string cellOf(const std::vector<std::string> &row, std::ptrdiff_t column)
     {
-        Table table{path, split(lines.front()), {}};
-        for (std::size_t i = 1; i < lines.size(); ++i) {
-            std::vector<std::string> cells = split(lines[i]);
-            if (cells.size() > table.names.size())
-                throw Error(where(path, i + 1), "has more columns than the header");
-            cells.resize(table.names.size());
-            table.rows.push_back(std::move(cells)); // an empty line too, so that lines keep their numbers
-        }
-        return table;
+        return column < 0 || column >= std::ssize(row) ? std::string() : row[static_cast<std::size_t>(column)];
     }
 
     bool isBlank(const std::vector<std::string> &row)
@@ -155,76 +158,87 @@ namespace {
         return std::all_of(row.begin(), row.end(), [](const std::string &cell) { return cell.empty(); });
     }
 
+    using Split = std::vector<std::string> (*)(const std::string &);
+
     struct Columns {
         std::ptrdiff_t begin, end, low, high, label, review, note;
+        std::ptrdiff_t once = -1; ///< rows that follow one with the same there are other views of it
     };
 
-    std::vector<Annotation> fromTable(const Table &table, const Columns &columns)
+    /// Boxes of the rows after the header, one row at a time: what is kept are boxes, not cells.
+    std::vector<Annotation> fromRows(Lines &lines, const Header &header, Split split, const Columns &columns)
     {
         std::vector<Annotation> all;
-        for (std::size_t i = 0; i < table.rows.size(); ++i) {
-            const auto &row = table.rows[i];
+        std::string before;
+        for (std::string line; lines.next(line);) {
+            const std::string place = where(header.path, lines.number());
+            const std::vector<std::string> row = split(line);
+            if (row.size() > header.names.size())
+                throw Error(place, "has more columns than the header");
             if (isBlank(row))
                 continue;
-            const std::string place = where(table.path, table.firstLine + i);
+            if (const std::string own = cellOf(row, columns.once); !own.empty() && own == before)
+                continue;
+            else
+                before = own;
             Annotation box;
-            box.startSeconds = numberOf(Table::cell(row, columns.begin), place, "the begin");
-            box.endSeconds = numberOf(Table::cell(row, columns.end), place, "the end");
-            box.lowHz = optionalNumber(Table::cell(row, columns.low), place, "the lower frequency");
-            box.highHz = optionalNumber(Table::cell(row, columns.high), place, "the upper frequency");
-            box.label = oneLine(Table::cell(row, columns.label));
-            box.note = oneLine(Table::cell(row, columns.note));
-            box.verdict = verdictNamed(Table::cell(row, columns.review));
+            box.startSeconds = numberOf(cellOf(row, columns.begin), place, "the begin");
+            box.endSeconds = numberOf(cellOf(row, columns.end), place, "the end");
+            box.lowHz = optionalNumber(cellOf(row, columns.low), place, "the lower frequency");
+            box.highHz = optionalNumber(cellOf(row, columns.high), place, "the upper frequency");
+            box.label = oneLine(cellOf(row, columns.label));
+            box.note = oneLine(cellOf(row, columns.note));
+            box.verdict = verdictNamed(cellOf(row, columns.review));
             add(all, std::move(box), place);
         }
         return all;
     }
 
-    std::vector<Annotation> fromRaven(const std::string &path, const std::vector<std::string> &lines)
+    Header headerOf(Lines &lines, const std::string &path, Split split)
     {
-        const Table table = readTable(path, lines, splitAtTabs);
-        // A selection has a row for each of its views; one is enough.
-        std::ptrdiff_t label = -1;
-        for (const char *name : {"Annotation", "Label", "Species", "Common Name", "Type", "Tag"})
-            label = label < 0 ? table.column(name) : label;
-        Table once = table;
-        if (const std::ptrdiff_t selection = table.column("Selection"); selection >= 0) {
-            std::string before;
-            for (auto &row : once.rows) {
-                const std::string &own = row[static_cast<std::size_t>(selection)];
-                if (!own.empty() && own == before)
-                    std::fill(row.begin(), row.end(), std::string());
-                else
-                    before = own;
-            }
-        }
-        return fromTable(once, {table.needed("Begin Time (s)"), table.needed("End Time (s)"), table.column("Low Freq (Hz)"),
-                                table.column("High Freq (Hz)"), label, table.column("Review"), table.column("Notes")});
+        std::string first;
+        lines.next(first);
+        return {path, split(first)};
     }
 
-    std::vector<Annotation> fromCsv(const std::string &path, const std::vector<std::string> &lines)
+    std::vector<Annotation> fromRaven(const std::string &path, const std::string &text)
     {
-        Table table = readTable(path, lines, splitCsv);
+        Lines lines(text);
+        const Header header = headerOf(lines, path, splitAtTabs);
+        std::ptrdiff_t label = -1;
+        for (const char *name : {"Annotation", "Label", "Species", "Common Name", "Type", "Tag"})
+            label = label < 0 ? header.column(name) : label;
+        return fromRows(lines, header, splitAtTabs,
+                        {header.needed("Begin Time (s)"), header.needed("End Time (s)"), header.column("Low Freq (Hz)"),
+                         header.column("High Freq (Hz)"), label, header.column("Review"), header.column("Notes"), header.column("Selection")});
+    }
+
+    std::vector<Annotation> fromCsv(const std::string &path, const std::string &text)
+    {
+        Lines lines(text);
+        const Header header = headerOf(lines, path, splitCsv);
         // Events without edges are where they were detected.
-        const std::ptrdiff_t low = table.column("f_low") >= 0 ? table.column("f_low") : table.column("f");
-        const std::ptrdiff_t high = table.column("f_high") >= 0 ? table.column("f_high") : table.column("f");
-        const std::ptrdiff_t label = table.column("label");
-        std::vector<Annotation> all = fromTable(
-            table, {table.needed("t_onset"), table.needed("t_end"), low, high, label, table.column("review"), table.column("note")});
+        const std::ptrdiff_t low = header.column("f_low") >= 0 ? header.column("f_low") : header.column("f");
+        const std::ptrdiff_t high = header.column("f_high") >= 0 ? header.column("f_high") : header.column("f");
+        const std::ptrdiff_t label = header.column("label");
+        std::vector<Annotation> all = fromRows(
+            lines, header, splitCsv,
+            {header.needed("t_onset"), header.needed("t_end"), low, high, label, header.column("review"), header.column("note")});
         if (label < 0)
             for (std::size_t i = 0; i < all.size(); ++i)
                 all[i].label = "event " + std::to_string(i + 1);
         return all;
     }
 
-    std::vector<Annotation> fromAudacity(const std::string &path, const std::vector<std::string> &lines)
+    std::vector<Annotation> fromAudacity(const std::string &path, const std::string &text)
     {
         std::vector<Annotation> all;
-        for (std::size_t i = 0; i < lines.size(); ++i) {
-            const std::string place = where(path, i + 1);
-            if (lines[i].find_first_not_of(" \t") == std::string::npos)
+        Lines lines(text);
+        for (std::string line; lines.next(line);) {
+            const std::string place = where(path, lines.number());
+            if (line.find_first_not_of(" \t") == std::string::npos)
                 continue;
-            const std::vector<std::string> cells = splitAtTabs(lines[i]);
+            const std::vector<std::string> cells = splitAtTabs(line);
             if (cells[0] == "\\") {
                 if (all.empty() || cells.size() < 3)
                     throw Error(place, "a line of frequencies belongs after a label and holds a lower and an upper one");
@@ -324,12 +338,12 @@ std::vector<Annotation> readAnnotations(const std::string &path, const Recording
         return {};
     if (text[first] == '{' || text[first] == '[')
         return fromJson(path, text, info);
-    const std::vector<std::string> lines = linesOf(text);
-    if (lines.front().find("Begin Time (s)") != std::string::npos)
-        return fromRaven(path, lines);
-    if (lines.front().starts_with("event,"))
-        return fromCsv(path, lines);
-    return fromAudacity(path, lines);
+    const std::string_view line = std::string_view(text).substr(0, text.find('\n'));
+    if (line.find("Begin Time (s)") != std::string_view::npos)
+        return fromRaven(path, text);
+    if (line.starts_with("event,"))
+        return fromCsv(path, text);
+    return fromAudacity(path, text);
 }
 
 } // namespace faintline

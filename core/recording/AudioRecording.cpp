@@ -57,6 +57,8 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     m_info.path = path;
     std::unique_ptr<AudioDecoder> decoder = openDecoder();
     const SF_INFO format = decoder->format();
+    if ((format.format & SF_FORMAT_TYPEMASK) == SF_FORMAT_AIFF && !hasAiffRate(*m_file))
+        throw Error(path, "its header gives a sample rate that is no number from 1 Hz to 1e9 Hz");
     m_streams = format.channels;
     if (iq && m_streams % 2 != 0)
         throw Error(path, "has " + std::to_string(m_streams) + " channel(s), but I/Q needs them in pairs");

@@ -7,9 +7,28 @@ namespace faintline {
 
 namespace {
 
+    constexpr double mostNodes = 6e6; ///< 16 bytes each
+    constexpr std::size_t mostLines = 10000;
+
     std::string lineName(std::size_t i)
     {
         return "lines[" + std::to_string(i) + "]";
+    }
+
+    double durationOf(const LineSettings &line, const RecordingInfo &recording)
+    {
+        return line.durationSeconds > 0.0 ? line.durationSeconds : recording.durationSeconds() - line.startSeconds;
+    }
+
+    /// Of its frequency's path and of its fading's, as `Tone` keeps them.
+    double wanderNodes(const LineSettings &line, double duration)
+    {
+        return line.wanderHz > 0.0 ? duration / (0.1 * std::min(line.referenceSeconds, line.wanderSeconds)) : 0.0;
+    }
+
+    double fadingNodes(const LineSettings &line, double duration)
+    {
+        return line.fading != Fading::None ? duration / (0.02 * line.fadingSeconds) : 0.0;
     }
 
 } // namespace
@@ -89,7 +108,7 @@ void checkLine(const LineSettings &line, const RecordingInfo &recording, const s
         throw Error(name + ".durationSeconds = " + formatNumber(line.durationSeconds),
                     "takes the line beyond the recording's end, " + formatNumber(recordingEnd) + " s");
 
-    const double duration = line.durationSeconds > 0.0 ? line.durationSeconds : recordingEnd - line.startSeconds;
+    const double duration = durationOf(line, recording);
     const double low = recording.centreHz - (recording.isComplex ? 0.5 * recording.sampleRateHz : 0.0);
     const double high = recording.centreHz + 0.5 * recording.sampleRateHz;
     const double last = line.frequencyHz + line.driftHzPerSecond * duration;
@@ -98,11 +117,10 @@ void checkLine(const LineSettings &line, const RecordingInfo &recording, const s
                     "the line must stay within " + formatNumber(low) + " … " + formatNumber(high) + " Hz"
                         + (line.driftHzPerSecond != 0.0 ? ", but drifts to " + formatNumber(last) + " Hz" : ""));
 
-    constexpr double mostSteps = 2e7; // 320 MB of path
-    if (line.wanderHz > 0.0 && duration > 0.1 * mostSteps * std::min(line.referenceSeconds, line.wanderSeconds))
+    if (wanderNodes(line, duration) > mostNodes)
         throw Error(name + ".wanderSeconds = " + formatNumber(line.wanderSeconds),
                     "is too short for a line of " + formatNumber(duration) + " s, or referenceSeconds is");
-    if (line.fading != Fading::None && duration > 0.02 * mostSteps * line.fadingSeconds)
+    if (fadingNodes(line, duration) > mostNodes)
         throw Error(name + ".fadingSeconds = " + formatNumber(line.fadingSeconds),
                     "is too short for a line of " + formatNumber(duration) + " s");
 }
@@ -118,8 +136,17 @@ void checkScene(const LineScene &scene)
     if (scene.noise.levelDriftDb > 0.0 && scene.durationSeconds > 1e6 * scene.noise.levelDriftSeconds)
         throw Error("noise.levelDriftSeconds = " + formatNumber(scene.noise.levelDriftSeconds),
                     "must be at least a millionth of the duration");
-    for (std::size_t i = 0; i < scene.lines.size(); ++i)
-        checkLine(scene.lines[i], recordingInfo(scene), lineName(i));
+    if (scene.lines.size() > mostLines)
+        throw Error("lines", "must be at most " + std::to_string(mostLines));
+    const RecordingInfo recording = recordingInfo(scene);
+    double nodes = 0.0;
+    for (std::size_t i = 0; i < scene.lines.size(); ++i) {
+        checkLine(scene.lines[i], recording, lineName(i));
+        const double duration = durationOf(scene.lines[i], recording);
+        nodes += wanderNodes(scene.lines[i], duration) + fadingNodes(scene.lines[i], duration);
+        if (nodes > mostNodes)
+            throw Error(lineName(i), "wanders or fades too fast for its length, together with the lines before it");
+    }
 }
 
 LineScene lineSceneFromJson(const Json &json)

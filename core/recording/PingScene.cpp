@@ -2,6 +2,7 @@
 
 #include "base/logmath.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace faintline {
@@ -152,8 +153,24 @@ void checkScene(const PingScene &scene)
         if (scene.reverberation->normalisation == PingNormalisation::Estimated && cells < fewestCells)
             throw Error("reverberation.normalisation = estimated", "needs at least " + std::to_string(fewestCells) + " cells in a ping");
     }
-    for (std::size_t i = 0; i < scene.targets.size(); ++i)
-        checkTarget(scene, scene.targets[i], i);
+    constexpr std::size_t mostTargets = 1000;
+    constexpr double mostPlaces = 3e6; // 24 bytes each
+    constexpr double mostSteps = 1e8;  // each leg is looked at for each ping
+    if (scene.targets.size() > mostTargets)
+        throw Error("targets", "must be at most " + std::to_string(mostTargets));
+    double places = 0.0;
+    double steps = 0.0;
+    for (std::size_t i = 0; i < scene.targets.size(); ++i) {
+        const PingTarget &target = scene.targets[i];
+        checkTarget(scene, target, i);
+        const int end = target.vanishPing == 0 ? scene.pings : std::min(target.vanishPing, scene.pings);
+        places += end - target.appearPing;
+        steps += static_cast<double>(end - target.appearPing) * static_cast<double>(target.legs.size());
+        if (places > mostPlaces)
+            throw Error(targetName(i), "is there for too many pings, together with the targets before it; there may be 3e6 in all");
+        if (steps > mostSteps)
+            throw Error(targetName(i) + ".legs", "are too many for so many pings, together with those of the targets before it");
+    }
 }
 
 bool isPingScene(const Json &json)

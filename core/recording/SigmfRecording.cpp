@@ -1,6 +1,7 @@
 #include "recording/SigmfRecording.h"
 
 #include "base/json.h"
+#include "base/oneLine.h"
 #include "base/utc.h"
 
 #include <algorithm>
@@ -127,7 +128,7 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
 
     meta.dataPath = withEnding(path, dataEnding);
     if (const std::optional<std::string> dataset = global.text("core:dataset")) {
-        if (std::filesystem::path(*dataset).has_parent_path())
+        if (std::filesystem::path(*dataset).has_parent_path() || dataset->find('\0') != std::string::npos)
             global.refuse("core:dataset", "must be the name of a file in the same folder");
         meta.dataPath = (std::filesystem::path(metaPath).parent_path() / *dataset).string();
     }
@@ -152,7 +153,7 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
             if (meta.startUnixSeconds)
                 *meta.startUnixSeconds -= static_cast<double>(start) / *rate;
             else if (time)
-                meta.notes.push_back("core:datetime \"" + time->substr(0, 40)
+                meta.notes.push_back("core:datetime \"" + oneLine(*time, 40)
                                      + "\" is no ISO 8601 time and is left out.");
         } else if (header > 0) {
             capture.refuse("core:header_bytes", "bytes between captures cannot be skipped; only before the first");

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -105,7 +106,36 @@ namespace {
         }
     }
 
+    std::uint32_t bigEndian(std::span<const std::byte> bytes)
+    {
+        std::uint32_t value = 0;
+        for (const std::byte byte : bytes)
+            value = value << 8 | static_cast<std::uint32_t>(byte);
+        return value;
+    }
+
 } // namespace
+
+bool hasAiffRate(const FileBytes &file)
+{
+    std::array<std::byte, 18> head; // a chunk's name and length, or what the common chunk says
+    const std::span<const std::byte> bytes(head);
+    Index offset = 12;
+    for (int chunks = 0; chunks < 1000 && file.readAt(offset, std::span(head).first(8)) == 8; ++chunks) {
+        const bool isCommon = std::memcmp(head.data(), "COMM", 4) == 0;
+        const Index length = bigEndian(bytes.subspan(4, 4));
+        if (isCommon) {
+            if (file.readAt(offset + 8, head) != head.size())
+                return false;
+            // Channels, frames, bits, then sign and exponent (bias 16383) in two bytes, and a significand with its leading 1.
+            const std::uint32_t exponent = bigEndian(bytes.subspan(8, 2));
+            const bool isNormal = bigEndian(bytes.subspan(10, 4)) >> 31 != 0;
+            return isNormal && exponent >= 16383 && exponent < 16383 + 30; // a sign makes it larger than that, as infinity and NaN are
+        }
+        offset += 8 + length + length % 2;
+    }
+    return false;
+}
 
 std::string containerName(int format)
 {

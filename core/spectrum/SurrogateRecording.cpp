@@ -97,7 +97,7 @@ void SurrogateRecording::addBlock(Index block, Index first, std::span<float> out
         const std::size_t upper = std::min(lower + 1, ln.size() - 1);
         const double fraction = position - static_cast<double>(lower);
         return std::exp(
-            0.5 * ((1.0 - fraction) * static_cast<double>(ln[lower]) + fraction * static_cast<double>(ln[upper])));
+            0.5 * (m_background->lnUnit + (1.0 - fraction) * static_cast<double>(ln[lower]) + fraction * static_cast<double>(ln[upper])));
     };
     // The inverse transform by a forward one: F⁻¹{X} = conj(F{conj X})/N.
     const std::span<const std::complex<float>> bins = buffer->output();

@@ -79,6 +79,7 @@ void tst_CalibrationStore::damagedFilesDoNotCount_data()
     QTest::newRow("a text for a number") << QByteArray("\"tailSlope\":0.7") << QByteArray("\"tailSlope\":\"0.7\"");
     QTest::newRow("null for a number") << QByteArray("\"tailSlope\":0.7") << QByteArray("\"tailSlope\":null");
     QTest::newRow("a slope that cannot be") << QByteArray("\"tailSlope\":0.7") << QByteArray("\"tailSlope\":-0.7");
+    QTest::newRow("another number") << QByteArray("\"tailSlope\":0.7") << QByteArray("\"tailSlope\":0.9");
     QTest::newRow("lengths differ") << QByteArray("[-2.0,") << QByteArray("[");
     QTest::newRow("no JSON") << QByteArray("{") << QByteArray("");
     QTest::newRow("an array") << QByteArray("{\"sources\"") << QByteArray("[{\"sources\"");

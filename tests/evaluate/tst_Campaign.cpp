@@ -1,3 +1,4 @@
+#include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Random.h"
 #include "evaluate/Campaign.h"
@@ -66,7 +67,9 @@ class tst_Campaign : public QObject
 private slots:
     void threadsAndOrderChangeNothing();
     void shardsMergeToTheWhole();
+    void namesOfDetectorsInACurve();
     void killedAndResumed();
+    void changedPartsAreMadeAgain();
     void everyTrialCanBeMadeAgain();
     void billonsEstimateByHand();
     void thresholdsAndRoc();
@@ -124,6 +127,19 @@ void tst_Campaign::shardsMergeToTheWhole()
     QVERIFY_EXCEPTION_THROWN(merge({whole, foreign}), Error);
 }
 
+void tst_Campaign::namesOfDetectorsInACurve()
+{
+    LineExperiment experiment = smallExperiment();
+    experiment.detectors = {contestant("a\",9\n\"b\",1,1,1,1,1,1", PofNSettings{3, 4})};
+    Campaign campaign = begin(experiment);
+    carryOut(campaign, firstRuns(1));
+    writeCurve(campaign, path("names.csv"));
+    const std::vector<CurvePoint> curve = readCurve(path("names.csv"));
+    QCOMPARE(curve.size(), 2u); // one for each SNR, and no row that a name brought with it
+    QCOMPARE(curve[1].detector, std::string("a\",9 \"b\",1,1,1,1,1,1"));
+    QCOMPARE(curve[1].snrDb, 3.0);
+}
+
 void tst_Campaign::killedAndResumed()
 {
     const Experiment experiment = smallExperiment();
@@ -144,6 +160,30 @@ void tst_Campaign::killedAndResumed()
     QVERIFY_EXCEPTION_THROWN(carryOutResumably(other, {0}, out), Error);
     removeParts(out);
     QVERIFY(!QFile::exists(QString::fromStdString(out + ".part")));
+}
+
+void tst_Campaign::changedPartsAreMadeAgain()
+{
+    const Experiment experiment = smallExperiment();
+    const std::string out = path("changed");
+    const Campaign whole = carryOutResumably(experiment, firstRuns(3), out);
+    const QString parts = QString::fromStdString(out + ".part");
+    const auto change = [&](int line, const QByteArray &before, const QByteArray &after) {
+        QFile file(parts);
+        if (!file.open(QFile::ReadOnly))
+            return false;
+        QList<QByteArray> lines = file.readAll().split('\n');
+        file.close();
+        const QByteArray old = lines[line];
+        lines[line].replace(lines[line].lastIndexOf(before), before.size(), after);
+        writeTextFile(out + ".part", lines.join('\n').toStdString());
+        return old != lines[line];
+    };
+    QVERIFY(change(2, "\"signal\":[[[", "\"signal\":[[[9")); // a run that found more than it did
+    QVERIFY(carryOutResumably(experiment, firstRuns(3), out).outcomes == whole.outcomes);
+    QVERIFY(change(0, "\"thresholds\":[", "\"thresholds\":[1,"));
+    const Campaign again = carryOutResumably(experiment, firstRuns(3), out);
+    QVERIFY(again.outcomes == whole.outcomes && again.thresholds == whole.thresholds);
 }
 
 void tst_Campaign::everyTrialCanBeMadeAgain()

@@ -26,6 +26,8 @@ private slots:
     void sampleCountOfHeadersThatLie();
     void truncatedFilesGiveWhatIsThere_data();
     void truncatedFilesGiveWhatIsThere();
+    void aiffRatesThatAreNone_data();
+    void aiffRatesThatAreNone();
     void streamOfUnknownLength();
     void shrinkingWhileOpen();
     void startTimeFromBext();
@@ -250,6 +252,32 @@ void tst_AudioRecording::truncatedFilesGiveWhatIsThere()
     const std::vector<float> part = readAll(recording);
     QVERIFY(largestDifference(part, {whole.begin(), whole.begin() + count}) <= tolerance);
     QVERIFY(readInPieces(AudioRecording(path("part"), false), 50000) == part);
+}
+
+void tst_AudioRecording::aiffRatesThatAreNone_data()
+{
+    QTest::addColumn<QByteArray>("rate"); // sign and exponent, significand
+    QTest::addColumn<double>("hertz");    // 0: refused
+    QTest::newRow("48 kHz") << QByteArray::fromHex("400ebb80000000000000") << 48000.0;
+    QTest::newRow("1 Hz") << QByteArray::fromHex("3fff8000000000000000") << 1.0;
+    QTest::newRow("NaN") << QByteArray::fromHex("7fffc000000000000000") << 0.0;
+    QTest::newRow("infinite") << QByteArray::fromHex("7fff8000000000000000") << 0.0;
+    QTest::newRow("negative") << QByteArray::fromHex("c00ebb80000000000000") << 0.0;
+    QTest::newRow("huge") << QByteArray::fromHex("43fe8000000000000000") << 0.0;
+    QTest::newRow("tiny") << QByteArray::fromHex("3ff08000000000000000") << 0.0;
+    QTest::newRow("0") << QByteArray(10, '\0') << 0.0;
+}
+
+void tst_AudioRecording::aiffRatesThatAreNone()
+{
+    QFETCH(QByteArray, rate);
+    QFETCH(double, hertz);
+    const QByteArray common = QByteArray::fromHex("0001000000640010") + rate; // one channel, 100 frames, 16 bits
+    const QByteArray chunks = "AIFFCOMM" + QByteArray::fromHex("00000012") + common + "SSND" + QByteArray::fromHex("000000d0") + QByteArray(208, '\0');
+    writeBytes(path("rate.aiff"), "FORM" + QByteArray::fromHex("00000102") + chunks);
+    const std::string refusal = errorOf([&] { QCOMPARE(AudioRecording(path("rate.aiff"), false).info().sampleRateHz, hertz); });
+    QVERIFY2(refusal.empty() == (hertz > 0.0), refusal.c_str());
+    QVERIFY(hertz > 0.0 || contains(refusal, "sample rate"));
 }
 
 void tst_AudioRecording::streamOfUnknownLength()

@@ -106,8 +106,10 @@ void tst_SigmfRecording::datasetOfAnotherName()
     meta.replace("\"core:num_channels\": 2", "\"core:dataset\": \"b.bin\"");
     writeBytes(path("b.bin"), QByteArray(4 + 4 * 7, '\0'));
     QCOMPARE(openRecording(write(meta))->info().sampleCount, Index(7));
-    meta.replace("b.bin", "../b.bin");
-    QVERIFY(contains(errorOf([&] { openRecording(write(meta)); }), "must be the name of a file in the same folder"));
+    for (const char *name : {"../b.bin", "b.bin\\u0000.txt"}) {
+        QByteArray other = meta;
+        QVERIFY(contains(errorOf([&] { openRecording(write(other.replace("b.bin", name))); }), "must be the name of a file in the same folder"));
+    }
 }
 
 void tst_SigmfRecording::realPairsAsIq()

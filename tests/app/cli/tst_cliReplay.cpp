@@ -14,7 +14,142 @@ private slots:
     void initTestCase() { simulateLine(); }
 
     void resultsAreMadeAgain();
+    void nothingElseIsTouched_data();
+    void nothingElseIsTouched();
+    void onlyItsOwnFolderIsRead();
+    void helpIsNoResult();
+
+private:
+    Outcome runAtHome(const QStringList &arguments, const QString &home) const;
 };
+
+namespace {
+
+    /// Every file and folder below one, with its content.
+    QMap<QString, QByteArray> everything(const QString &folder)
+    {
+        QMap<QString, QByteArray> all;
+        for (QDirIterator entry(folder, QDir::AllEntries | QDir::Hidden | QDir::System | QDir::NoDotAndDotDot, QDirIterator::Subdirectories);
+             entry.hasNext();) {
+            const QString path = entry.next();
+            all[path] = entry.fileInfo().isDir() ? "folder" : QCryptographicHash::hash(readBytes(path.toStdString()), QCryptographicHash::Sha256);
+        }
+        return all;
+    }
+
+    QByteArray provenance(const QByteArray &arguments, const QByteArray &outputs)
+    {
+        return R"({"faintline": "0", "folder": ".", "inputs": [], "arguments": )" + arguments + R"(, "outputs": )" + outputs + "}";
+    }
+
+} // namespace
+
+/// In the folder `gift` of a home folder, where calibrations would be kept.
+CommandLineTest::Outcome tst_cliReplay::runAtHome(const QStringList &arguments, const QString &home) const
+{
+    QProcess process;
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.insert("HOME", home);
+    environment.remove("FAINTLINE_CACHE");
+    environment.remove("XDG_CACHE_HOME");
+    process.setProcessEnvironment(environment);
+    process.setWorkingDirectory(home + "/gift");
+    process.start(program, arguments);
+    if (!process.waitForFinished(patience) || process.exitStatus() != QProcess::NormalExit)
+        return {};
+    return {process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
+}
+
+void tst_cliReplay::nothingElseIsTouched_data()
+{
+    QTest::addColumn<QByteArray>("told");
+    QTest::newRow("an output that is not told of") << provenance(
+        R"(["detect", "line.wav", "--set", "spectrogram.windowSeconds=0.5", "--events", "gift.csv", "--tracks", "../mine.csv"])", R"(["gift.csv"])");
+    QTest::newRow("an output far away") << provenance(
+        R"(["simulate", "scene.json", "--out", "gift.wav", "--truth=../mine.json"])", R"(["gift.wav"])");
+    QTest::newRow("an experiment with a chart called detect") << provenance(
+        R"(["evaluate", "experiment.json", "--out", "../mine.csv", "--chart", "detect"])", R"(["detect"])");
+    QTest::newRow("shards, one of them called detect") << provenance(R"(["evaluate", "merge", "detect", "--out", "../mine.csv"])", R"(["detect"])");
+    QTest::newRow("a statistic of frames called inject") << provenance(
+        R"(["statistic", "--frames", "inject", "--model", "model.json", "--out", "../mine.npy", "--log", "../mine.csv"])", R"(["inject"])");
+    QTest::newRow("a command after threads") << provenance(
+        R"(["--threads", "1", "evaluate", "experiment.json", "--out=../mine.csv", "--chart=detect"])", R"(["detect"])");
+    QTest::newRow("frames with their grid") << provenance(R"(["simulate", "pings.json", "--out", "../mine.npy"])", R"(["../mine.npy"])");
+    QTest::newRow("a link that leads away") << provenance(R"(["simulate", "scene.json", "--out", "gift.wav", "--truth", "link.json"])", R"(["gift.wav"])");
+}
+
+void tst_cliReplay::nothingElseIsTouched()
+{
+    QFETCH(QByteArray, told);
+    const QTemporaryDir home;
+    const auto at = [&](const char *name) { return home.filePath(name).toStdString(); };
+    QVERIFY(QDir(home.path()).mkpath("gift"));
+    for (const char *mine : {"mine.csv", "mine.json", "mine.npy", "mine.grid.json"})
+        writeBytes(at(mine), "worth a year");
+    writeBytes(at("gift/line.wav"), content("line.wav"));
+    writeBytes(at("gift/scene.json"), content("scene.json"));
+    writeBytes(at("gift/pings.json"), R"({"kind": "pings", "pings": 4, "rangeCells": 20, "beams": 4})");
+    writeBytes(at("gift/experiment.json"), R"({"kind": "lines", "runs": 2, "frames": 60, "blockFrames": 30, "blockBins": 30,
+        "durationWindows": 10, "snrDb": [3], "detectors": [{"name": "SMD", "settings": {"detector.kind": "smd", "smd.reset": "fixed"}}]})");
+    writeBytes(at("gift/model.json"), R"({"axes": [{"cells": 4, "rates": [-1, 0, 1], "rateChange": [0.4, 0.3]}], "likelihood": {"kind": "linear"}})");
+    writeArray(at("gift/inject"), {3, 4}, std::vector<float>(12, 1.0f));
+    QVERIFY(QFile::link(home.filePath("mine.json"), home.filePath("gift/link.json")));
+    if (told.contains("merge"))
+        QCOMPARE(runAtHome({"evaluate", "experiment.json", "--shard", "1/1", "--out", "detect"}, home.path()).err, QByteArray());
+    const QDir gift(home.filePath("gift"));
+    QFile::remove(home.filePath(".cache"));
+    for (const char *result : {"gift/gift.csv", "gift/gift.wav", "gift/mine.npy"})
+        writeBytes(at(result), "look");
+    writeBytes(at("gift/gift.provenance.json"), told);
+    const QJsonArray outputs = QJsonDocument::fromJson(told)["outputs"].toArray();
+    const QString result = QFileInfo(outputs[0].toString()).fileName();
+    writeBytes((gift.path() + "/" + result + ".provenance.json").toStdString(), told);
+    const auto before = everything(home.path());
+    const Outcome outcome = runAtHome({"replay", result}, home.path());
+    QVERIFY(outcome.code > 0 && outcome.err.startsWith("error: ") && outcome.err.count('\n') == 1);
+    const auto after = everything(home.path());
+    QCOMPARE(after.keys(), before.keys());
+    QVERIFY(after == before);
+}
+
+void tst_cliReplay::onlyItsOwnFolderIsRead()
+{
+    QVERIFY(QDir(folder()).mkpath("results"));
+    QCOMPARE(run(QStringList{"detect", "line.wav", "--events", "results/far.csv"} + lineSettings).code, 0);
+    const Outcome refused = run({"replay", "results/far.csv"});
+    QCOMPARE(refused.code, 2);
+    QCOMPARE(refused.err, QByteArray("error: line.wav: lies outside of the folder of far.csv, which asks for it; --allow FOLDER lets replay read there\n"));
+    QCOMPARE(run({"replay", "results/far.csv", "--allow", "."}).out, QByteArray("far.csv: the same bytes\n"));
+    QCOMPARE(run({"replay", "results/far.csv", "--allow", "none"}).code, 2);
+
+    // Nor by what is not told of among what went in, nor by a link.
+    QVERIFY(QFile::link(path("scene.json"), path("results/link.json")));
+    for (const char *scene : {"../scene.json", "link.json"}) {
+        QByteArray told = provenance(R"(["simulate", "@", "--out", "far.wav"])", R"(["far.wav"])").replace("@", scene);
+        told.replace("\"folder\": \".\"", "\"folder\": \"results\"");
+        writeBytes(pathOf("results/far.wav.provenance.json"), told);
+        const Outcome outcome = run({"replay", "results/far.wav"});
+        QCOMPARE(outcome.code, 2);
+        QVERIFY2(outcome.err.contains("lies outside"), outcome.err.constData());
+    }
+
+    // Nor by an experiment of the window.
+    writeBytes(pathOf("results/curve.csv"), "look");
+    writeBytes(pathOf("results/curve.csv.provenance.json"), R"({"version": "0", "experiment": {"kind": "injection", "recording": "line.wav",
+        "detectors": [{"name": "SMD", "settings": {"detector.kind": "smd"}}]}})");
+    const Outcome outcome = run({"replay", "results/curve.csv"});
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(outcome.err.contains("lies outside"), outcome.err.constData());
+}
+
+void tst_cliReplay::helpIsNoResult()
+{
+    writeBytes(pathOf("help.csv"), "look");
+    writeBytes(pathOf("help.csv.provenance.json"), provenance(R"(["detect", "--events", "help.csv", "--help"])", R"(["help.csv"])"));
+    const Outcome outcome = run({"replay", "help.csv"});
+    QCOMPARE(outcome.code, 2);
+    QVERIFY2(outcome.err.contains("makes nothing"), outcome.err.constData());
+}
 
 void tst_cliReplay::resultsAreMadeAgain()
 {

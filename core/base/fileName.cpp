@@ -1,0 +1,41 @@
+#include "base/fileName.h"
+
+#include "base/oneLine.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+std::string textFromFileName(std::string_view name)
+{
+    std::string text;
+    for (std::size_t i = 0; i < name.size();) {
+        const std::size_t length = characterLength(name, i);
+        if (length > 0) {
+            text += name.substr(i, length);
+            i += length;
+            continue;
+        }
+        const auto byte = static_cast<unsigned char>(name[i++]); // from 0x80 on
+        text += {'\xf4', '\x8f', static_cast<char>(0xb8 | byte >> 6), static_cast<char>(0x80 | (byte & 0x3f))};
+    }
+    return text;
+}
+
+std::string fileNameFromText(std::string_view text)
+{
+    std::string name;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::string_view character = text.substr(i, std::max<std::size_t>(characterLength(text, i), 1));
+        const bool isByte = character.size() == 4 && character.starts_with("\xf4\x8f") && (static_cast<unsigned char>(character[2]) & 0xfc) == 0xb8
+                            && (static_cast<unsigned char>(character[2]) & 2) != 0;
+        if (isByte)
+            name += static_cast<char>((static_cast<unsigned char>(character[2]) & 3) << 6 | (static_cast<unsigned char>(character[3]) & 0x3f));
+        else
+            name += character;
+        i += character.size();
+    }
+    return name;
+}
+
+} // namespace faintline

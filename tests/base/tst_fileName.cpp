@@ -1,0 +1,34 @@
+#include "base/fileName.h"
+
+#include "base/oneLine.h"
+
+#include <QtTest>
+
+using namespace faintline;
+
+/// Names of files are bytes; as text they come back as they were.
+class tst_fileName : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void thereAndBack();
+};
+
+void tst_fileName::thereAndBack()
+{
+    QCOMPARE(textFromFileName("½ plain"), std::string("½ plain"));
+    QCOMPARE(textFromFileName("\xff"), std::string("\xf4\x8f\xbb\xbf")); // U+10FEFF
+    QCOMPARE(fileNameFromText("\xf4\x8f\xb7\xbf"), std::string("\xf4\x8f\xb7\xbf")); // U+10FDFF is another's
+    for (int first = 0; first < 256; ++first)
+        for (int second = 0; second < 256; ++second) {
+            const std::string name{'a', static_cast<char>(first), static_cast<char>(second)};
+            const std::string text = textFromFileName(name);
+            for (std::size_t i = 0; i < text.size(); i += characterLength(text, i))
+                QVERIFY(characterLength(text, i) > 0);
+            QVERIFY(fileNameFromText(text) == name);
+        }
+}
+
+QTEST_APPLESS_MAIN(tst_fileName)
+#include "tst_fileName.moc"
