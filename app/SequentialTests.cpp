@@ -1,5 +1,6 @@
 #include "app/SequentialTests.h"
 
+#include "analysis/lineSequentialModel.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@ namespace {
 
     Axis partOf(Axis axis, Index first, Index count)
     {
+        axis.cyclic = axis.cyclic && count == axis.count;
         axis.first = axis.value(static_cast<double>(first));
         axis.count = count;
         return axis;
@@ -84,6 +86,7 @@ void SequentialTests::start(const Selection &selection, const SprtSettings &sprt
     const Grid &grid = selection.frames->grid();
     if (grid.axes.size() != 1 || selection.model.motion != Motion::Slopes)
         throw Error("sequential test", "is made on the frequencies of a line recording with the slopes' model");
+    checkLikelihoodRatio(Likelihood(selection.model.likelihood, selection.model.snr), "model.likelihood");
     if (selection.frameCount < 1 || selection.cellCount < 1)
         throw Error("sequential test", "needs at least one frame and one frequency bin in view");
     forget();
@@ -92,8 +95,7 @@ void SequentialTests::start(const Selection &selection, const SprtSettings &sprt
     emit restarted();
     m_runner.start([this, selection, sprt](const RunContext &context) -> JobRunner::Delivery {
         const Axis frequency = partOf(selection.frames->grid().axes[0], selection.firstCell, selection.cellCount);
-        const MarkovModel line = makeModel(selection.model, {{frequency}});
-        const SequentialModel model = makeSequentialModel(line.space.axes(), {false}, line.likelihood);
+        const SequentialModel model = lineSequentialModel(selection.model, {{frequency}}, *selection.frames);
         const auto inspection = std::make_shared<const Inspection>(
             Inspection{inspectStages(model, sprt, selection.frameCount,
                                      stagesOf(selection.frames, selection.firstFrame, selection.firstCell, selection.cellCount), context),

@@ -1,7 +1,7 @@
 #include "app/sequentialSentences.h"
 
+#include "analysis/lineSequentialModel.h"
 #include "app/SequentialTests.h"
-#include "spectrum/NoiseNormaliser.h"
 #include "widgets/quantities.h"
 
 #include <QCoreApplication>
@@ -59,13 +59,16 @@ namespace {
         const SequentialTests::Selection &selection = tests.selection();
         const SprtResult &result = tests.walks().front().second;
         const Axis &time = selection.frames->time();
-        return tr("A line since the first frame in view, in %1 bins: %2 after %3 of %4 frames (%5), ln Λ = %6.")
+        QString text = tr("A line since the first frame in view, in %1 bins: %2 after %3 of %4 frames (%5), ln Λ = %6.")
                            .arg(selection.cellCount)
                            .arg(decisionText(result))
                            .arg(result.stages)
                            .arg(selection.frameCount)
                            .arg(secondsText(static_cast<double>(result.stages) * time.step, time.step),
                                 numberText(result.lnLambda.empty() ? 0.0 : result.lnLambda.back(), 1));
+        if (result.decision == SprtDecision::H0)
+            text += tr(" That is final: of a line that starts later this test says nothing. Begin the view later to test again.");
+        return text;
     }
 
 } // namespace
@@ -86,10 +89,11 @@ QString runSentence(const SequentialTests &tests)
 
 QString recordingNote(const SequentialTests &tests)
 {
-    QString text = tr("One test stops once: there is nothing to count.");
-    const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(tests.selection().frames.get());
-    if (frames && frames->spectrogram().settings().stepsPerWindow > 1)
-        text += tr(" This recording's frames overlap, so evidence counts more than once, and errors exceed α and β.");
+    QString text = tr("One test stops once: there is nothing to count.\nIt asks whether a line has been there since the first frame in view. “No target” "
+                      "is final: a line that starts later is not looked for.");
+    if (const Index every = tests.selection().frames ? framesApart(*tests.selection().frames) : 1; every > 1)
+        text += tr("\nWindows overlap and stages have to be independent: one frame in %1 counts, so α and β hold.").arg(every);
+    text += tr("\nα and β are those of a background that is right and of lines that move as the model says.");
     return text;
 }
 

@@ -11,7 +11,7 @@ class SequentialTests;
 /// How the selected run ended and how well its trajectory is known; of a recording, what was decided after how many frames.
 QString runSentence(const SequentialTests &tests);
 
-/// Why there is no histogram of one test, and what overlapping frames do to α and β.
+/// Why there is no histogram of one test, what it can say and what it assumes.
 QString recordingNote(const SequentialTests &tests);
 
 /// Mean stages at the SNR the test is designed for, against Wald's bounds (8a) and (8b).

@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 
 #include "analysis/analyse.h"
+#include "analysis/lineSequentialModel.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
 #include "detect/Sprt.h"
@@ -23,6 +24,7 @@ namespace {
         std::string model;
         SprtSettings sprt;
         Index averagedCells = 0;
+        Index every = 0; ///< frames from one that counts to the next; 0: as the windows overlap
         std::string out;
     };
 
@@ -57,24 +59,26 @@ namespace {
         const Index bins = frames->grid().size();
         Stages stages;
         if (options.model.empty()) {
-            const MarkovModel line = makeModel(settings.model, frames->grid());
-            stages.model = makeSequentialModel(line.space.axes(), {false}, line.likelihood);
+            stages.model = lineSequentialModel(settings.model, frames->grid(), *frames);
         } else {
             const FrameCells cells{options.analysis.file, {bins}};
             stages.model = readSequentialModel(options.model, &cells);
+            checkLikelihoodRatio(stages.model.markov.likelihood, options.model + ": likelihood.kind");
         }
+        stages.model.observedEvery = framesApart(*frames);
         stages.count = frames->time().count;
         stages.source = stagesOf(frames, 0, 0, bins);
         return stages;
     }
 
-    Json toJson(const SprtResult &result, const SprtSettings &settings)
+    Json toJson(const SprtResult &result, const SprtSettings &settings, Index observedEvery)
     {
         const SprtBoundaries boundaries = sprtBoundaries(settings);
         Json json;
         json["decision"] = sprtDecisionNames[static_cast<std::size_t>(result.decision)];
         json["stop"] = result.stages;
         json["forced"] = result.isForced;
+        json["observedEvery"] = observedEvery;
         json["lnGamma0"] = boundaries.lnLower;
         json["lnGamma1"] = boundaries.lnUpper;
         json["lnLambda"] = result.lnLambda;
@@ -95,9 +99,13 @@ namespace {
         Stages stages = options.frames.empty() ? recorded(options, context.part(0.0, 0.3)) : readyMade(options);
         if (options.averagedCells != 0)
             stages.source = averagedStages(std::move(stages.source), stages.model, options.averagedCells, "--average");
+        if (options.every < 0)
+            throw Error("--every " + std::to_string(options.every), "must be at least 1");
+        if (options.every > 0)
+            stages.model.observedEvery = options.every;
         const SprtResult result = runSprt(stages.model, options.sprt, stages.count, stages.source, context.part(0.3, 1.0));
         context.checkpoint(1.0, "done");
-        writeTextFile(options.out, toJson(result, options.sprt).dump(2) + "\n");
+        writeTextFile(options.out, toJson(result, options.sprt, stages.model.observedEvery).dump(2) + "\n");
     }
 
 } // namespace
@@ -106,7 +114,8 @@ void addSequential(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<Options>();
     CLI::App *command =
-        app.add_subcommand("sequential", "Stage after stage until it is clear whether a signal is there, and where it has been");
+        app.add_subcommand("sequential", "Stage after stage until it is clear whether a signal has been there since the first one, and where; "
+                                         "\"no signal\" is final, one that starts later is not looked for");
     options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
     addInput(*command, common, "--frames", options->frames, "Ready-made normalised frames, .npy of shape (stages, cells…), noise mean 1");
@@ -117,6 +126,10 @@ void addSequential(CLI::App &app, Common &common)
     command->add_option("--average", options->averagedCells,
                         "Cells round each one, along the model's last axis, whose mean stands for a noise power that is not known; "
                         "0: noise has mean 1")
+        ->capture_default_str();
+    command->add_option("--every", options->every,
+                        "Frames from one that counts to the next: evidence has to be independent, and windows that overlap share samples; "
+                        "0: as many as a window has steps in a recording, 1 of ready-made frames")
         ->capture_default_str();
     addOutput(*command, common, "--out", options->out, "Write decision, ln Λ of every stage and trajectory, .json")->required();
     command->callback([options, &common] { sequential(*options, common); });

@@ -310,7 +310,7 @@ template <class Semiring>
 void Recursion<Semiring>::prepareSlantedTiles()
     requires std::same_as<Semiring, MaxPlus<float>>
 {
-    if (m_isCyclic || m_slideRing > 0 || !m_departures.empty() || !m_matrices.empty())
+    if (m_isCyclic || m_slideRing > 0 || !m_departures.empty() || !m_rateDepartures.empty() || !m_matrices.empty())
         return;
     std::vector<SlantedTiles::Targets> phases;
     for (const Phase &phase : m_phases) {
@@ -337,8 +337,10 @@ void Recursion<Semiring>::preparePlaces(const StateSpace &space, double transiti
     std::vector<double> lnDepartures(static_cast<std::size_t>(space.cellCount()), 0.0);
     bool departs = false;
     Index inner = space.cellCount();
+    Index after = m_planeCount;
     for (const KinematicAxis &axis : space.axes()) {
         inner /= axis.cells;
+        after /= axis.rateCount;
         if (!axis.transition.empty()) {
             MatrixStep step{axis.cells, inner, {}};
             for (const double p : axis.transition)
@@ -347,6 +349,22 @@ void Recursion<Semiring>::preparePlaces(const StateSpace &space, double transiti
         }
         if (!axis.renormalised)
             continue;
+        if (axis.step.empty()) {
+            RateDepartures d{axis.cells, inner, axis.rateCount, after, axis.edgeCells(), {}};
+            for (Index number = 0; number < axis.phaseCount(); ++number) {
+                auto &phase = d.phases.emplace_back();
+                for (int rate = 0; rate < axis.rateCount; ++rate)
+                    for (Index place = 0; place < d.places(); ++place) {
+                        const Index cell = d.cellOf(place);
+                        const int other = axis.rateGoingOn(cell, rate, number);
+                        phase.weights.push_back(weight(other == rate ? axis.lnDeparture(cell, rate, number) : 0.0));
+                        if (other != rate)
+                            phase.turns.push_back({cell, d.cellsOf(place), rate, other});
+                    }
+            }
+            m_rateDepartures.push_back(std::move(d));
+            continue;
+        }
         departs = true;
         std::vector<double> ln;
         for (Index cell = 0; cell < axis.cells; ++cell)
@@ -360,17 +378,19 @@ void Recursion<Semiring>::preparePlaces(const StateSpace &space, double transiti
 }
 
 template <class Semiring>
-std::span<const typename Semiring::Real> Recursion<Semiring>::prepare(std::span<const Real> scores)
+std::span<const typename Semiring::Real> Recursion<Semiring>::prepare(std::span<const Real> scores, Index step)
 {
-    if (m_departures.empty() && m_matrices.empty())
+    if (m_departures.empty() && m_rateDepartures.empty() && m_matrices.empty())
         return scores;
     m_prepared.assign(scores.begin(), scores.end());
     if (!m_departures.empty())
         for (auto plane = m_prepared.begin(); plane != m_prepared.end(); plane += m_planeSize)
             depart<Semiring>(&*plane, m_departures.data(), m_planeSize);
+    for (const RateDepartures &departures : m_rateDepartures)
+        apply(departures, step, m_prepared);
     m_multiplied.resize(m_matrices.empty() ? 0 : scores.size());
-    for (const MatrixStep &step : m_matrices) {
-        apply(step, m_prepared, m_multiplied);
+    for (const MatrixStep &matrix : m_matrices) {
+        apply(matrix, m_prepared, m_multiplied);
         std::swap(m_prepared, m_multiplied);
     }
     return m_prepared;
@@ -387,6 +407,37 @@ void Recursion<Semiring>::apply(const MatrixStep &step, std::span<const Real> fr
                 sources[static_cast<std::size_t>(source)] = {from.data() + first + source * step.inner,
                                                              step.weights[static_cast<std::size_t>(source * step.cells + row)]};
             joinSources<Semiring>(to.data() + first + row * step.inner, step.inner, sources);
+        }
+}
+
+template <class Semiring>
+void Recursion<Semiring>::apply(const RateDepartures &d, Index step, std::span<Real> scores) const
+{
+    const auto &phase = d.phases[static_cast<std::size_t>(step % std::ssize(d.phases))];
+    const Index block = d.cells * d.inner;
+    const auto forRuns = [&](Index rate, Index cell, auto &&visit) { // of every plane of a rate, the values of a cell
+        for (Index plane = rate * d.after; plane < m_planeCount; plane += d.rates * d.after)
+            for (Index each = plane; each < plane + d.after; ++each)
+                for (Index first = each * m_planeSize + cell * d.inner; first < (each + 1) * m_planeSize; first += block)
+                    visit(scores.data() + first);
+    };
+    for (const auto &turn : phase.turns)
+        forRuns(turn.fromRate, turn.cell, [&](Real *from) {
+            Real *to = from + (turn.toRate - turn.fromRate) * d.after * m_planeSize;
+            for (Index i = 0; i < turn.count * d.inner; ++i) {
+                to[i] = Semiring::logarithmic ? std::max(to[i], from[i]) : to[i] + from[i];
+                from[i] = nothing<Semiring>();
+            }
+        });
+    for (Index rate = 0; rate < d.rates; ++rate)
+        for (Index place = 0; place < d.places(); ++place) {
+            const Real weight = phase.weights[static_cast<std::size_t>(rate * d.places() + place)];
+            if (weight == weightOf<Semiring>(0.0))
+                continue;
+            forRuns(rate, d.cellOf(place), [&](Real *run) {
+                for (Index i = 0; i < d.cellsOf(place) * d.inner; ++i)
+                    run[i] = Semiring::logarithmic ? run[i] + weight : run[i] * weight;
+            });
         }
 }
 
@@ -424,7 +475,7 @@ std::span<typename Semiring::Real> Recursion<Semiring>::predict(std::span<const 
 template <class Semiring>
 void Recursion<Semiring>::predict(std::span<const Real> scores, Index step, const Tile &take)
 {
-    scores = prepare(scores);
+    scores = prepare(scores, step);
     fillMargins(scores);
     Scratch &own = scratch(0);
     std::vector<Real> predicted(static_cast<std::size_t>(m_tileRows * m_inner));
@@ -648,7 +699,7 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
                                           const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
-    scores = prepare(scores);
+    scores = prepare(scores, frames.firstStep);
     fillMargins(scores);
     m_tileContinued.assign(m_tiles.size(), {});
     const Phase &phase = phaseOf(frames.firstStep);

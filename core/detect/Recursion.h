@@ -6,6 +6,7 @@
 #include "model/Likelihood.h"
 #include "model/StateSpace.h"
 
+#include <algorithm>
 #include <concepts>
 #include <functional>
 #include <memory>
@@ -44,8 +45,9 @@ struct SumProduct {
 ///
 /// Where rates are fractions of a cell, displacements differ from step to step and repeat after `phaseCount` steps: each phase has tables of its own.
 ///
-/// What differs from cell to cell (a renormalised walk's departures, a full matrix) is ⊗-joined to the scores beforehand: P of an
+/// What differs from cell to cell (a renormalised axis's departures, a full matrix) is ⊗-joined to the scores beforehand: P of an
 /// axis is (departure of the source) ⊗ (law of the displacement), and the departures of one axis do not mind the moves of another.
+/// With rates a departure belongs to a rate and a cell, and scores of a rate with no way on are first ⊕-joined to those it turns to.
 ///
 /// Unreached states hold ⊕'s neutral element (-∞, or 0). Cost: states × Σ over axes of moves per target rate; memory is
 /// read once and written once. Oracle: enumeration of all paths. Scratch memory belongs to this object: one object per thread.
@@ -97,6 +99,30 @@ private:
         std::vector<Real> weights; ///< from × to
     };
 
+    /// What a renormalised axis with rates does to the scores before its step. after: planes that share the rates up to this axis.
+    struct RateDepartures {
+        struct Turn {
+            Index cell;
+            Index count; ///< cells from there on
+            Index fromRate;
+            Index toRate;
+        };
+        Index cells;
+        Index inner;
+        Index rates;
+        Index after;
+        Index edge; ///< cells at either end with departures of their own; those between share one
+        struct Phase {
+            std::vector<Real> weights; ///< of every rate: the cells of the low end, one between them, those of the high end
+            std::vector<Turn> turns;
+        };
+        std::vector<Phase> phases;
+
+        Index places() const { return std::min(cells, 2 * edge + 1); }
+        Index cellOf(Index place) const { return place <= edge ? place : cells - places() + place; }
+        Index cellsOf(Index place) const { return place == edge ? cells - places() + 1 : 1; }
+    };
+
     struct Shift {
         Index from; ///< first axis: a rate, or a maximum (numbered on from the rates); later axes: a plane, or a shifted copy
         Index cells;
@@ -146,8 +172,9 @@ private:
     void prepareSlantedTiles()
         requires std::same_as<Semiring, MaxPlus<float>>;
     void preparePlaces(const StateSpace &space, double transitionScale);
-    std::span<const Real> prepare(std::span<const Real> scores);
+    std::span<const Real> prepare(std::span<const Real> scores, Index step);
     void apply(const MatrixStep &step, std::span<const Real> from, std::span<Real> to) const;
+    void apply(const RateDepartures &departures, Index step, std::span<Real> scores) const;
 
     void fillMargins(std::span<const Real> scores);
     const Real *rowsOf(std::span<const Real> scores, Index plane, Index firstRow) const;
@@ -191,6 +218,7 @@ private:
     std::vector<std::unique_ptr<Scratch>> m_scratch;
     std::vector<Real> m_result; ///< empty until it is asked for
     std::vector<Real> m_departures; ///< of every cell; empty where the law is the same everywhere
+    std::vector<RateDepartures> m_rateDepartures;
     std::vector<MatrixStep> m_matrices;
     std::vector<Real> m_prepared;
     std::vector<Real> m_multiplied;

@@ -89,6 +89,10 @@ namespace {
 
         std::span<const double> at(Index stage)
         {
+            if (stage % m_model.observedEvery != 0) {
+                std::fill(m_lambda.begin(), m_lambda.end(), 0.0);
+                return m_lambda;
+            }
             m_source(stage, m_lambda);
             for (double &value : m_lambda)
                 value = m_model.markov.likelihood.at(value);

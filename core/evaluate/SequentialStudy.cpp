@@ -83,6 +83,8 @@ namespace {
     {
         checkSprt(study.sprt, "sprt");
         study.model.check("model");
+        if (study.model.observedEvery != 1)
+            throw Error("model.observedEvery", "must be 1 where sequential tests are simulated: their frames do not overlap");
         if (study.model.markov.likelihood.kind() != LikelihoodKind::Exponential)
             throw Error("model.likelihood", "must be exponential where sequential tests are simulated");
         if (study.actualSnr && !(*study.actualSnr > 0.0 && *study.actualSnr < 1e12))
@@ -110,17 +112,20 @@ namespace {
         {
             Index next = 0;
             Index running = 0;
+            m_step = 0;
+            const Index period = m_study.model.markov.space.phaseCount();
             for (Slot &slot : m_slot)
                 slot.trial.reset();
             for (;;) {
-                for (std::size_t lane = 0; lane < m_slot.size() && next < count; ++lane) {
+                // A trial's moves are numbered from its own start, so it begins where those of all lanes repeat.
+                for (std::size_t lane = 0; m_step % period == 0 && lane < m_slot.size() && next < count; ++lane) {
                     if (m_slot[lane].trial)
                         continue;
                     m_slot[lane] = {std::make_unique<SequentialTrial>(m_study, m_sampler, first + next), next, 0};
                     ++next;
                     ++running;
                 }
-                if (running == 0)
+                if (running == 0 && next == count)
                     return;
                 if (context.stop.stop_requested())
                     throw Cancelled();
@@ -142,7 +147,7 @@ namespace {
             for (std::size_t lane = 0; lane < m_slot.size(); ++lane)
                 if (m_slot[lane].trial)
                     takeFrame(lane);
-            const std::span<double> predicted = m_recursion.predict(m_weights);
+            const std::span<double> predicted = m_recursion.predict(m_weights, m_step++);
             for (std::size_t lane = 0; lane < m_slot.size(); ++lane)
                 if (m_slot[lane].trial && m_slot[lane].stages++ == 0)
                     for (std::size_t n = 0; n < m_initial.size(); ++n)
@@ -188,6 +193,7 @@ namespace {
         Index m_cells;
         Index m_states;
         Index m_lanes;
+        Index m_step = 0;
         std::vector<double> m_initial;
         Recursion<SumProduct> m_recursion;
         std::vector<double> m_weights;
@@ -349,7 +355,8 @@ std::span<const float> SequentialTrial::next()
     const std::span<float> y(m_buffer.data() + m_used * m_frameCells, static_cast<std::size_t>(m_frameCells));
     ++m_used;
     if (m_study->actualSnr) {
-        m_state = m_state < 0 ? m_sampler->first(m_target) : m_sampler->next(m_state, m_target);
+        m_state = m_state < 0 ? m_sampler->first(m_target) : m_sampler->next(m_state, m_target, m_stage);
+        ++m_stage;
         const StateSpace &space = m_study->model.markov.space;
         if (const Index folded = m_study->model.reduction.foldedCells(); folded > 1)
             m_folded = static_cast<Index>(m_target.uniform() * static_cast<double>(folded));

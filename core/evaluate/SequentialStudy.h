@@ -78,6 +78,7 @@ private:
     Index m_used;
     std::vector<float> m_buffer;
     std::vector<float> m_frame;
+    Index m_stage = 0; ///< of the next frame
     Index m_state = -1;
     Index m_folded = 0;
 };

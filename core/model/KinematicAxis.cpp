@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace faintline {
 
@@ -67,6 +68,22 @@ namespace {
         }
     }
 
+    /// A renormalised axis has a move from every cell, with some rate.
+    void checkWaysOn(const KinematicAxis &axis, const std::string &where)
+    {
+        const Index edge = axis.edgeCells();
+        for (Index cell = 0; cell < axis.cells; ++cell) {
+            if (cell > edge && cell < axis.cells - edge) { // as the one before
+                cell = axis.cells - edge - 1;
+                continue;
+            }
+            for (Index number = 0; number < axis.phaseCount(); ++number)
+                if (!(axis.remaining(cell, axis.rateGoingOn(cell, 0, number), number) > 0.0))
+                    throw Error(where, "let no target stay on the axis that is in cell " + std::to_string(cell)
+                                           + "; a law that loses nothing needs a move from every cell");
+        }
+    }
+
 } // namespace
 
 std::vector<KinematicAxis::Move> KinematicAxis::moves(Index number) const
@@ -83,22 +100,102 @@ std::vector<KinematicAxis::Move> KinematicAxis::moves(Index number) const
     for (int to = 0; to < rateCount; ++to)
         for (int from = std::max(0, to - reach); from <= std::min(rateCount - 1, to + reach); ++from)
             if (const double p = rateChange[static_cast<std::size_t>(std::abs(to - from))]; p > 0.0)
-                result.push_back({from, to,
-                                  ratesPerCell == 1 ? meanRate(2 * firstRate + from + to, rounding)
-                                                    : displacementInStep(firstRate + to, ratesPerCell, number),
-                                  std::log(p)});
+                result.push_back({from, to, displacement(from, to, number), std::log(p)});
     return result;
 }
 
-double KinematicAxis::lnDeparture(Index fromCell) const
+int KinematicAxis::displacement(int fromRate, int toRate, Index number) const
 {
-    if (!renormalised)
-        return 0.0;
+    return ratesPerCell == 1 ? meanRate(2 * firstRate + fromRate + toRate, rounding)
+                             : displacementInStep(firstRate + toRate, ratesPerCell, number);
+}
+
+double KinematicAxis::remaining(Index fromCell, int fromRate, Index number) const
+{
+    const auto exists = [&](Index cell) { return cyclic || (cell >= 0 && cell < cells); };
     double sum = 0.0;
-    for (Index delta = 1 - std::ssize(step); delta < std::ssize(step); ++delta)
-        if (cyclic || (fromCell + delta >= 0 && fromCell + delta < cells))
-            sum += step[static_cast<std::size_t>(std::abs(delta))];
-    return -std::log(sum);
+    if (!transition.empty()) {
+        const auto row = transition.begin() + fromCell * cells;
+        return std::accumulate(row, row + cells, 0.0);
+    }
+    if (!step.empty()) {
+        for (Index delta = 1 - std::ssize(step); delta < std::ssize(step); ++delta)
+            if (exists(fromCell + delta))
+                sum += step[static_cast<std::size_t>(std::abs(delta))];
+        return sum;
+    }
+    const int reach = static_cast<int>(rateChange.size()) - 1;
+    for (int to = std::max(0, fromRate - reach); to <= std::min(rateCount - 1, fromRate + reach); ++to)
+        if (exists(fromCell + displacement(fromRate, to, number)))
+            sum += rateChange[static_cast<std::size_t>(std::abs(to - fromRate))];
+    return sum;
+}
+
+int KinematicAxis::rateGoingOn(Index cell, int rate, Index number) const
+{
+    if (!renormalised || rateCount == 1)
+        return rate;
+    for (int apart = 0; apart < rateCount; ++apart)
+        for (const int other : {rate - apart, rate + apart})
+            if (other >= 0 && other < rateCount && remaining(cell, other, number) > 0.0)
+                return other;
+    return rate; // of an axis that check() refuses
+}
+
+double KinematicAxis::lnDeparture(Index fromCell, int fromRate, Index number) const
+{
+    return renormalised ? -std::log(remaining(fromCell, fromRate, number)) : 0.0;
+}
+
+Index KinematicAxis::edgeCells() const
+{
+    return cyclic ? 0 : std::min<Index>(largestDisplacement(), cells);
+}
+
+double KinematicAxis::largestLoss() const
+{
+    double largest = 0.0;
+    if (renormalised)
+        return largest;
+    const bool isLaw = transition.empty();
+    const Index edge = isLaw ? edgeCells() : cells;
+    for (Index cell = 0; cell < cells; ++cell) {
+        if (isLaw && cell > edge && cell < cells - edge) { // as the one before
+            cell = cells - edge - 1;
+            continue;
+        }
+        for (Index number = 0; number < phaseCount(); ++number)
+            for (int from = 0; from < rateCount; ++from)
+                largest = std::max(largest, std::abs(1.0 - remaining(cell, from, number)));
+    }
+    return largest;
+}
+
+KinematicAxis KinematicAxis::stochastic(const std::string &where) const
+{
+    constexpr double roundingError = 1e-14;
+    KinematicAxis result = *this;
+    if (largestLoss() <= roundingError)
+        return result;
+    if (!transition.empty()) {
+        for (Index from = 0; from < cells; ++from) {
+            const double sum = remaining(from);
+            if (!(sum > 0.0))
+                throw Error(where + ".transition", "row " + std::to_string(from) + " holds zeros only; a target there could not go on");
+            for (Index to = 0; to < cells; ++to)
+                result.transition[static_cast<std::size_t>(from * cells + to)] /= sum;
+        }
+        return result;
+    }
+    if (cyclic && !step.empty()) { // each way round counts by itself
+        const double sum = remaining(0);
+        for (double &q : result.step)
+            q /= sum;
+        return result;
+    }
+    result.renormalised = true;
+    result.check(where);
+    return result;
 }
 
 int KinematicAxis::largestDisplacement() const
@@ -127,11 +224,16 @@ void KinematicAxis::check(const std::string &where) const
             throw Error(where, "has a transition matrix, which says all of its moves: no rates, no step law, not cyclic");
         checkMatrix(transition, cells, where + ".transition");
     }
-    if (renormalised) {
-        if (step.empty() || !(step.front() > 0.0))
-            throw Error(where + ".step", "must let a target stay, q(0) > 0, where the ends of the axis share out what would leave it");
+    if (renormalised && !transition.empty())
+        throw Error(where, "has a transition matrix, whose rows say all of what remains on the axis");
+    if (renormalised && step.empty()) {
+        checkLaw(rateChange, where + ".rateChange");
+        checkWaysOn(*this, where + ".rates");
+    } else if (renormalised) {
         for (const double probability : step)
             checkProbability(probability, where + ".step");
+        if (!(step.front() > 0.0))
+            checkWaysOn(*this, where + ".step");
         if (cyclic && 2 * std::ssize(step) - 1 > cells)
             throw Error(where + ".step", "reaches the same cell both ways round a cyclic axis of " + std::to_string(cells));
     } else if (step.empty()) {

@@ -25,8 +25,14 @@ inline constexpr std::array<std::string_view, 2> roundingNames{"halfDown", "trun
 /// a cell of a straight line; the phase t mod q is common to all states, so it costs neither states nor probability.
 /// Without rates (rateCount = 1, firstRate = 0) and with a step law q:   p' = p + δ with probability q(|δ|), a random walk.
 /// h(0) + 2 Σ h(i) = 1, the same for q. Rates outside the set do not exist; neither do positions outside a bounded axis;
-/// the probability lost there is not given to others (Billon 2005 section 4, Parsons 2008 section 3), unless a walk is
-/// `renormalised`: then those cells that exist share it, P(p'|p) = q(|p'-p|) / Σ over existing cells (Grossi and Lops 2006).
+/// the probability lost there is not given to others (Billon 2005 section 4, Parsons 2008 section 3): K absorbs that in a detector.
+///
+/// A likelihood ratio needs a law that loses nothing. On a `renormalised` axis the moves that exist share what is lost,
+///
+///   P(r', p' | r, p) = h(|r'-r|) / Σ over r'' with p + d(r, r'') on the axis of h(|r''-r|),   P(p'|p) = q(|p'-p|) / Σ over existing cells
+///
+/// (Grossi and Lops 2006 for walks), so P = (departure of the source) · (law of the move). A target at the end of an axis none of
+/// whose moves stays there first turns to the rate nearest to its own that has one, of two equally near ones the lower.
 /// For small cases a full matrix may stand in place of a law: P(p'|p) = transition[p·cells + p'].
 struct KinematicAxis {
     std::string name;
@@ -37,7 +43,7 @@ struct KinematicAxis {
     std::vector<double> rateChange{1.0}; ///< h(0), h(1), …
     std::vector<double> step;            ///< q(0), q(1), … of a random walk; empty: no walk
     Rounding rounding = Rounding::HalfDown;
-    bool renormalised = false;      ///< a walk's steps off a bounded axis go to the cells that exist
+    bool renormalised = false;      ///< the moves that exist share the probability of those that do not
     int ratesPerCell = 1;           ///< q: neighbouring rates differ by 1/q cell per step
     std::vector<double> transition{}; ///< P(from, to), cells × cells row by row, of a bounded axis without rates; empty: a law
 
@@ -53,14 +59,33 @@ struct KinematicAxis {
     /// lowest rate, then the lowest source cell comes first. Of an axis with a matrix, which they know nothing of: staying.
     std::vector<Move> moves(Index step = 0) const;
 
+    /// By how many cells a move between two rates (indices) goes in step number `step`.
+    int displacement(int fromRate, int toRate, Index step = 0) const;
+
     /// After so many steps the moves repeat.
     Index phaseCount() const { return ratesPerCell; }
 
     /// A rate by its index, in cells per step.
     double rate(Index index) const { return static_cast<double>(firstRate + index) / ratesPerCell; }
 
-    /// What a move from a cell has on top of its ln probability: -ln Σ q(existing cells) where renormalised, otherwise 0.
-    double lnDeparture(Index fromCell) const;
+    /// Σ of the law's probabilities over the moves that exist from a cell and a rate (index) in step number `step`; 0: there is none.
+    double remaining(Index fromCell, int fromRate = 0, Index step = 0) const;
+
+    /// The rate a target goes on with: its own, or on a renormalised axis where that has no move, the nearest that has one.
+    int rateGoingOn(Index cell, int rate, Index step = 0) const;
+
+    /// What a move has on top of its ln probability: -ln of what remains where renormalised, otherwise 0.
+    double lnDeparture(Index fromCell, int fromRate = 0, Index step = 0) const;
+
+    /// Cells at either end of a bounded axis where what remains of a law with rates may differ from that in the middle.
+    Index edgeCells() const;
+
+    /// The same motion, losing nothing: renormalised where the law is not stochastic as it stands, a matrix row by row.
+    /// Throws Error naming `where` if some cell has no way on.
+    KinematicAxis stochastic(const std::string &where) const;
+
+    /// Largest |1 - Σ P| over the states a target may be in: 0 but for rounding where the law is stochastic.
+    double largestLoss() const;
 
     /// Whether the law differs from cell to cell; then a part of the axis has another law than the whole.
     bool isPlaceDependent() const { return (renormalised && !cyclic) || !transition.empty(); }

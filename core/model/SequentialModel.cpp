@@ -4,6 +4,7 @@
 #include "base/Field.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace faintline {
 
@@ -18,6 +19,14 @@ void SequentialModel::check(const std::string &where) const
     if (reduction.stateCells() != markov.space.cellCount())
         throw Error(where, "has " + std::to_string(markov.space.cellCount()) + " cells, but the frames leave "
                                + std::to_string(reduction.stateCells()));
+    if (observedEvery < 1)
+        throw Error(where + ".observedEvery = " + std::to_string(observedEvery), "must be at least 1");
+    if (markov.transitionScale != 1.0)
+        throw Error(where, "has scaled transitions, which are no probabilities");
+    for (const KinematicAxis &axis : markov.space.axes())
+        if (const double loss = axis.largestLoss(); loss > 1e-12)
+            throw Error(where, "has an axis" + (axis.name.empty() ? std::string() : " of " + axis.name) + " that loses up to "
+                                   + formatNumber(100.0 * loss) + " % of a target's probability a stage; a likelihood ratio needs a law that loses none");
     if (initial.empty())
         return;
     if (std::ssize(initial) != markov.space.stateCount())
@@ -42,7 +51,7 @@ SequentialModel makeSequentialModel(const std::vector<KinematicAxis> &frameAxes,
         frameAxes[i].check("model.axes[" + std::to_string(i) + "]");
         cells.push_back(frameAxes[i].cells);
         if (!isFolded[i])
-            axes.push_back(frameAxes[i]);
+            axes.push_back(frameAxes[i].stochastic("model.axes[" + std::to_string(i) + "]"));
     }
     if (axes.empty()) {
         axes.emplace_back();
@@ -51,8 +60,12 @@ SequentialModel makeSequentialModel(const std::vector<KinematicAxis> &frameAxes,
     // Each by itself: GCC 12 loses its way out of a list in which a later member throws.
     StateSpace space(std::move(axes));
     CellReduction reduction(std::move(cells), isFolded);
-    SequentialModel model{{std::move(space), likelihood, 1.0}, std::move(reduction), std::move(initial)};
+    SequentialModel model{{std::move(space), likelihood, 1.0}, std::move(reduction), std::move(initial), 1};
     model.check("model");
+    constexpr double rounding = 1e-14;
+    if (const double sum = std::accumulate(model.initial.begin(), model.initial.end(), 0.0); !model.initial.empty() && std::abs(sum - 1.0) > rounding)
+        for (double &p : model.initial)
+            p /= sum;
     return model;
 }
 

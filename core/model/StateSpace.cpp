@@ -97,9 +97,13 @@ std::vector<StateSpace::Predecessor> StateSpace::predecessors(Index target, Inde
                 cell = (cell % a.cells + a.cells) % a.cells;
             else if (cell < 0 || cell >= a.cells)
                 continue;
-            from.rates[axis] = move.fromRate;
             from.cells[axis] = cell;
-            self(self, axis + 1, lnProbability + move.lnProbability + a.lnDeparture(cell));
+            const double ln = lnProbability + move.lnProbability + a.lnDeparture(cell, move.fromRate, step);
+            for (int rate = 0; rate < a.rateCount; ++rate)
+                if (a.rateGoingOn(cell, rate, step) == move.fromRate) {
+                    from.rates[axis] = rate;
+                    self(self, axis + 1, ln);
+                }
         }
     };
     descend(descend, 0, 0.0);

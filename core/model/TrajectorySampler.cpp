@@ -46,6 +46,7 @@ void TrajectorySampler::move(std::size_t axis, Index step, int &rate, Index &cel
         }
         return;
     }
+    rate = a.rateGoingOn(cell, rate, step);
     const std::vector<Move> &moves =
         law.moves[static_cast<std::size_t>(step % a.phaseCount())][static_cast<std::size_t>(rate)];
     const auto exists = [&](const Move &m) { return a.cyclic || (cell + m.cells >= 0 && cell + m.cells < a.cells); };

@@ -9,8 +9,8 @@ namespace faintline {
 
 /// Draws trajectories from a model's own law: the start from P(x1), then move after move.
 ///
-/// A target does not leave a bounded axis or the set of rates: what would leave is shared among the moves that stay.
-/// One uniform number for the start, one per axis for a move. Thread-safe.
+/// A target does not leave a bounded axis or the set of rates: what would leave is shared among the moves that stay, as the
+/// model's stochastic law says (KinematicAxis). Oracle: StateSpace::predecessors. One uniform number for the start, one per axis for a move. Thread-safe.
 class TrajectorySampler
 {
 public:

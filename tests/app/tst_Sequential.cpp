@@ -364,6 +364,14 @@ void tst_Sequential::theRecordingsViewIsTested()
     panel().startOnSelection();
     QVERIFY(settle());
     QVERIFY(tests().walks()[0].second.decision != SprtDecision::H1);
+    // What that does not say is said.
+    QVERIFY(tests().walks()[0].second.decision == SprtDecision::H0);
+    QVERIFY2(runSentence(tests()).contains("a line that starts later"), qPrintable(runSentence(tests())));
+    QVERIFY2(recordingNote(tests()).contains("“No target” is final"), qPrintable(recordingNote(tests())));
+    QVERIFY2(recordingNote(tests()).contains("one frame in 2 counts"), qPrintable(recordingNote(tests())));
+    const std::vector<double> &walk = tests().walks()[0].second.lnLambda;
+    for (std::size_t stage = 1; stage < walk.size(); stage += 2)
+        QVERIFY(std::abs(walk[stage] - walk[stage - 1]) < 1e-9); // frames between share samples
 }
 
 void tst_Sequential::badScenarios()

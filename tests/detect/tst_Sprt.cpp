@@ -64,6 +64,23 @@ KinematicAxis rated(Index cells)
     return a;
 }
 
+/// Rates on an axis with ends: some rates lead off it from where they are.
+KinematicAxis bounded(Index cells, int firstRate, int rateCount, std::vector<double> rateChange, Rounding rounding = Rounding::HalfDown)
+{
+    KinematicAxis a = axis(cells);
+    a.firstRate = firstRate;
+    a.rateCount = rateCount;
+    a.rateChange = std::move(rateChange);
+    a.rounding = rounding;
+    return a;
+}
+
+KinematicAxis halves(KinematicAxis a)
+{
+    a.ratesPerCell = 2;
+    return a;
+}
+
 struct World {
     const char *name;
     std::vector<KinematicAxis> axes;
@@ -89,6 +106,20 @@ std::vector<World> worlds()
         {"Doppler first", {axis(3), admissible(2)}, {true, false}, {0.25, 0.75}},
         {"Doppler alone", {axis(5)}, {true}, {}},
         {"rates and Doppler", {rated(3), axis(2)}, {false, true}, {}},
+        {"rates between ends", {bounded(3, -1, 3, {0.5, 0.25})}, {false}, {}},
+        {"five slopes between ends", {bounded(3, -2, 5, {1.0 / 3.0, 1.0 / 3.0})}, {false}, {}},
+        {"rates to be held", {bounded(4, -1, 3, {1.0})}, {false}, {}},
+        {"rates always changed", {bounded(4, -1, 3, {0.0, 0.5})}, {false}, {}},
+        {"rates toward zero", {bounded(4, -2, 4, {0.4, 0.2, 0.1}, Rounding::Trunc)}, {false}, {}},
+        {"rates of half a cell", {halves(bounded(3, -3, 6, {0.6, 0.2}))}, {false}, {}},
+        {"rates of half a cell round a ring", {[] { KinematicAxis a = halves(bounded(3, -2, 4, {0.6, 0.2})); a.cyclic = true; return a; }()}, {false}, {}},
+        {"rates of half a cell to be held", {halves(bounded(4, -2, 5, {1.0}))}, {false}, {}},
+        {"whole and half rates", {bounded(2, -1, 2, {0.5, 0.25}), halves(bounded(2, 0, 2, {0.6, 0.2}))}, {false, false}, {}},
+        {"rates on both axes", {bounded(2, -1, 2, {0.5, 0.25}), bounded(2, 0, 2, {0.6, 0.2})}, {false, false}, {}},
+        {"a walk and rates", {gaussian(2, 0.7), bounded(2, -1, 3, {0.8, 0.1})}, {false, false}, {}},
+        {"rates and Doppler between ends", {bounded(3, -1, 3, {0.5, 0.25}), axis(2)}, {false, true}, {}},
+        {"a walk that loses at the ends", {[] { KinematicAxis a = axis(4); a.step = {0.4, 0.3}; return a; }()}, {false}, {}},
+        {"a matrix that loses", {matrix({0.1, 0.5, 0.2, 0.3})}, {false}, {}},
     };
 }
 
@@ -116,14 +147,35 @@ SequentialModel unfolded(const World &world)
     return model;
 }
 
-double probability(const StateSpace &space, Index from, Index to)
+/// The law of a renormalised axis with rates from its definition: moves off the axis do not exist, the others share their probability;
+/// a rate with none first becomes the nearest one with some.
+double sharedProbability(const KinematicAxis &x, Index p, int rate, Index pNext, int rateNext, Index step)
+{
+    const auto law = [&](int from, Index cell, int to) { return axisProbability(x, p, from, cell, to, step); };
+    const auto remaining = [&](int from) {
+        double sum = 0.0;
+        for (Index cell = 0; cell < x.cells; ++cell)
+            for (int to = 0; to < x.rateCount; ++to)
+                sum += law(from, cell, to);
+        return sum;
+    };
+    int nearest = -1;
+    for (int other = x.rateCount - 1; other >= 0; --other)
+        if (remaining(other) > 0.0 && (nearest < 0 || std::abs(other - rate) <= std::abs(nearest - rate)))
+            nearest = other;
+    return law(nearest, pNext, rateNext) / remaining(nearest);
+}
+
+double probability(const StateSpace &space, Index from, Index to, Index step)
 {
     const StateSpace::Coordinates a = space.coordinates(from);
     const StateSpace::Coordinates b = space.coordinates(to);
     double product = 1.0;
     for (std::size_t i = 0; i < space.axes().size(); ++i) {
         const KinematicAxis &x = space.axes()[i];
-        if (!x.transition.empty()) {
+        if (x.renormalised && x.step.empty()) {
+            product *= sharedProbability(x, a.cells[i], a.rates[i], b.cells[i], b.rates[i], step);
+        } else if (!x.transition.empty()) {
             product *= x.transition[static_cast<std::size_t>(a.cells[i] * x.cells + b.cells[i])];
         } else if (x.renormalised) {
             const auto q = [&](Index cell) {
@@ -136,7 +188,7 @@ double probability(const StateSpace &space, Index from, Index to)
                 sum += q(cell);
             product *= q(b.cells[i]) / sum;
         } else {
-            product *= axisProbability(x, a.cells[i], a.rates[i], b.cells[i], b.rates[i]);
+            product *= axisProbability(x, a.cells[i], a.rates[i], b.cells[i], b.rates[i], step);
         }
     }
     return product;
@@ -159,7 +211,7 @@ Enumerated enumerate(const SequentialModel &model, const std::vector<std::vector
             double p = initial[static_cast<std::size_t>(path[0])];
             for (std::size_t k = 0; k < path.size(); ++k) {
                 if (k > 0)
-                    p *= probability(space, path[k - 1], path[k]);
+                    p *= probability(space, path[k - 1], path[k], static_cast<Index>(k));
                 p *= std::exp(twoToOne.at(y[k][static_cast<std::size_t>(space.cellOf(path[k]))]));
             }
             all.lambda += p;
@@ -207,6 +259,9 @@ private slots:
     void aThousandStages();
     void unreachableCellsDoNotDrownTheRest();
     void aTargetThatLeaves();
+    void noEvidenceMeansNothing_data();
+    void noEvidenceMeansNothing();
+    void framesBetweenAreNotLookedAt();
     void meanOfTheRatioOnNoise();
     void boundaries();
     void decisions_data();
@@ -271,15 +326,16 @@ void tst_Sprt::everyModelIsALaw()
 {
     const SequentialModel whole = unfolded(world());
     const StateSpace &space = whole.markov.space;
-    std::vector<double> leaving(static_cast<std::size_t>(space.stateCount()), 0.0);
-    for (Index to = 0; to < space.stateCount(); ++to)
-        for (const StateSpace::Predecessor &p : space.predecessors(to)) {
-            QVERIFY(std::abs(std::exp(p.lnProbability) - probability(space, p.state, to)) < 1e-14);
-            leaving[static_cast<std::size_t>(p.state)] += std::exp(p.lnProbability);
-        }
-    for (std::size_t from = 0; from < leaving.size(); ++from)
-        if (space.axes().front().rateCount == 1) // at the edges of a set of rates something is lost
+    for (Index step = 0; step < space.phaseCount(); ++step) {
+        std::vector<double> leaving(static_cast<std::size_t>(space.stateCount()), 0.0);
+        for (Index to = 0; to < space.stateCount(); ++to)
+            for (const StateSpace::Predecessor &p : space.predecessors(to, step)) {
+                QVERIFY(std::abs(std::exp(p.lnProbability) - probability(space, p.state, to, step)) < 1e-14);
+                leaving[static_cast<std::size_t>(p.state)] += std::exp(p.lnProbability);
+            }
+        for (std::size_t from = 0; from < leaving.size(); ++from)
             QVERIFY(std::abs(leaving[from] - 1.0) < 1e-12);
+    }
 }
 
 void tst_Sprt::tiesGoToTheLowest()
@@ -357,14 +413,91 @@ void tst_Sprt::unreachableCellsDoNotDrownTheRest()
 
 void tst_Sprt::aTargetThatLeaves()
 {
-    // Every target moves one cell up each stage and off the axis: no trajectory is left, so noise it is.
+    // Every target moves one cell up each stage and off the axis: such a law cannot be made to lose nothing.
+    const auto refusal = [](const std::vector<KinematicAxis> &axes) {
+        try {
+            makeSequentialModel(axes, {false}, twoToOne);
+        } catch (const Error &error) {
+            return QString(error.what());
+        }
+        return QString();
+    };
     KinematicAxis rising = axis(2);
     rising.firstRate = 1;
-    const SequentialModel model = makeSequentialModel({rising}, {false}, twoToOne);
-    const SprtResult result = runSprt(model, {}, 10, source(frames(2, 10, 4)));
-    QCOMPARE(result.decision, SprtDecision::H0);
-    QCOMPARE(result.stages, Index(3));
-    QVERIFY(std::isinf(result.lnLambda.back()));
+    QCOMPARE(refusal({rising}), QString("model.axes[0].rates: let no target stay on the axis that is in cell 1; a law that loses nothing "
+                                        "needs a move from every cell"));
+    KinematicAxis jumping = axis(3);
+    jumping.step = {0.0, 0.0, 0.5};
+    QVERIFY(refusal({jumping}).startsWith("model.axes[0].step: let no target stay on the axis that is in cell 1"));
+    QVERIFY(refusal({matrix({0.0, 0.0, 0.5, 0.5})}).startsWith("model.axes[0].transition: row 0 holds zeros only"));
+    rising.cyclic = true;
+    QCOMPARE(refusal({rising}), QString());
+
+    // What is put together by hand is looked at, too.
+    SequentialModel model = makeSequentialModel({axis(3)}, {false}, twoToOne);
+    KinematicAxis slopes = bounded(3, -1, 3, {0.5, 0.25});
+    slopes.name = "frequency";
+    model.markov.space = StateSpace({slopes});
+    try {
+        runSprt(model, {}, 1, source(frames(3, 1, 1)));
+        QFAIL("accepted");
+    } catch (const Error &error) {
+        QCOMPARE(QString(error.what()), QString("model: has an axis of frequency that loses up to 100 % of a target's probability a stage; "
+                                                "a likelihood ratio needs a law that loses none"));
+    }
+    model.markov.space = StateSpace({slopes.stochastic("axis")});
+    runSprt(model, {}, 1, source(frames(3, 1, 1)));
+    model.markov.transitionScale = 1.5;
+    QVERIFY_THROWS_EXCEPTION(Error, runSprt(model, {}, 1, source(frames(3, 1, 1))));
+}
+
+void tst_Sprt::noEvidenceMeansNothing_data()
+{
+    QTest::addColumn<bool>("isCyclic");
+    QTest::addColumn<bool>("isFine");
+    for (const bool isFine : {false, true})
+        for (const bool isCyclic : {false, true})
+            QTest::addRow("%s, %s", isFine ? "17 slopes of 1/8" : "five slopes", isCyclic ? "cyclic" : "bounded") << isCyclic << isFine;
+}
+
+void tst_Sprt::noEvidenceMeansNothing()
+{
+    // ρ = 1 and y = 2 ln 2 in every cell: λ = 0 but for rounding, and ln Λ stays 0 for as long as one looks.
+    QFETCH(bool, isCyclic);
+    QFETCH(bool, isFine);
+    KinematicAxis slopes = isFine ? bounded(41, -8, 17, {0.9, 0.05}) : bounded(41, -2, 5, {1.0 / 3.0, 1.0 / 3.0});
+    slopes.ratesPerCell = isFine ? 8 : 1;
+    slopes.cyclic = isCyclic;
+    const SequentialModel model = makeSequentialModel({slopes}, {false}, Likelihood(LikelihoodKind::Exponential, 1.0));
+    const SprtResult result = runSprt(model, {}, 2000, [](Index, std::span<double> y) { std::fill(y.begin(), y.end(), 2.0 * std::log(2.0)); });
+    QCOMPARE(result.decision, SprtDecision::Undecided);
+    QCOMPARE(result.stages, Index(2000));
+    for (const double lnLambda : result.lnLambda)
+        QVERIFY2(std::abs(lnLambda) < 1e-12, qPrintable(QString::number(lnLambda)));
+}
+
+void tst_Sprt::framesBetweenAreNotLookedAt()
+{
+    // Of every third frame only: the others are not asked for, the target moves on through them.
+    const SequentialModel model = makeSequentialModel({bounded(5, -1, 3, {0.5, 0.25})}, {false}, twoToOne);
+    const auto y = frames(5, 7, 3);
+    std::vector<Index> asked;
+    SequentialModel sparse = model;
+    sparse.observedEvery = 3;
+    const SprtSettings open{1e-200, 1e-200, 7};
+    const SprtResult result = runSprt(sparse, open, 7, [&](Index stage, std::span<double> out) {
+        asked.push_back(stage);
+        source(y)(stage, out);
+    });
+    for (const Index stage : asked)
+        QCOMPARE(stage % 3, Index(0));
+    LikelihoodRatio ratio(model);
+    for (Index stage = 0; stage < 7; ++stage) {
+        std::vector<double> lambda(5, 0.0);
+        for (std::size_t cell = 0; cell < 5 && stage % 3 == 0; ++cell)
+            lambda[cell] = twoToOne.at(y[static_cast<std::size_t>(stage)][cell]);
+        QCOMPARE(result.lnLambda[static_cast<std::size_t>(stage)], ratio.update(lambda));
+    }
 }
 
 void tst_Sprt::meanOfTheRatioOnNoise()

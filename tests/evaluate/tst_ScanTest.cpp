@@ -36,6 +36,7 @@ class tst_ScanTest : public QObject
 private slots:
     void runsAreThoseThatAreSimulated_data();
     void runsAreThoseThatAreSimulated();
+    void noModelLosesProbability();
     void aRunIsMadeAgain();
     void theHypothesesDoNotShareTheirNoise();
     void thePosteriorIsTheRatios();
@@ -88,6 +89,28 @@ void tst_ScanTest::runsAreThoseThatAreSimulated()
     const double p = static_cast<double>(outcome.acceptedH1) / 4000.0;
     const double spread = std::sqrt(std::max(p * (1.0 - p), 1e-3) * (1.0 / runs + 1.0 / 4000.0));
     QVERIFY(std::abs(static_cast<double>(accepted) / runs - p) < 4.5 * spread);
+}
+
+void tst_ScanTest::noModelLosesProbability()
+{
+    // Of no evidence ln Λ is 0 at all stages, whatever a scene says of the moves: E0[Λ_k] = 1.
+    const auto check = [](const SequentialModel &model) {
+        LikelihoodRatio ratio(model);
+        const std::vector<double> lambda(static_cast<std::size_t>(model.reduction.stateCells()), 0.0);
+        for (int stage = 0; stage < 100; ++stage)
+            QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12, qPrintable(QString("stage %1: %2").arg(stage).arg(ratio.lnLambda())));
+    };
+    ScanScene scene = smallTest().scene;
+    for (const int cells : {1, 3})
+        for (const ScanMoves moves : {ScanMoves::Uniform, ScanMoves::Gaussian})
+            for (const double deviation : {0.0, 0.7, 30.0}) {
+                scene.elevationCells = cells;
+                scene.moves = moves;
+                scene.moveCells = deviation;
+                check(scanModel(scene, 10.0));
+            }
+    for (const double deviation : priorDeviations())
+        check(walkOnLine(30, deviation, 1.0));
 }
 
 void tst_ScanTest::aRunIsMadeAgain()

@@ -1,5 +1,6 @@
 #include "exchange/ModelFile.h"
 
+#include "detect/Sprt.h"
 #include "exchange/NumPy.h"
 #include "support/recordings.h"
 
@@ -23,6 +24,8 @@ private slots:
     void stepsThatStayOnTheAxis();
     void matrix();
     void sequentialModel();
+    void sequentialModelsLoseNothing_data();
+    void sequentialModelsLoseNothing();
     void sequentialRefusals_data();
     void sequentialRefusals();
     void resetLaws_data();
@@ -150,6 +153,37 @@ void tst_ModelFile::sequentialModel()
     QVERIFY(contains(errorOf([&] { readSequentialModel(path("m.json"), &frames); }), "has 4 cells, but the frames of y.npy have 2 × 3"));
 }
 
+void tst_ModelFile::sequentialModelsLoseNothing_data()
+{
+    QTest::addColumn<QByteArray>("axes");
+    const auto row = [](const char *name, const char *axes) { QTest::newRow(name) << QByteArray(axes); };
+    row("slopes", R"({"cells": 41, "rates": [-2, -1, 0, 1, 2], "rateChange": [0.3333333333333333, 0.3333333333333333]})");
+    row("slopes round a ring", R"({"cells": 41, "cyclic": true, "rates": [-2, -1, 0, 1, 2], "rateChange": [0.3333333333333333, 0.3333333333333333]})");
+    row("law of six digits", R"({"cells": 9, "rates": [-1, 0, 1], "rateChange": [0.333334, 0.333333]})");
+    row("sonar", R"({"cells": 7, "cyclic": true, "rates": [-1, 0, 1], "rateChange": [0.5, 0.25], "round": "trunc"},
+                    {"cells": 30, "rates": [-3, -2, -1, 0, 1, 2, 3], "rateChange": [0.2, 0.2, 0.1, 0.1], "round": "trunc"})");
+    row("list of steps", R"({"cells": 6, "step": [0.5, 0.25]})");
+    row("list of steps round a ring", R"({"cells": 6, "cyclic": true, "step": [0.333334, 0.333333]})");
+    row("both ways to the same cell", R"({"cells": 2, "cyclic": true, "step": [0.5, 0.25]})");
+    row("never staying", R"({"cells": 6, "step": [0, 0.5]})");
+    row("admissible", R"({"cells": 3, "step": "uniform-admissible"}, {"cells": 5, "step": "uniform-admissible"}, {"cells": 4, "integrate": true})");
+    row("Gaussian", R"({"cells": 20, "step": {"gaussian": 2.5}})");
+    row("matrix that loses", R"({"cells": 3, "transition": [[0.2, 0.3, 0], [0.1, 0.1, 0.1], [0, 0, 1]]})");
+    row("walk and slopes", R"({"cells": 4, "step": [0.6, 0.2]}, {"cells": 12, "rates": [-1, 0, 1], "rateChange": [0.9, 0.05]})");
+}
+
+void tst_ModelFile::sequentialModelsLoseNothing()
+{
+    // Of no evidence ln Λ is 0 at all stages: as E0 e^λ = 1 in every cell, E0[Λ_k] = 1.
+    QFETCH(QByteArray, axes);
+    writeBytes(path("m.json"), R"({"likelihood": {"kind": "exponential", "snr": 1}, "axes": [)" + axes + "]}");
+    const SequentialModel model = readSequentialModel(path("m.json"));
+    LikelihoodRatio ratio(model);
+    const std::vector<double> lambda(static_cast<std::size_t>(model.reduction.stateCells()), 0.0);
+    for (int stage = 0; stage < 200; ++stage)
+        QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12, qPrintable(QString("stage %1: %2").arg(stage).arg(ratio.lnLambda())));
+}
+
 void tst_ModelFile::sequentialRefusals_data()
 {
     QTest::addColumn<QByteArray>("json");
@@ -172,6 +206,8 @@ void tst_ModelFile::sequentialRefusals_data()
     row("initial of another size", R"("axes": [{"cells": 2}], "initial": [1])", "initial: holds 1 probabilities; there are 2 states");
     row("initial that is none", R"("axes": [{"cells": 2}], "initial": [0.5, 0.4])", "initial: adds up to 0.9");
     row("initial as text", R"("axes": [{"cells": 2}], "initial": "centre")", "initial: must be a list of numbers");
+    row("all leave", R"("axes": [{"cells": 5, "rates": [1, 2]}])", "axes[0].rates: let no target stay on the axis that is in cell 4");
+    row("matrix without a way on", R"("axes": [{"cells": 2, "transition": [[0, 0], [0, 1]]}])", "axes[0].transition: row 0 holds zeros only");
     row("integrate no flag", R"("axes": [{"cells": 2, "integrate": 1}])", "axes[0].integrate: must be true or false");
     row("scaled transitions", R"("axes": [{"cells": 2}], "scaleTransitions": true)", "has no place in a sequential test");
 }

@@ -18,6 +18,8 @@ private slots:
     void sequentialInRadarScans();
     void sequentialInUnknownNoise();
     void sequentialInARecording();
+    void everyStageHoldsWithoutEvidence();
+    void overlappingFramesCountOnce();
     void sequentialMistakes_data();
     void sequentialMistakes();
 };
@@ -107,18 +109,68 @@ void tst_cliSequential::sequentialInARecording()
     QCOMPARE(readJsonFile(pathOf("part.out"))["decision"].get<std::string>(), std::string("H1"));
 }
 
+void tst_cliSequential::everyStageHoldsWithoutEvidence()
+{
+    // y = 2 ln 2 is λ = 0 at ρ = 1: five slopes stay undecided for as long as the frames last.
+    writeArray(pathOf("zero.npy"), {300, 41}, std::vector<float>(300 * 41, static_cast<float>(2.0 * std::log(2.0))));
+    const double lambda = static_cast<double>(static_cast<float>(2.0 * std::log(2.0))) / 2.0 - std::log(2.0); // a float's rounding
+    for (const char *cyclic : {"false", "true"}) {
+        writeBytes(pathOf("five.json"), QByteArray(R"({"axes": [{"cells": 41, "rates": [-2, -1, 0, 1, 2],
+            "rateChange": [0.3333333333333333, 0.3333333333333333], "cyclic": )") + cyclic + R"(}], "likelihood": {"kind": "exponential", "snr": 1}})");
+        QCOMPARE(run({"sequential", "--frames", "zero.npy", "--model", "five.json", "--out", "zero.out"}).code, 0);
+        const Json json = readJsonFile(pathOf("zero.out"));
+        QCOMPARE(json["decision"].get<std::string>(), std::string("undecided"));
+        QCOMPARE(json["stop"].get<int>(), 300);
+        QCOMPARE(json["observedEvery"].get<int>(), 1);
+        for (std::size_t stage = 0; stage < 300; ++stage)
+            QVERIFY(std::abs(json["lnLambda"][stage].get<double>() - lambda * static_cast<double>(stage + 1)) < 1e-12);
+    }
+}
+
+void tst_cliSequential::overlappingFramesCountOnce()
+{
+    const QStringList part{"sequential", "line.wav", "--low", "195", "--high", "225", "--from", "10", "--to", "20", "--alpha", "1e-200", "--beta", "1e-200",
+                           "--set", "spectrogram.windowSeconds=0.5"};
+    const auto test = [&](const QStringList &more) {
+        const Outcome outcome = run(part + more + QStringList{"--out", "part.out"});
+        return outcome.code == 0 ? readJsonFile(pathOf("part.out")) : Json();
+    };
+    const auto changes = [](const Json &json) { // stages at which ln Λ moved
+        std::vector<std::size_t> at;
+        for (std::size_t stage = 1; stage < json["lnLambda"].size(); ++stage)
+            if (std::abs(json["lnLambda"][stage].get<double>() - json["lnLambda"][stage - 1].get<double>()) > 1e-9)
+                at.push_back(stage);
+        return at;
+    };
+    for (const int steps : {1, 2, 4}) {
+        const Json json = test({"--set", "spectrogram.stepsPerWindow=" + QString::number(steps)});
+        QCOMPARE(json["observedEvery"].get<int>(), steps);
+        const std::vector<std::size_t> moved = changes(json);
+        QVERIFY(moved.size() > 5);
+        for (const std::size_t stage : moved)
+            QCOMPARE(stage % static_cast<std::size_t>(steps), std::size_t(0));
+    }
+    QCOMPARE(test({"--every", "3"})["observedEvery"].get<int>(), 3);
+}
+
 void tst_cliSequential::sequentialMistakes_data()
 {
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<QString>("message");
     const QStringList frames{"--frames", "eye3.npy"};
     const QStringList model{"--model", "eye3.json"};
+    writeBytes(pathOf("likely.json"), R"({"axes": [{"cells": 31}], "likelihood": {"kind": "linear"}})");
     QTest::newRow("nothing to look at") << model << "takes either a recording or --frames";
     QTest::newRow("no model") << frames << "needs --model";
     QTest::newRow("α of 0") << frames + model + QStringList{"--alpha", "0"} << "sequential.falseAlarm = 0: must lie in";
     QTest::newRow("a coin") << frames + model + QStringList{"--alpha", "0.5", "--beta", "0.5"} << "must stay below 1";
     QTest::newRow("negative cut-off") << frames + model + QStringList{"--cutoff", "-1"} << "sequential.cutOffStage = -1";
     QTest::newRow("nothing to average") << frames + model + QStringList{"--average", "1"} << "--average: needs an exponential likelihood";
+    QTest::newRow("every frame less than once") << frames + model + QStringList{"--every", "-1"} << "--every -1: must be at least 1";
+    QTest::newRow("no ratio") << QStringList{"line.wav", "--set", "model.likelihood=linear"} << "model.likelihood: linear is no likelihood ratio";
+    QTest::newRow("no ratio in a file") << QStringList{"line.wav", "--model", "likely.json", "--set", "spectrogram.windowSeconds=0.5", "--low", "195",
+                                                       "--high", "225"}
+                                        << "likely.json: likelihood.kind: linear is no likelihood ratio";
     QTest::newRow("other cells") << frames + QStringList{"--model", "scans.model"}
                                  << "has 2 × 2 × 20 × 4 cells, but the frames of eye3.npy have 2";
 }

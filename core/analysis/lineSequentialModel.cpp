@@ -1,0 +1,30 @@
+#include "analysis/lineSequentialModel.h"
+
+#include "base/Error.h"
+
+namespace faintline {
+
+SequentialModel lineSequentialModel(const ModelSettings &settings, const Grid &grid, const NormalisedFrames &frames)
+{
+    if (grid.axes.size() != 1 || settings.motion != Motion::Slopes)
+        throw Error("sequential test", "is made on the frequencies of a line recording with the slopes' model");
+    const MarkovModel line = makeModel(settings, grid);
+    checkLikelihoodRatio(line.likelihood, "model.likelihood");
+    SequentialModel model = makeSequentialModel(line.space.axes(), {false}, line.likelihood);
+    model.observedEvery = framesApart(frames);
+    return model;
+}
+
+Index framesApart(const NormalisedFrames &frames)
+{
+    const auto *spectrogram = dynamic_cast<const NormalisedSpectrogram *>(&frames);
+    return spectrogram ? spectrogram->spectrogram().settings().stepsPerWindow : 1;
+}
+
+void checkLikelihoodRatio(const Likelihood &likelihood, const std::string &where)
+{
+    if (likelihood.kind() == LikelihoodKind::Linear)
+        throw Error(where, "linear is no likelihood ratio of noise power, so no error probability could be kept; take rice or exponential");
+}
+
+} // namespace faintline
