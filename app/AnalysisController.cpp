@@ -37,6 +37,16 @@ namespace {
         return decide;
     }
 
+    /// Whether noise exceeds a threshold so seldom that the rate cannot be set.
+    bool isBeyondRates(DecideSettings::By by, double nats, const Analysis &analysis)
+    {
+        if (by == DecideSettings::By::FalseAlarmsPerHour)
+            return analysis.calibration->eventRateAt(nats) * analysis.cellFramesPerHour
+                   < settingField("decide.falseAlarmsPerHour").minimum;
+        return by == DecideSettings::By::PfaPerCell
+               && analysis.calibration->exceedanceAt(nats) < settingField("decide.pfaPerCell").minimum;
+    }
+
 } // namespace
 
 AnalysisController::AnalysisController(Document &document, QObject *parent) : QObject(parent), m_document(document)
@@ -209,7 +219,9 @@ void AnalysisController::commitThreshold(double nats)
     if (!m_document.analysis())
         return;
     AnalysisSettings after = m_document.settings();
-    after.decide = decideAt(after.decide, after.decide.by, nats, *m_document.analysis());
+    const Analysis &analysis = *m_document.analysis();
+    const auto by = isBeyondRates(after.decide.by, nats, analysis) ? DecideSettings::By::Nats : after.decide.by;
+    after.decide = decideAt(after.decide, by, nats, analysis);
     const bool isMoved = after != m_document.settings();
     m_document.setShownThreshold(isMoved ? nats : m_document.analysis()->threshold);
     m_document.edit(after, tr("Move the threshold"), QStringLiteral("threshold"));

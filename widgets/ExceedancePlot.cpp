@@ -186,6 +186,10 @@ Span ExceedancePlot::natSpan() const
             --last;
         high = std::max({m_calibration->levels[last], m_calibration->anchorNats, low + 5.0});
         high += 8.0 / std::max(m_calibration->tailSlope, 0.05);
+        // Signals lie beyond: the threshold can be dragged among the faint ones, and the noise's curve keeps half of the width.
+        const auto highest = std::find_if(m_counts.rbegin(), m_counts.rend(), [](double count) { return count > 0.0; });
+        const double recorded = lowestNats + quarterNat * static_cast<double>(m_counts.rend() - highest);
+        high = std::clamp(recorded, high, low + 2.0 * (high - low));
     }
     // Room beyond the threshold, in steps, so that the scale does not follow every touch of it.
     while (m_threshold > low + 0.85 * (high - low))

@@ -224,7 +224,8 @@ private slots:
         QVERIFY(window->controller().isBusy());
         QVERIFY(settle(*window));
         QVERIFY(document.isCurrent());
-        QVERIFY(std::abs(document.analysis()->threshold - between) < 0.5);
+        QVERIFY2(std::abs(document.analysis()->threshold - between) < 0.5,
+                 qPrintable(QString("%1, wanted %2").arg(document.analysis()->threshold).arg(between)));
         QVERIFY(window->eventTable().shownIds().size() < before.size());
 
         QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
