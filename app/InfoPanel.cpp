@@ -6,6 +6,7 @@
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/quantities.h"
 
+#include "analysis/falseAlarmWords.h"
 #include <QCoreApplication>
 #include <QLabel>
 #include <QScrollArea>
@@ -108,7 +109,8 @@ namespace {
                                       .arg(analysis.threshold, 0, 'f', 2)
                                       .arg(calibration.thresholdUncertainty(eventRate), 0, 'f', 2)
                                       .arg(unit));
-        rows.row(tr("False alarms"), powerText(eventRate * analysis.cellFramesPerHour, 3) + tr(" per hour"));
+        rows.row(tr("False alarms"), QString::fromStdString(falseAlarmWords(eventRate * analysis.cellFramesPerHour,
+                                                                            calibration.rateUncertaintyAt(analysis.threshold))));
         rows.row(tr("Pfa per cell"), powerText(calibration.exceedanceAt(analysis.threshold)));
         rows.row(tr("ln K"), withUnit(calibration.lnK, 3, "nat"));
         rows.row(tr("Paths continued"), withUnit(100.0 * calibration.continuedFraction, 1, "%"));

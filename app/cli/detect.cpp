@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/provenance.h"
 
+#include "analysis/falseAlarmWords.h"
 #include "analysis/analyse.h"
 #include "analysis/explain.h"
 #include "analysis/judgeByBoxes.h"
@@ -65,7 +66,8 @@ namespace {
                     100.0 * analysis.calibration->continuedFraction, isScoreOfPaths(detector) ? "" : ", of the detector that guides the tracks",
                     analysis.threshold, unit.c_str());
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
-        std::printf(": %.3g false alarms an hour on noise\n", perHour);
+        std::printf(": %.3g false alarms an hour on noise, %s\n", perHour,
+                    falseAlarmWords(perHour, analysis.calibration->rateUncertaintyAt(analysis.threshold)).c_str());
         if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
             std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s: strong signals drag it down\n",
                         analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(), time.value(static_cast<double>(dragged.front())));

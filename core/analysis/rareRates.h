@@ -56,8 +56,8 @@ struct RareRates {
 };
 
 struct SplittingSettings {
-    int entries = 2400;         ///< trials a level, of all runs together
-    double leastLnRate = -32.0; ///< levels go on until cycles are as rare as this, per cell and frame
+    int entries = 1000;         ///< trials a level, of all runs together
+    double leastLnRate = -25.0; ///< levels go on until cycles are as rare as this, per cell and frame
     std::uint64_t seed = 3000;
 };
 

@@ -165,7 +165,7 @@ void tst_peerChains::eventsHaveTheDetectorsUnit()
         largest = std::max(largest, *std::max_element(statistic.begin(), statistic.end()));
     }
     chain->finish();
-    analysis.tracks = chain->joinedTracks();
+    analysis.tracks = chain->takeJoinedTracks();
     const std::vector<Event> found = events(analysis);
     QVERIFY(!found.empty());
     const auto strongest = std::max_element(found.begin(), found.end(), [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
