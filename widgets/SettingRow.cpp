@@ -15,6 +15,11 @@
 #include <QSpinBox>
 #include <QToolButton>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
 namespace faintline {
 
 namespace {
@@ -56,11 +61,27 @@ namespace {
         return unit.size() > longest;
     }
 
+    /// A text field with arrows: what a step is, others know.
+    class ArrowBox : public QAbstractSpinBox
+    {
+    public:
+        explicit ArrowBox(std::function<void(int)> step) : m_step(std::move(step)) {}
+        void stepBy(int steps) override { m_step(steps); }
+        QLineEdit *line() const { return lineEdit(); }
+
+    protected:
+        StepEnabled stepEnabled() const override { return StepUpEnabled | StepDownEnabled; }
+
+    private:
+        std::function<void(int)> m_step;
+    };
+
 } // namespace
 
-SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, QWidget *parent)
-    : QWidget(parent), m_info(info), m_default(defaultValue), m_value(defaultValue), m_label(new QLabel(label)),
-      m_reset(new QToolButton), m_message(new QLabel)
+SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, int stepsInOne,
+                       QWidget *parent)
+    : QWidget(parent), m_info(info), m_default(defaultValue), m_value(defaultValue), m_stepsInOne(stepsInOne),
+      m_label(new QLabel(label)), m_reset(new QToolButton), m_message(new QLabel)
 {
     makeEditor();
     const QString toolTip = toolTipOf(info, defaultValue);
@@ -148,6 +169,15 @@ void SettingRow::makeEditor()
     case FieldKind::Number:
     case FieldKind::Numbers:
     case FieldKind::Text: {
+        if (m_stepsInOne > 0) {
+            auto *box = new ArrowBox([this](int steps) { stepBy(steps); });
+            connect(box, &QAbstractSpinBox::editingFinished, this, [this, box] {
+                if (box->text() != shownText(m_value)) // Return has taken the line's own mark of it away
+                    acceptText(box->text());
+            });
+            m_editor = box;
+            break;
+        }
         auto *edit = new QLineEdit;
         connect(edit, &QLineEdit::editingFinished, this, [this, edit] {
             if (edit->isModified())
@@ -174,6 +204,17 @@ void SettingRow::acceptText(const QString &text)
     }
 }
 
+/// To the next multiples of a step, which are whole numbers over `m_stepsInOne`.
+void SettingRow::stepBy(int steps)
+{
+    if (const QString typed = static_cast<ArrowBox *>(m_editor)->text(); typed != shownText(m_value))
+        acceptText(typed);
+    constexpr double isMultiple = 1e-6;
+    const double at = std::get<double>(m_value) * m_stepsInOne;
+    const double from = steps > 0 ? std::floor(at + isMultiple) : std::ceil(at - isMultiple);
+    accept(std::clamp((from + steps) / m_stepsInOne, m_info.minimum, m_info.maximum));
+}
+
 void SettingRow::accept(const FieldValue &value)
 {
     const bool isSame = value == m_value;
@@ -193,6 +234,8 @@ void SettingRow::setValue(const FieldValue &value)
         choice->setCurrentIndex(choice->findData(shownText(value)));
     else if (auto *spin = qobject_cast<QSpinBox *>(m_editor))
         spin->setValue(std::get<int>(value));
+    else if (auto *arrows = qobject_cast<QAbstractSpinBox *>(m_editor))
+        static_cast<ArrowBox *>(arrows)->line()->setText(shownText(value));
     else if (auto *edit = qobject_cast<QLineEdit *>(m_editor)) {
         edit->setText(shownText(value));
         edit->setCursorPosition(0);

@@ -15,7 +15,9 @@ class SettingRow : public QWidget
     Q_OBJECT
 
 public:
-    SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, QWidget *parent = nullptr);
+    /// A number with steps, so many in 1, has arrows that go from one multiple to the next; any other can be typed.
+    SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, int stepsInOne = 0,
+               QWidget *parent = nullptr);
 
     const FieldInfo &info() const { return m_info; }
     QWidget *editor() const { return m_editor; }
@@ -25,6 +27,7 @@ public:
     void setError(const QString &sentence);
     void setNote(const QString &note);
     void setLabelWidth(int width);
+    void setStepsInOne(int steps) { m_stepsInOne = steps; }
 
 signals:
     void edited(const faintline::FieldValue &value);
@@ -36,12 +39,14 @@ protected:
 private:
     void makeEditor();
     void acceptText(const QString &text);
+    void stepBy(int steps);
     void accept(const FieldValue &value);
     void showMessage();
 
     FieldInfo m_info;
     FieldValue m_default;
     FieldValue m_value;
+    int m_stepsInOne;
     QLabel *m_label;
     QWidget *m_editor = nullptr;
     QToolButton *m_reset;

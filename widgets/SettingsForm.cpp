@@ -23,6 +23,11 @@ namespace {
         return name.section(QLatin1Char('.'), 0, 0);
     }
 
+    bool isSlope(const QString &name)
+    {
+        return name == QLatin1String("model.lowestSlope") || name == QLatin1String("model.highestSlope");
+    }
+
 } // namespace
 
 SettingsForm::SettingsForm(QWidget *parent) : QWidget(parent), m_scroll(new QScrollArea), m_error(new QLabel)
@@ -78,7 +83,8 @@ FormSection &SettingsForm::section(const QString &prefix)
 void SettingsForm::addRow(const Field<AnalysisSettings> &field)
 {
     const QString name = QString::fromStdString(field.name);
-    auto *row = new SettingRow(field, settingLabel(name), defaultValue(field));
+    auto *row = new SettingRow(field, settingLabel(name), defaultValue(field),
+                               isSlope(name) ? m_settings.model.slopesPerBin : 0);
     row->setLabelWidth(labelWidth);
     connect(row, &SettingRow::edited, this,
             [this, name](const FieldValue &edited) { emit settingEdited(name, edited); });
@@ -101,6 +107,8 @@ void SettingsForm::setSettings(const AnalysisSettings &settings)
         if (!value)
             continue;
         row->setValue(*value);
+        if (isSlope(name))
+            row->setStepsInOne(settings.model.slopesPerBin);
         used.insert(prefixOf(name));
     }
     for (auto section = m_sections.begin(); section != m_sections.end(); ++section)

@@ -21,7 +21,9 @@ namespace {
     constexpr double firstQuantile = 0.96;
     constexpr int pilotTrials = 200;
     constexpr double pilotFraction = 0.2; ///< of them reach the next level
-    constexpr int longestTrial = 100000;  ///< frames
+    constexpr int longestTrial = 3000;    ///< frames; K so large that paths do not end has no rare excursions
+    constexpr int longestSearch = 20000;  ///< frames of a stream that the first level is entered in
+    constexpr int mostEndless = 4;        ///< of the pilot trials
     constexpr int mostLevels = 60;
     constexpr int leastSuccesses = 10;
     constexpr int replicates = 4; ///< independent runs, whose scatter tells what trials that share ancestors do not
@@ -153,6 +155,8 @@ namespace {
                 m_context.checkpoint(std::min(1.0, lnRate / m_settings.leastLnRate),
                                      "following rare excursions of the noise");
                 const double next = nextLevel(number);
+                if (std::isinf(next))
+                    return {};
                 if (!(next > m_level))
                     break;
                 const std::vector<std::optional<Particle>> outcomes = trials(number, next);
@@ -222,7 +226,7 @@ namespace {
                     auto &own = entered[static_cast<std::size_t>(stream)];
                     bool isBelow = false;
                     for (double &count = frames[static_cast<std::size_t>(stream)];
-                         std::ssize(own) < wanted && count < longestTrial; ++count) {
+                         std::ssize(own) < wanted && count < longestSearch; ++count) {
                         const double reached = walker->step(random);
                         if (isBelow && reached > m_level) {
                             own.push_back(walker->particle(reached));
@@ -243,7 +247,8 @@ namespace {
                                      : std::log(static_cast<double>(m_entered.size()) / (total * cells));
         }
 
-        /// From one of the entered states, with fresh noise, to the next level or back to the base; answers the highest D.
+        /// From one of the entered states, with fresh noise, to the next level or back to the base; answers the highest D, ∞ where there is no
+        /// end to it.
         double walk(Walker &walker, Random &random, double next, std::optional<Particle> *outcome) const
         {
             const auto number =
@@ -261,12 +266,12 @@ namespace {
                 highest = std::max(highest, reached);
                 if (reached > next) {
                     *outcome = walker.particle(reached);
-                    break;
+                    return highest;
                 }
                 if (reached < m_base)
-                    break;
+                    return highest;
             }
-            return highest;
+            return std::numeric_limits<double>::infinity();
         }
 
         double nextLevel(int number) const
@@ -280,6 +285,8 @@ namespace {
                         walk(*walker, random, std::numeric_limits<double>::infinity(), &ignored);
                 };
             });
+            if (std::count(highest.begin(), highest.end(), std::numeric_limits<double>::infinity()) > mostEndless)
+                return std::numeric_limits<double>::infinity();
             return quantileOf(highest, 1.0 - pilotFraction);
         }
 

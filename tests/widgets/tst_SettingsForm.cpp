@@ -30,6 +30,7 @@ private slots:
     void backToTheDefault();
     void errorsFromOutside();
     void theWheelChangesNothingInPassing();
+    void slopesStepAlongTheirSet();
     void labelsAreWords();
     void flagsAreCheckBoxes();
 
@@ -87,7 +88,7 @@ void tst_SettingsForm::editsAreEmittedOnce()
 {
     type(editor<QLineEdit>("decide.falseAlarmsPerHour"), "0.5");
     type(editor<QLineEdit>("model.snr"), "1e-1");
-    editor<QSpinBox>("model.highestSlope")->setValue(4);
+    editor<QAbstractSpinBox>("model.highestSlope")->stepUp();
     auto *window = editor<QComboBox>("spectrogram.window");
     window->setFocus();
     QTest::keyClick(window, Qt::Key_Home);
@@ -97,7 +98,7 @@ void tst_SettingsForm::editsAreEmittedOnce()
     QCOMPARE(m_edits.size(), std::size_t(5));
     QCOMPARE(m_edits[0], (std::pair<QString, FieldValue>("decide.falseAlarmsPerHour", 0.5)));
     QCOMPARE(m_edits[1], (std::pair<QString, FieldValue>("model.snr", 0.1)));
-    QCOMPARE(m_edits[2], (std::pair<QString, FieldValue>("model.highestSlope", 4)));
+    QCOMPARE(m_edits[2], (std::pair<QString, FieldValue>("model.highestSlope", 1.125)));
     QCOMPARE(m_edits[3], (std::pair<QString, FieldValue>("spectrogram.window", std::string("rectangular"))));
     QCOMPARE(m_edits[4], (std::pair<QString, FieldValue>("model.slopeChange", std::vector<double>{0.5, 0.25})));
 }
@@ -120,12 +121,14 @@ void tst_SettingsForm::showingValuesEmitsNothing()
 {
     AnalysisSettings settings;
     settings.model.snr = 0.125;
-    settings.model.highestSlope = 7;
+    settings.model.highestSlope = 0.625;
+    settings.model.slopesPerBin = 16;
     settings.spectrogram.window = WindowShape::BlackmanHarris;
     m_form->setSettings(settings);
     QCOMPARE(m_edits.size(), std::size_t(0));
     QCOMPARE(editor<QLineEdit>("model.snr")->text(), QString("0.125"));
-    QCOMPARE(editor<QSpinBox>("model.highestSlope")->value(), 7);
+    QCOMPARE(editor<QAbstractSpinBox>("model.highestSlope")->text(), QString("0.625"));
+    QCOMPARE(editor<QSpinBox>("model.slopesPerBin")->value(), 16);
     QCOMPARE(editor<QComboBox>("spectrogram.window")->currentText(), QString("Blackman–Harris"));
 }
 
@@ -157,13 +160,40 @@ void tst_SettingsForm::errorsFromOutside()
 
 void tst_SettingsForm::theWheelChangesNothingInPassing()
 {
-    auto *slope = editor<QSpinBox>("model.highestSlope");
+    auto *slope = editor<QAbstractSpinBox>("model.highestSlope");
     m_form->editor("model.snr")->setFocus();
     const QPointF centre = slope->rect().center();
     QWheelEvent wheel(centre, slope->mapToGlobal(centre), {}, {0, 120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
     QCoreApplication::sendEvent(slope, &wheel);
-    QCOMPARE(slope->value(), AnalysisSettings().model.highestSlope);
+    QCOMPARE(slope->text().toDouble(), AnalysisSettings().model.highestSlope);
     QCOMPARE(m_edits.size(), std::size_t(0));
+}
+
+/// A slope goes from one of the set to the next, whatever the set; a slope that is typed is taken as it is.
+void tst_SettingsForm::slopesStepAlongTheirSet()
+{
+    AnalysisSettings settings;
+    settings.model.slopesPerBin = 3;
+    m_form->setSettings(settings);
+    auto *slope = editor<QAbstractSpinBox>("model.lowestSlope");
+    slope->setFocus();
+    QTest::keyClick(slope, Qt::Key_Up);
+    QTest::keyClick(slope, Qt::Key_Up);
+    QTest::keyClick(slope, Qt::Key_Down);
+    QCOMPARE(m_edits.size(), std::size_t(3));
+    for (std::size_t i = 0; i < 3; ++i)
+        QCOMPARE(m_edits[i], (std::pair<QString, FieldValue>("model.lowestSlope", (i == 1 ? -1.0 : -2.0) / 3.0)));
+    slope->selectAll();
+    QTest::keyClicks(slope, "-0.5");
+    QTest::keyClick(slope, Qt::Key_Return);
+    QCOMPARE(m_edits.back(), (std::pair<QString, FieldValue>("model.lowestSlope", -0.5)));
+    slope->stepDown(); // from between two of them to the next
+    QCOMPARE(m_edits.back(), (std::pair<QString, FieldValue>("model.lowestSlope", -2.0 / 3.0)));
+    slope->selectAll();
+    QTest::keyClicks(slope, "-101");
+    QTest::keyClick(slope, Qt::Key_Return);
+    QCOMPARE(m_edits.size(), std::size_t(5));
+    QCOMPARE(errors().size(), 1);
 }
 
 void tst_SettingsForm::labelsAreWords()
