@@ -351,8 +351,12 @@ namespace {
     void anchorTail(const RareRates &rare, std::span<const double> thresholds, std::span<const double> events,
                     double cellFrames, Calibration &result)
     {
-        if (events.back() < leastEvents)
+        if (events.front() < leastEvents)
             throw Error("detector", "hardly ever exceeds any threshold on noise, which leaves nothing to calibrate on");
+        while (events.back() < leastEvents) { // the higher one tells too little: splitting begins at the lower
+            thresholds = thresholds.first(thresholds.size() - 1);
+            events = events.first(events.size() - 1);
+        }
         RareRates &rates = result.rates;
         const auto append = [&](double level, double lnRate, double error) {
             rates.levels.push_back(level);
