@@ -134,7 +134,8 @@ namespace {
             const double middle = 0.5 * (low + high);
             (measureReset(noise, model, {ResetLaw::Fixed, middle}).continuedFraction > 0.5 ? high : low) = middle;
         }
-        if (low > -largest && high < largest)
+        const bool isMeasured = !std::isnan(measureReset(noise, model, {ResetLaw::Fixed, 0.0}).continuedFraction); // not of a few frames
+        if (!isMeasured || (low > -largest && high < largest))
             return 0.5 * (low + high);
         const double end = low > -largest ? largest : -largest;
         const double percent = 100.0 * measureReset(noise, model, {ResetLaw::Fixed, end}).continuedFraction;
