@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <string>
 
@@ -62,64 +63,72 @@ void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::sp
     });
 }
 
+/// A block of white noise under the window, complex; half blocks have a random stream of their own, for each belongs to two blocks.
+void SurrogateRecording::fillWhite(Index block, std::span<float> samples) const
+{
+    const Index hop = m_length / 2;
+    std::vector<float> normals(static_cast<std::size_t>(m_info.isComplex ? 2 * hop : hop));
+    for (Index half = 0; half < 2; ++half) {
+        Random random(m_seed, static_cast<std::uint64_t>(block + half + 1));
+        random.normals(normals, m_info.isComplex ? static_cast<float>(std::sqrt(0.5)) : 1.0f);
+        for (Index n = 0; n < hop; ++n) {
+            const auto from = static_cast<std::size_t>(n);
+            const auto to = static_cast<std::size_t>(half * hop + n);
+            samples[2 * to] = m_window[to] * (m_info.isComplex ? normals[2 * from] : normals[from]);
+            samples[2 * to + 1] = m_info.isComplex ? m_window[to] * normals[2 * from + 1] : 0.0f;
+        }
+    }
+}
+
+/// √B at a time, over the block's length, of every bin of its transform.
+std::vector<float> SurrogateRecording::gainsAt(double seconds) const
+{
+    const Axis &frequency = m_background->frequency;
+    std::vector<float> ln(static_cast<std::size_t>(frequency.count));
+    m_background->readLnPower(seconds, ln);
+    std::vector<float> gains(static_cast<std::size_t>(m_length));
+    for (Index bin = 0; bin < m_length; ++bin) {
+        const Index signedBin = 2 * bin < m_length ? bin : bin - m_length;
+        const double hz = m_info.sampleRateHz * static_cast<double>(signedBin) / static_cast<double>(m_length);
+        const double last = static_cast<double>(frequency.count - 1);
+        const double position = std::clamp(frequency.position(m_info.isComplex ? hz : std::abs(hz)), 0.0, last);
+        const auto lower = static_cast<std::size_t>(position);
+        const std::size_t upper = std::min(lower + 1, ln.size() - 1);
+        const double fraction = position - static_cast<double>(lower);
+        const double lnPower =
+            (1.0 - fraction) * static_cast<double>(ln[lower]) + fraction * static_cast<double>(ln[upper]);
+        gains[static_cast<std::size_t>(bin)] =
+            static_cast<float>(std::exp(0.5 * (m_background->lnUnit + lnPower)) / static_cast<double>(m_length));
+    }
+    return gains;
+}
+
 /// Adds a block's share to the samples from `first` on.
 void SurrogateRecording::addBlock(Index block, Index first, std::span<float> out) const
 {
-    const auto length = static_cast<std::size_t>(m_length);
-    const auto floats = static_cast<std::size_t>(m_info.floatsPerSample());
-    const Index hop = m_length / 2;
-    const std::shared_ptr<Fft::Buffer> buffer = m_fft->buffer();
+    const std::unique_ptr<Fft::Buffer> buffer = m_fft->buffer();
     const std::span<float> samples = buffer->input();
-    std::fill(samples.begin(), samples.end(), 0.0f);
-    // White noise of half blocks: each belongs to two blocks.
-    std::vector<float> white(static_cast<std::size_t>(hop) * floats);
-    for (Index half = 0; half < 2; ++half) {
-        Random random(m_seed, static_cast<std::uint64_t>(block + half + 1));
-        random.normals(white, m_info.isComplex ? static_cast<float>(std::sqrt(0.5)) : 1.0f);
-        for (Index n = 0; n < hop; ++n) {
-            const auto at = static_cast<std::size_t>(half * hop + n);
-            for (std::size_t part = 0; part < floats; ++part)
-                samples[2 * at + part] = white[static_cast<std::size_t>(n) * floats + part] * m_window[at];
-        }
-    }
+    fillWhite(block, samples);
     m_fft->run(*buffer);
-
-    const double rate = m_info.sampleRateHz;
-    const double middle =
-        (static_cast<double>(block) * static_cast<double>(hop) + 0.5 * static_cast<double>(m_length)) / rate;
-    const Axis &frequency = m_background->frequency;
-    std::vector<float> ln(static_cast<std::size_t>(frequency.count));
-    m_background->readLnPower(middle, ln);
-    const auto gain = [&](double hz) {
-        const double position = std::clamp(frequency.position(hz), 0.0, static_cast<double>(frequency.count - 1));
-        const auto lower =
-            static_cast<std::size_t>(std::min(position, static_cast<double>(std::max<Index>(0, frequency.count - 2))));
-        const std::size_t upper = std::min(lower + 1, ln.size() - 1);
-        const double fraction = position - static_cast<double>(lower);
-        return std::exp(
-            0.5 * (m_background->lnUnit + (1.0 - fraction) * static_cast<double>(ln[lower]) + fraction * static_cast<double>(ln[upper])));
-    };
+    const Index begin = block * (m_length / 2);
+    const double middle = (static_cast<double>(begin) + 0.5 * static_cast<double>(m_length)) / m_info.sampleRateHz;
+    const std::vector<float> gains = gainsAt(middle);
     // The inverse transform by a forward one: F⁻¹{X} = conj(F{conj X})/N.
-    const std::span<const std::complex<float>> bins = buffer->output();
-    std::vector<float> shaped(2 * length);
-    for (std::size_t bin = 0; bin < length; ++bin) {
-        const double signedBin = bin < length - length / 2 ? static_cast<double>(bin)
-                                                           : static_cast<double>(bin) - static_cast<double>(length);
-        const double hz = signedBin * rate / static_cast<double>(length);
-        const auto factor =
-            static_cast<float>(gain(m_info.isComplex ? hz : std::abs(hz)) / static_cast<double>(length));
-        shaped[2 * bin] = bins[bin].real() * factor;
-        shaped[2 * bin + 1] = -bins[bin].imag() * factor;
+    std::vector<std::complex<float>> shaped(buffer->output().begin(), buffer->output().end());
+    for (std::size_t bin = 0; bin < shaped.size(); ++bin) {
+        samples[2 * bin] = shaped[bin].real() * gains[bin];
+        samples[2 * bin + 1] = -shaped[bin].imag() * gains[bin];
     }
-    std::copy(shaped.begin(), shaped.end(), samples.begin());
     m_fft->run(*buffer);
-    const Index count = std::ssize(out) / static_cast<Index>(floats);
-    for (Index n = std::max<Index>(0, first - block * hop); n < m_length && block * hop + n < first + count; ++n) {
-        const auto to = static_cast<std::size_t>(block * hop + n - first) * floats;
-        const auto from = static_cast<std::size_t>(n);
-        out[to] += buffer->output()[from].real() * m_window[from];
-        if (floats == 2)
-            out[to + 1] -= buffer->output()[from].imag() * m_window[from];
+    const Index floats = m_info.floatsPerSample();
+    const Index end = std::min(begin + m_length, first + std::ssize(out) / floats);
+    for (Index sample = std::max(begin, first); sample < end; ++sample) {
+        const auto from = static_cast<std::size_t>(sample - begin);
+        const auto to = static_cast<std::size_t>((sample - first) * floats);
+        const std::complex<float> value = std::conj(buffer->output()[from]) * m_window[from];
+        out[to] += value.real();
+        if (m_info.isComplex)
+            out[to + 1] += value.imag();
     }
 }
 

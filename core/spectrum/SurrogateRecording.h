@@ -27,6 +27,8 @@ public:
     void read(int channel, Index first, Index count, std::span<float> out) const override;
 
 private:
+    void fillWhite(Index block, std::span<float> samples) const;
+    std::vector<float> gainsAt(double seconds) const;
     void addBlock(Index block, Index first, std::span<float> out) const;
     void silence(Index first, std::span<float> out) const;
 
