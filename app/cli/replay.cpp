@@ -209,6 +209,21 @@ namespace {
     }
 
     /// Every file that the provenance names among what went in, before anything is made of it.
+    /// Both files of a recording. Annotations of that name have no samples.
+    void checkSigmf(const std::string &file, const ReadableFolders &readable)
+    {
+        if (!SigmfRecording::isNamedSo(file) || !fs::exists(file))
+            return;
+        readable.check(SigmfRecording::metaPath(file));
+        std::string samples;
+        try {
+            samples = SigmfRecording::dataPath(file);
+        } catch (const Error &) {
+            return; // nothing that could be opened as a recording
+        }
+        readable.check(samples);
+    }
+
     void checkInputs(const Provenance &provenance, const std::string &result, const ReadableFolders &readable)
     {
         for (const auto &[file, hash] : provenance.inputs) {
@@ -305,10 +320,7 @@ namespace {
         confined.keepsProvenance = false;
         confined.read = [&readable](const std::string &file) {
             readable.check(file);
-            if (SigmfRecording::isNamedSo(file) && fs::exists(file)) {
-                readable.check(SigmfRecording::metaPath(file));
-                readable.check(SigmfRecording::dataPath(file));
-            }
+            checkSigmf(file, readable);
             return file;
         };
         confined.written = [redirection](const std::string &file) { return (*redirection)(file); };

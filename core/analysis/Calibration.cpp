@@ -134,11 +134,11 @@ namespace {
             const double middle = 0.5 * (low + high);
             (measureReset(noise, model, {ResetLaw::Fixed, middle}).continuedFraction > 0.5 ? high : low) = middle;
         }
-        const bool isMeasured = !std::isnan(measureReset(noise, model, {ResetLaw::Fixed, 0.0}).continuedFraction); // not of a few frames
-        if (!isMeasured || (low > -largest && high < largest))
-            return 0.5 * (low + high);
         const double end = low > -largest ? largest : -largest;
-        const double percent = 100.0 * measureReset(noise, model, {ResetLaw::Fixed, end}).continuedFraction;
+        const bool isInside = low > -largest && high < largest;
+        const double percent = isInside ? 50.0 : 100.0 * measureReset(noise, model, {ResetLaw::Fixed, end}).continuedFraction;
+        if (isInside || std::isnan(percent)) // of a few frames nothing is measured
+            return 0.5 * (low + high);
         throw Error("model.snr = " + formatNumber(model.likelihood.snr()),
                     "leaves no ln K for which half of the states continue on noise: at " + formatNumber(end) + " nat "
                         + formatNumber(std::round(10.0 * percent) / 10.0) + " % do; choose a " + (end > 0.0 ? "lower" : "higher") + " one");
@@ -381,8 +381,8 @@ namespace {
         result.anchorNats = thresholds[last];
         result.eventRate = events[last] / cellFrames;
         result.relativeError = errorOf(last);
-        result.tailSlope = (rates.lnRates[rates.levels.size() - 4] - rates.lnRates.back())
-                           / (rates.levels.back() - rates.levels[rates.levels.size() - 4]);
+        const std::size_t before = rates.levels.size() - std::min<std::size_t>(4, rates.levels.size());
+        result.tailSlope = (rates.lnRates[before] - rates.lnRates.back()) / (rates.levels.back() - rates.levels[before]);
         result.slopeError = rates.relativeErrors.back() / (rates.levels.back() - thresholds[last]);
     }
 

@@ -374,7 +374,9 @@ RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &mak
                            const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
                            const SplittingSettings &settings, const RunContext &context)
 {
-    if (!makeDetector()->remembrance())
+    constexpr std::size_t mostBytes = std::size_t(64) << 20; // of all states that a level begins from
+    const auto state = makeDetector()->remembrance();
+    if (!state || state->bytes() * static_cast<std::size_t>(settings.entries) > mostBytes)
         return {};
     std::vector<RareRates> runs;
     for (int run = 0; run < replicates; ++run) {

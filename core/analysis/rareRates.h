@@ -61,7 +61,7 @@ struct SplittingSettings {
     std::uint64_t seed = 3000;
 };
 
-/// `makeDetector` and `makeNoise` are called once a thread. Empty where the detector cannot tell its state. Results do not depend on the
+/// `makeDetector` and `makeNoise` are called once a thread. Empty where the detector cannot tell its state, or that is too large. Results do not depend on the
 /// number of threads.
 RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
                            const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,

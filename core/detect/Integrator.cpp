@@ -77,4 +77,12 @@ void Integrator::forget(const Grid &grid, const CellBox &box)
     });
 }
 
+std::size_t Integrator::bytes() const
+{
+    std::size_t values = 0;
+    for (const std::vector<float> &frame : m_past)
+        values += frame.capacity();
+    return sizeof *this + m_sum.capacity() * sizeof(double) + values * sizeof(float);
+}
+
 } // namespace faintline

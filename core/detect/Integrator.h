@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/Field.h"
-#include "detect/Detector.h"
+#include "detect/CopiedState.h"
 
 #include <array>
 #include <string_view>
@@ -36,6 +36,9 @@ public:
     void update(std::span<const float> y, std::span<float> statistic) override;
     /// The past of the cells becomes that of noise: D = 1.
     void forget(const Grid &grid, const CellBox &box) override;
+    std::shared_ptr<const Remembrance> remembrance() const override { return copiedState(*this); }
+    void recall(const Remembrance &remembrance) override { recallCopy(*this, remembrance); }
+    std::size_t bytes() const; ///< that it takes
 
 private:
     Index m_frames;

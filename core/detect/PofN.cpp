@@ -129,4 +129,12 @@ void PofN::forget(const Grid &grid, const CellBox &box)
     });
 }
 
+std::size_t PofN::bytes() const
+{
+    std::size_t values = m_means.capacity() + m_smallest.capacity();
+    for (const std::vector<float> &frame : m_maxima)
+        values += frame.capacity();
+    return sizeof *this + values * sizeof(float);
+}
+
 } // namespace faintline

@@ -98,4 +98,39 @@ void SumDetector::forget(const Grid &grid, const CellBox &box)
     });
 }
 
+/// What the next frame depends on, and the scores of the last.
+struct SumDetector::Remembered final : Detector::Remembrance {
+    std::vector<double> weights;
+    std::vector<float> scores;
+    double scale = 0.0;
+    double lnMean = 0.0;
+    Index frames = 0;
+
+    std::size_t bytes() const override
+    {
+        return sizeof *this + weights.capacity() * sizeof(double) + scores.capacity() * sizeof(float);
+    }
+};
+
+std::shared_ptr<const Detector::Remembrance> SumDetector::remembrance() const
+{
+    auto result = std::make_shared<Remembered>();
+    result->weights = m_weights;
+    result->scores = m_scores;
+    result->scale = m_scale;
+    result->lnMean = m_lnMean;
+    result->frames = m_frames;
+    return result;
+}
+
+void SumDetector::recall(const Remembrance &remembrance)
+{
+    const auto &remembered = static_cast<const Remembered &>(remembrance);
+    m_weights = remembered.weights;
+    m_scores = remembered.scores;
+    m_scale = remembered.scale;
+    m_lnMean = remembered.lnMean;
+    m_frames = remembered.frames;
+}
+
 } // namespace faintline

@@ -25,6 +25,8 @@ public:
 
     void update(std::span<const float> y, std::span<float> statistic) override;
     void forget(const Grid &grid, const CellBox &box) override;
+    std::shared_ptr<const Remembrance> remembrance() const override;
+    void recall(const Remembrance &remembrance) override;
     std::span<const float> scores() const override { return m_scores; }
     Regulation regulation() const override { return {m_rule.lnK, 1.0, m_rule.lnK}; }
 
@@ -32,6 +34,8 @@ public:
     double lnMean() const { return m_lnMean; }
 
 private:
+    struct Remembered;
+
     void updateWide(std::span<const double> lambda);
 
     StateSpace m_space;

@@ -43,7 +43,7 @@ const std::vector<Field<ShiryaevRobertsSettings>> &ShiryaevRobertsSettings::fiel
 {
     using S = ShiryaevRobertsSettings;
     static const std::vector<Field<S>> table{
-        field(&S::lnK, "lnK", "nat", -100.0, 0.0, "How fast old evidence fades; 0 is the classical procedure."),
+        field(&S::lnK, "lnK", "nat", -100.0, 0.0, "How fast old evidence fades; 0 is the classical procedure, which never settles on noise."),
     };
     return table;
 }

@@ -35,7 +35,7 @@ struct EnergySettings {
 
 /// The Shiryaev-Roberts detector: SumDetector with a reset, all paths count.
 struct ShiryaevRobertsSettings {
-    double lnK = 0.0; ///< 0: the classical procedure
+    double lnK = -0.1; ///< 0: the classical procedure, whose statistic grows without end on noise where the law loses no probability
 
     static const std::vector<Field<ShiryaevRobertsSettings>> &fields();
     bool operator==(const ShiryaevRobertsSettings &) const = default;

@@ -32,8 +32,7 @@ namespace {
         for (std::size_t i = 0; i < n; ++i) {
             float value = y[i] > 0.0f ? y[i] : 0.0f;
             value = value <= largest ? value : 0.0f;
-            const float lambda = slope * value + offset;
-            out[i] = y[i] == y[i] ? lambda : 0.0f;
+            out[i] = slope * value + offset;
         }
     }
 
@@ -105,9 +104,16 @@ namespace {
             for (int k = degree - 1; k >= 0; --k)
                 sum = sum * t + g[static_cast<std::size_t>(k)];
             const float difference = 4.0f * (r0 * ((value - quarter) - rest) + c);
-            const float lambda = difference / (2.0f * w + r0) + (sum - 0.25f * fastLn(square));
-            out[i] = y[i] == y[i] ? lambda : 0.0f;
+            out[i] = difference / (2.0f * w + r0) + (sum - 0.25f * fastLn(square));
         }
+    }
+
+    /// λ = 0 where y is NaN. A pass of its own: within the formulas the comparison keeps them from being vectorised.
+    FAINTLINE_MULTIVERSION
+    void leaveOutUnobserved(const float *y, std::size_t n, float *lambda)
+    {
+        for (std::size_t i = 0; i < n; ++i)
+            lambda[i] = y[i] == y[i] ? lambda[i] : 0.0f;
     }
 
 } // namespace
@@ -150,6 +156,7 @@ void Likelihood::apply(std::span<const float> y, std::span<float> out) const
         affine(y.data(), y.size(), 1.0f, 0.0f, out.data());
         break;
     }
+    leaveOutUnobserved(y.data(), y.size(), out.data());
 }
 
 } // namespace faintline
