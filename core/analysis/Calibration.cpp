@@ -33,10 +33,13 @@ namespace {
     constexpr Index blockFrames = 128;
     constexpr Index blockCells = 64;
     constexpr std::size_t leastMaxima = 40;
-    /// Block maxima above the thresholds where events are counted, per cell and frame. Clustering and inhibition leave about a quarter of
-    /// them as events: 400 and 80 in the usual 8·10⁷ cells × frames. Lower thresholds would count more, but there the tail is steeper.
-    constexpr std::array<double, 2> eventRates{2e-5, 4e-6};
-    constexpr double leastExpected = 100.0; ///< events at the first of them; in small volumes the rates are higher
+    /// Block maxima above the thresholds where events are counted, per cell and frame; clustering and inhibition leave a quarter of them as
+    /// events. A tail that splitting follows is counted where events crowd each other out, in a tenth of the noise, and where they do not
+    /// (800 and 400 events in the usual 8·10⁷ cells × frames). One that is continued along a line is counted at two thresholds far apart.
+    constexpr std::array<double, 2> ratesBeforeSplitting{1e-3, 2e-5};
+    constexpr std::array<double, 2> ratesOfLine{2e-5, 2.5e-6};
+    constexpr int crowdedEvery = 10; ///< segments
+    constexpr double leastExpected = 300.0; ///< maxima at 2·10⁻⁵, of which a line takes a third; in small volumes the rates are higher
     constexpr double leastEvents = 20.0;
 
     /// Noise to calibrate on, in segments that can be made independently of each other.
@@ -57,8 +60,8 @@ namespace {
 
     /// What chains with their thresholds do.
     struct EventCounts {
-        std::vector<double> events; ///< of each chain
-        double cellFrames = 0.0;
+        std::vector<double> events; ///< of each chain …
+        std::vector<double> cellFrames; ///< … and in how much noise
     };
 
     double countedCellFrames(const NormalisedFrames &noise)
@@ -208,30 +211,36 @@ namespace {
         whole.cellFrames += part.cellFrames;
     }
 
-    /// The chains' tracks after the settling frames.
+    /// The chains' tracks after the settling frames; null chains count nothing.
     EventCounts countEvents(const NormalisedFrames &noise, const std::vector<std::unique_ptr<DetectionChain>> &chains)
     {
         std::vector<float> statistic(static_cast<std::size_t>(noise.grid().size()));
         forEachFrame(noise, [&](Index frame, std::span<const float> y) {
             for (const auto &chain : chains)
-                chain->update(frame, y, statistic);
+                if (chain)
+                    chain->update(frame, y, statistic);
         });
         EventCounts counts;
         for (const auto &chain : chains) {
-            chain->finish();
-            counts.events.push_back(static_cast<double>(std::count_if(chain->tracks().begin(), chain->tracks().end(), [](const Track &track) {
-                return track.detectFrame >= settlingFrames;
-            })));
+            double events = 0.0;
+            if (chain) {
+                chain->finish();
+                events = static_cast<double>(std::count_if(chain->tracks().begin(), chain->tracks().end(), [](const Track &track) {
+                    return track.detectFrame >= settlingFrames;
+                }));
+            }
+            counts.events.push_back(events);
+            counts.cellFrames.push_back(chain ? countedCellFrames(noise) : 0.0);
         }
-        counts.cellFrames = countedCellFrames(noise);
         return counts;
     }
 
     void add(const EventCounts &part, EventCounts &whole)
     {
         whole.events.resize(part.events.size());
+        whole.cellFrames.resize(part.events.size());
         std::transform(part.events.begin(), part.events.end(), whole.events.begin(), whole.events.begin(), std::plus<>());
-        whole.cellFrames += part.cellFrames;
+        std::transform(part.cellFrames.begin(), part.cellFrames.end(), whole.cellFrames.begin(), whole.cellFrames.begin(), std::plus<>());
     }
 
     /// Calls work(number) for 0 … count-1, `threads` at a time, and take(result) in the order of the numbers.
@@ -252,7 +261,7 @@ namespace {
     }
 
     /// Thresholds at which chains may be expected to find events at about the wanted rates, by a rough look at the maxima of space-time blocks: with P(max ≤ T) = exp(-Λ e^{-θ(T-u)}), Λ and θ from two quantiles.
-    std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames)
+    std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames, bool isLine)
     {
         // A detector that decides in blocks of its own has blocks of ours without a decision.
         const auto blocks = static_cast<double>(maxima.size());
@@ -266,8 +275,9 @@ namespace {
         const auto quantile = [&](double p) { return static_cast<double>(maxima[static_cast<std::size_t>(p * static_cast<double>(maxima.size()))]); };
         const double theta = std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
         std::vector<double> thresholds;
-        const double scale = std::max(1.0, leastExpected / (eventRates.front() * cellFrames));
-        for (const double rate : eventRates)
+        const double expected = isLine ? leastExpected / 3.0 : leastExpected;
+        const double scale = std::max(1.0, expected / (ratesOfLine.front() * cellFrames));
+        for (const double rate : isLine ? ratesOfLine : ratesBeforeSplitting)
             thresholds.push_back(quantile(upper) + std::log(-std::log(upper) / perMaximum / (rate * scale)) / theta);
         return thresholds;
     }
@@ -347,43 +357,49 @@ namespace {
         return measureRareRates(make, makeNoise, {}, context);
     }
 
-    /// The tail as the chain's events have it: their rates at the thresholds where they were counted, ascending, and beyond the last what
-    /// splitting says of excursions.
-    void anchorTail(const RareRates &rare, std::span<const double> thresholds, std::span<const double> events,
-                    double cellFrames, Calibration &result)
+    /// The tail of the chain's events: the shape is that of excursions, ln S(T), the height that of the counts,
+    ///
+    ///   ln rate(T) = ln S(T) + δ(T),   δ = ln(events/noise) - ln S at the thresholds, linear between them, constant beyond.
+    void anchorTail(const RareRates &rare, std::span<const double> thresholds, const EventCounts &counts, Calibration &result)
     {
-        if (events.front() < leastEvents)
-            throw Error("detector", "hardly ever exceeds any threshold on noise, which leaves nothing to calibrate on");
-        while (events.back() < leastEvents) { // the higher one tells too little: splitting begins at the lower
-            thresholds = thresholds.first(thresholds.size() - 1);
-            events = events.first(events.size() - 1);
+        std::vector<double> levels; // where there are enough events to tell, ascending
+        std::vector<double> offsets;
+        double events = 0.0;
+        for (std::size_t i = 0; i < thresholds.size(); ++i) {
+            if (counts.events[i] < leastEvents)
+                continue;
+            events = counts.events[i];
+            levels.push_back(thresholds[i]);
+            offsets.push_back(std::log(events / counts.cellFrames[i]) - rare.lnRateAt(thresholds[i]));
         }
-        RareRates &rates = result.rates;
-        const auto append = [&](double level, double lnRate, double error) {
-            rates.levels.push_back(level);
-            rates.lnRates.push_back(lnRate);
-            rates.relativeErrors.push_back(error);
+        if (levels.empty())
+            throw Error("detector", "hardly ever exceeds any threshold on noise, which leaves nothing to calibrate on");
+        const auto offset = [&](double level) {
+            if (levels.size() == 1)
+                return offsets.front();
+            const double fraction = std::clamp((level - levels.front()) / (levels.back() - levels.front()), 0.0, 1.0);
+            return offsets.front() + fraction * (offsets.back() - offsets.front());
         };
-        const auto lnEventRate = [&](std::size_t i) { return std::log(events[i] / cellFrames); };
-        const auto errorOf = [&](std::size_t i) { return 1.0 / std::sqrt(events[i]); };
-        for (std::size_t i = 0; i < rare.levels.size() && rare.levels[i] < thresholds.front(); ++i)
-            append(rare.levels[i], lnEventRate(0) + rare.lnRates[i] - rare.lnRateAt(thresholds.front()), errorOf(0));
-        for (std::size_t i = 0; i < thresholds.size(); ++i)
-            append(thresholds[i], lnEventRate(i), errorOf(i));
-        const std::size_t last = thresholds.size() - 1;
-        const double known = rare.relativeErrorAt(thresholds[last]);
-        for (std::size_t i = 0; i < rare.levels.size(); ++i)
-            if (const double level = rare.levels[i]; level > thresholds[last]) {
-                const double grown = rare.relativeErrors[i] * rare.relativeErrors[i] - known * known;
-                append(level, lnEventRate(last) + rare.lnRates[i] - rare.lnRateAt(thresholds[last]),
-                       std::hypot(errorOf(last), std::sqrt(std::max(0.0, grown))));
-            }
-        result.anchorNats = thresholds[last];
-        result.eventRate = events[last] / cellFrames;
-        result.relativeError = errorOf(last);
-        const std::size_t before = rates.levels.size() - std::min<std::size_t>(4, rates.levels.size());
-        result.tailSlope = (rates.lnRates[before] - rates.lnRates.back()) / (rates.levels.back() - rates.levels[before]);
-        result.slopeError = rates.relativeErrors.back() / (rates.levels.back() - thresholds[last]);
+        const double anchor = levels.back();
+        const double own = 1.0 / std::sqrt(events);
+        const double known = rare.relativeErrorAt(anchor);
+        std::vector<double> knots = rare.levels;
+        knots.insert(knots.end(), levels.begin(), levels.end());
+        std::sort(knots.begin(), knots.end());
+        knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+        for (const double level : knots) {
+            const double error = rare.relativeErrorAt(level);
+            result.rates.levels.push_back(level);
+            result.rates.lnRates.push_back(rare.lnRateAt(level) + offset(level));
+            result.rates.relativeErrors.push_back(std::hypot(own, std::sqrt(std::max(0.0, error * error - known * known))));
+        }
+        const RareRates &rates = result.rates;
+        const std::size_t before = knots.size() - std::min<std::size_t>(4, knots.size());
+        result.anchorNats = anchor;
+        result.eventRate = std::exp(rates.lnRateAt(anchor));
+        result.relativeError = own;
+        result.tailSlope = (rates.lnRates[before] - rates.lnRates.back()) / (knots.back() - knots[before]);
+        result.slopeError = rates.relativeErrors.back() / std::max(1.0, knots.back() - anchor);
     }
 
     std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
@@ -414,11 +430,10 @@ namespace {
         fillExceedance(rough.counts, levels, *result);
         const double cells = static_cast<double>(first->grid().size());
         const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
+        const RareRates rare = followTail(*firstSegment, model, settings, *result, context.part(0.2, 0.4));
         const std::vector<double> thresholds =
             thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns,
-                                rough.cellFrames / roughCount * segmentCount);
-
-        const RareRates rare = followTail(*firstSegment, model, settings, *result, context.part(0.2, 0.4));
+                                rough.cellFrames / roughCount * segmentCount, rare.isEmpty());
         EventCounts counts;
         inRounds(
             segmentCount, context.part(0.4, 1.0),
@@ -428,24 +443,36 @@ namespace {
                 std::vector<std::unique_ptr<DetectionChain>> chains;
                 for (const double threshold : thresholds) {
                     own.threshold = threshold;
-                    chains.push_back(makeChain(own, makeDetector(own), false));
+                    const bool isLeftOut = !rare.isEmpty() && chains.empty() && number % crowdedEvery != 0;
+                    chains.push_back(isLeftOut ? nullptr : makeChain(own, makeDetector(own), false));
                 }
                 return countEvents(*own.frames, chains);
             },
             [&](const EventCounts &part) { add(part, counts); });
         if (rare.isEmpty())
-            fitEventRate(thresholds, counts.events, counts.cellFrames, *result);
+            fitEventRate(thresholds, counts.events, counts.cellFrames.front(), *result);
         else
-            anchorTail(rare, thresholds, counts.events, counts.cellFrames, *result);
+            anchorTail(rare, thresholds, counts, *result);
         return result;
+    }
+
+    /// How the chain decides, at whatever threshold.
+    DecideSettings withoutThreshold(DecideSettings decide)
+    {
+        const DecideSettings defaults;
+        decide.falseAlarmsPerHour = defaults.falseAlarmsPerHour;
+        decide.pfaPerCell = defaults.pfaPerCell;
+        decide.thresholdNats = defaults.thresholdNats;
+        decide.by = defaults.by;
+        return decide;
     }
 
     /// The settings that the answer to noise depends on.
     AnalysisSettings dimensionless(AnalysisSettings settings)
     {
         settings.selection = {};
-        settings.decide = {};
-        settings.track = {};
+        settings.decide = withoutThreshold(settings.decide);
+        settings.conventional = {};
         settings.spectrogram.windowSeconds = windowSamples;
         return settings;
     }
@@ -645,6 +672,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     bare.spectrogram = {};
     bare.noise = {};
     bare.conventional = {};
+    bare.decide = withoutThreshold(bare.decide);
     return kept(nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
                 [&] { return calibrateOn(segment, segments, model, settings, context); });
 }

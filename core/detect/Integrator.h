@@ -36,7 +36,8 @@ public:
     void update(std::span<const float> y, std::span<float> statistic) override;
     /// The past of the cells becomes that of noise: D = 1.
     void forget(const Grid &grid, const CellBox &box) override;
-    std::shared_ptr<const Remembrance> remembrance() const override { return copiedState(*this); }
+    /// None where nothing of the past counts: with a single frame.
+    std::shared_ptr<const Remembrance> remembrance() const override { return m_past.size() == 1 ? nullptr : copiedState(*this); }
     void recall(const Remembrance &remembrance) override { recallCopy(*this, remembrance); }
     std::size_t bytes() const; ///< that it takes
 
