@@ -27,6 +27,8 @@ namespace {
     constexpr int mostLevels = 60;
     constexpr int leastSuccesses = 10;
     constexpr int replicates = 4; ///< independent runs, whose scatter tells what trials that share ancestors do not
+    constexpr double largestError = 0.5; ///< relative, of a rate that is believed
+    constexpr double deepEnough = 0.7;   ///< of leastLnRate, that has to be reached with this error
 
     class IndependentNoise final : public NoiseStream
     {
@@ -330,6 +332,8 @@ namespace {
                 variance += run.relativeErrorAt(level) * run.relativeErrorAt(level) / (count * count);
             }
             const double scatter = (square / (mean * mean) - 1.0) / (count - 1.0);
+            if (std::max(variance, scatter) > largestError * largestError)
+                break;
             result.levels.push_back(level);
             result.lnRates.push_back(runs.front().lnRates[i] + std::log(mean));
             result.relativeErrors.push_back(std::sqrt(std::max(variance, scatter)));
@@ -390,7 +394,10 @@ RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &mak
         if (runs.back().isEmpty())
             return {};
     }
-    return combined(runs);
+    RareRates result = combined(runs);
+    if (result.isEmpty() || result.lnRates.back() > deepEnough * settings.leastLnRate)
+        return {};
+    return result;
 }
 
 } // namespace faintline

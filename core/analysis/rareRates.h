@@ -61,8 +61,9 @@ struct SplittingSettings {
     std::uint64_t seed = 3000;
 };
 
-/// `makeDetector` and `makeNoise` are called once a thread. Empty where the detector cannot tell its state, or that is too large. Results do not depend on the
-/// number of threads.
+/// `makeDetector` and `makeNoise` are called once a thread. Results do not depend on the number of threads. Empty where the detector cannot
+/// tell its state, where that is too large, and where all trials soon descend from a few large cells, as those of a short window do (P out
+/// of N): the scatter of the runs exceeds a half before rates are rare.
 RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
                            const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
                            const SplittingSettings &settings, const RunContext &context = {});

@@ -1,6 +1,7 @@
 #include "analysis/AnalysisSettings.h"
 #include "analysis/rareRates.h"
 #include "base/Random.h"
+#include "detect/PofN.h"
 #include "detect/Smd.h"
 #include "evaluate/theory.h"
 
@@ -51,6 +52,7 @@ private slots:
     void spectralNoiseIsWhite();
     void threadsChangeNothing();
     void whatCannotTellItsStateIsEmpty();
+    void aShortWindowIsEmpty();
 };
 
 void tst_rareRates::oneSlopeIsLindleys()
@@ -169,6 +171,14 @@ void tst_rareRates::whatCannotTellItsStateIsEmpty()
     };
     QVERIFY(
         measureRareRates([] { return std::make_unique<Mute>(); }, [] { return independentNoise(4); }, {}).isEmpty());
+}
+
+// Three large cells in four frames make its excursions; whoever has them is everybody's ancestor two levels on.
+void tst_rareRates::aShortWindowIsEmpty()
+{
+    const auto noise = [] { return spectralNoise({}, 32); };
+    const Grid grid{{{"f", "Hz", 0.0, 1.0, noise()->cells(), true}}};
+    QVERIFY(measureRareRates([&] { return std::make_unique<PofN>(grid, PofNSettings{}, 2.0); }, noise, {}).isEmpty());
 }
 
 QTEST_APPLESS_MAIN(tst_rareRates)
