@@ -123,6 +123,8 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
     if (explanation.inhibitedFor)
         words += *explanation.inhibitedFor > 0
             ? QObject::tr("The data here are kept from the detector for track %1. ").arg(*explanation.inhibitedFor)
+        : *explanation.inhibitedFor < 0
+            ? QObject::tr("The data here are kept from the detector for a track that was dropped later. ")
             : QObject::tr("No signal is looked for here: the data are kept from the detector. ");
     const auto steps = explanation.steps.size();
     const QString since = secondsText(time.value(static_cast<double>(explanation.steps.front().frame)), time.step);

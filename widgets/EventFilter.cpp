@@ -27,6 +27,7 @@ namespace {
             {"drift", [](const Event &e) { return e.driftPerSecond; }},
             {"stat", [](const Event &e) { return e.statistic; }},
             {"d", [](const Event &e) { return e.statistic; }},
+            {"snr", [](const Event &e) { return e.snrDb; }},
         };
         return table;
     }

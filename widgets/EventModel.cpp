@@ -5,6 +5,8 @@
 #include <QGuiApplication>
 #include <QPalette>
 
+#include <cmath>
+
 namespace faintline {
 
 namespace {
@@ -36,6 +38,8 @@ double EventModel::sortValue(const Event &event, int column) const
         return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
     case Statistic:
         return event.statistic;
+    case Snr:
+        return event.snrDb;
     case Judged: {
         const EventReview said = review(event);
         return said.verdict == Verdict::Accepted ? 0.0 : said.verdict == Verdict::None ? 1.0 : 2.0;
@@ -126,6 +130,8 @@ QString EventModel::text(const Event &event, int column) const
         return powerText(sortValue(event, Drift), 3);
     case Statistic:
         return numberText(event.statistic, 1);
+    case Snr:
+        return std::isfinite(event.snrDb) ? numberText(event.snrDb, 1) : QStringLiteral("–");
     case Judged:
         return reviewText(review(event));
     case Note:
@@ -183,6 +189,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                              hasBearing() ? tr("Bearing (%1)").arg(unit(1)) : tr("Bearing"),
                              tr("Onset"),
                              tr("D (%1)").arg(m_statisticUnit),
+                             tr("SNR (dB)"),
                              tr("Detected"),
                              tr("End"),
                              hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
@@ -194,6 +201,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                             tr("Bearing at detection"),
                             tr("Where the detecting path was last reset, from the first sample"),
                             tr("Largest statistic"),
+                            tr("Mean power of the signal over that of the noise in one window and bin"),
                             tr("Where the statistic first exceeded the threshold"),
                             tr("Last frame with evidence"),
                             tr("Straight-line slope of the track"),

@@ -17,7 +17,7 @@ class EventModel : public QAbstractTableModel
 
 public:
     /// In a narrow panel only the first ones are in sight: where, since when, how sure.
-    enum Column { Id, Frequency, Bearing, Onset, Statistic, Detection, End, Drift, State, Judged, Note, ColumnCount };
+    enum Column { Id, Frequency, Bearing, Onset, Statistic, Snr, Detection, End, Drift, State, Judged, Note, ColumnCount };
     static constexpr int SortRole = Qt::UserRole;
 
     using QAbstractTableModel::QAbstractTableModel;

@@ -118,9 +118,7 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<Track> &fo
         Line line{track.id, {}};
         line.points.reserve(static_cast<qsizetype>(track.points.size()));
         for (const TrackPoint &point : track.points)
-            line.points << QPointF(
-                time.value(static_cast<double>(point.frame)),
-                frequency.value(static_cast<double>(frequency.count > 0 ? point.cell % frequency.count : point.cell)));
+            line.points << QPointF(time.value(static_cast<double>(point.frame)), frequency.value(lastPosition(point, frequency)));
         lines.push_back(std::move(line));
     }
     return lines;
@@ -139,6 +137,15 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<TruthLine>
         }
         if (line.points.back().x() < one.endSeconds)
             line.points << QPointF(one.endSeconds, one.frequencyHz.back());
+        if (!track.points.empty() && std::isfinite(track.points.front().low)) {
+            const auto at = [&](const TrackPoint &point, float cell) {
+                return QPointF(time.value(static_cast<double>(point.frame)), frequency.value(static_cast<double>(cell)));
+            };
+            for (const TrackPoint &point : track.points)
+                line.band << at(point, point.low);
+            for (auto point = track.points.rbegin(); point != track.points.rend(); ++point)
+                line.band << at(*point, point->high);
+        }
         lines.push_back(std::move(line));
     }
     return lines;
@@ -200,8 +207,10 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
     const Canvas canvas{*painter, xMap, yMap, canvasRect, isTimeVertical};
     if (hasTruth)
         drawLines(canvas, truth, linePen(colours.truth, 1.0, Qt::DashLine));
-    if (hasTracks)
+    if (hasTracks) {
+        drawSelectedBand(canvas);
         drawLines(canvas, tracks, linePen(colours.track, 1.0));
+    }
     drawBoxes(canvas);
     drawHarmonics(canvas);
     drawSidebands(canvas);
@@ -239,6 +248,23 @@ void OverlayItem::drawLines(const Canvas &canvas, const std::vector<Line> &lines
         canvas.painter.drawPolyline(polygon);
     }
     canvas.painter.setOpacity(1.0);
+}
+
+void OverlayItem::drawSelectedBand(const Canvas &canvas) const
+{
+    const auto line = std::find_if(tracks.begin(), tracks.end(), [&](const Line &one) { return one.id == selectedEvent; });
+    if (selectedEvent == 0 || line == tracks.end() || line->band.isEmpty())
+        return;
+    QPolygonF ribbon;
+    for (const QPointF &point : line->band)
+        if (const QPointF position = canvas.point(point.x(), point.y()); ribbon.isEmpty() || (position - ribbon.back()).manhattanLength() >= 1.0)
+            ribbon << position;
+    QColor colour = colours.selectedEvent;
+    colour.setAlpha(90);
+    canvas.painter.setPen(Qt::NoPen);
+    canvas.painter.setBrush(colour);
+    canvas.painter.drawPolygon(ribbon);
+    canvas.painter.setBrush(Qt::NoBrush);
 }
 
 bool OverlayItem::isFaint(int event) const

@@ -37,6 +37,7 @@ public:
     struct Line {
         int id = 0;
         QPolygonF points;
+        QPolygonF band{}; ///< 5 % of the posterior forth, 95 % back, where it is known
     };
     OverlayItem();
 
@@ -77,6 +78,7 @@ private:
     struct Canvas;
 
     void drawLines(const Canvas &canvas, const std::vector<Line> &lines, const QPen &pen) const;
+    void drawSelectedBand(const Canvas &canvas) const;
     void drawEvents(const Canvas &canvas) const;
     void drawBoxes(const Canvas &canvas) const;
     bool isFaint(int event) const;

@@ -473,6 +473,7 @@ namespace {
         settings.selection = {};
         settings.decide = withoutThreshold(settings.decide);
         settings.conventional = {};
+        settings.track.bothWays = TrackSettings{}.bothWays; // works on what was found
         settings.spectrogram.windowSeconds = windowSamples;
         return settings;
     }
@@ -673,6 +674,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     bare.noise = {};
     bare.conventional = {};
     bare.decide = withoutThreshold(bare.decide);
+    bare.track.bothWays = TrackSettings{}.bothWays;
     return kept(nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
                 [&] { return calibrateOn(segment, segments, model, settings, context); });
 }

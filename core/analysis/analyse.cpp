@@ -3,8 +3,10 @@
 #include "analysis/chain.h"
 #include "analysis/knownCalibration.h"
 #include "analysis/regulation.h"
+#include "analysis/secondLook.h"
 #include "analysis/usable.h"
 #include "base/Checkpoints.h"
+#include "base/logmath.h"
 #include "base/memoryShares.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/glance.h"
@@ -197,7 +199,7 @@ namespace {
                 analysis.inputAlong = alongEachAxis(*analysis.input, frames.grid());
             analysis.statisticAlong = alongEachAxis(*statistic, frames.grid());
         }
-        analysis.tracks = chain->takeJoinedTracks();
+        analysis.tracks = looksTwice(analysis) ? lookTwice(analysis, chain->takeJoinedTracks(), context) : chain->takeJoinedTracks();
         analysis.conventional = conventional.tracks();
     }
 
@@ -215,7 +217,8 @@ namespace {
         double before = 0.0;
         for (const TrackPoint &point : track.points) {
             const double t = static_cast<double>(point.frame - track.points.front().frame) * time.step;
-            double f = axis.step * static_cast<double>(point.cell / grid.stride(along) % axis.count);
+            const bool isLast = along + 1 == grid.axes.size();
+            double f = axis.value(isLast ? lastPosition(point, axis) : static_cast<double>(point.cell / grid.stride(along) % axis.count));
             if (axis.cyclic && &point != &track.points.front()) {
                 const double turn = axis.step * static_cast<double>(axis.count);
                 f += turn * std::round((before - f) / turn);
@@ -227,6 +230,22 @@ namespace {
             sumTF += t * f;
         }
         return (n * sumTF - sumT * sumF) / (n * sumTT - sumT * sumT);
+    }
+
+    /// What only the look from both ends knows.
+    void describe(Event &event, const Track &track, const Analysis &analysis)
+    {
+        const auto count = static_cast<double>(track.points.size());
+        double level = 0.0;
+        double band = 0.0;
+        for (const TrackPoint &point : track.points) {
+            level += static_cast<double>(point.level) / count;
+            band += static_cast<double>(point.high - point.low) / count;
+        }
+        event.snrDb = dbFromRatio(level);
+        event.bandWidth = band * analysis.grid().axes.back().step;
+        const double cellFrames = static_cast<double>(analysis.grid().size()) * static_cast<double>(analysis.time().count);
+        event.noiseProbability = -std::expm1(-analysis.calibration->eventRateAt(event.statistic) * cellFrames);
     }
 
 } // namespace
@@ -255,9 +274,7 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
         const auto at = std::find_if(track.points.begin(), track.points.end(),
                                      [&](const TrackPoint &point) { return point.frame >= track.detectFrame; });
         const TrackPoint &point = at == track.points.end() ? track.points.back() : *at;
-        const std::vector<Index> coordinates = grid.coordinates(point.cell);
-        for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
-            event.position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
+        event.position = positionOf(point, grid);
         for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
             event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
         event.driftPerSecond = event.ratesPerSecond.back();
@@ -265,6 +282,8 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
         event.statistic = statisticOf(track, analysis);
         event.isConfirmed = track.isConfirmed;
         event.isOpen = track.isOpen;
+        if (track.points.front().position == track.points.front().position)
+            describe(event, track, analysis);
         result.push_back(std::move(event));
     }
     std::stable_sort(result.begin(), result.end(), [](const Event &a, const Event &b) {

@@ -11,6 +11,7 @@
 #include "track/Track.h"
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -74,6 +75,12 @@ struct Event {
     bool isOpen = false;
     std::vector<double> ratesPerSecond; ///< as driftPerSecond, along every axis
     std::size_t model = 0;          ///< of a bank, the one that found it
+
+    // Of tracks that were looked at from both ends (secondLook.h); NaN of others:
+    double snrDb = std::numeric_limits<double>::quiet_NaN();     ///< mean power along the track over the noise's in one frame
+    double bandWidth = std::numeric_limits<double>::quiet_NaN(); ///< of the 5-95 % band of its position, mean, in units of the last axis
+    /// That noise alone brings an event as significant as this in this recording: 1 - exp(-rate(statistic)·cells·frames).
+    double noiseProbability = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A track's statistic as its event has it.

@@ -158,6 +158,15 @@ std::unique_ptr<DetectionChain> makeScoringChain(const Analysis &analysis)
     return makeChain(analysis, makeDetector(analysis), looksBack);
 }
 
+std::vector<CellBox> blindBoxes(const Analysis &analysis)
+{
+    const ChainSettings settings = chainSettings(analysis);
+    std::vector<CellBox> boxes;
+    for (const std::vector<Index> &place : settings.blind)
+        boxes.push_back({place, settings.inhibitCells});
+    return boxes;
+}
+
 const ChainCheckpoint *checkpointBefore(const Analysis &analysis, Index frame)
 {
     const auto after = std::upper_bound(analysis.checkpoints.begin(), analysis.checkpoints.end(), frame,

@@ -22,6 +22,9 @@ std::unique_ptr<Detector> makeDetector(const Analysis &analysis);
 /// `looksBack`: whether tracks are traced back to their onset, which who only counts them does not need.
 std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector, bool looksBack = true);
 
+/// The cells of a line of frames where no signal is looked for.
+std::vector<CellBox> blindBoxes(const Analysis &analysis);
+
 /// The latest of the run's checkpoints before that frame is taken; null where it is nearer to begin anew.
 const ChainCheckpoint *checkpointBefore(const Analysis &analysis, Index frame);
 

@@ -195,6 +195,20 @@ namespace {
         explanation.otherMargin = static_cast<double>(scores.values[static_cast<std::size_t>(own)]) - best;
     }
 
+    /// What the track of an inhibited box is called among the analysis's own, which are numbered after a second look.
+    int numberOf(const DetectionChain::Inhibition &inhibition, Index frame, const Analysis &analysis)
+    {
+        if (inhibition.track == 0)
+            return 0;
+        for (const Track &track : analysis.tracks) {
+            const Index at = frame - track.onsetFrame;
+            if (at >= 0 && at < std::ssize(track.points)
+                && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(track.points[static_cast<std::size_t>(at)].cell)))
+                return track.id;
+        }
+        return -1;
+    }
+
 } // namespace
 
 Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position, const RunContext &context)
@@ -247,7 +261,7 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     };
     for (const DetectionChain::Inhibition &inhibition : chain->inhibitions())
         if (!isNew(inhibition.track) && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))
-            explanation.inhibitedFor = inhibition.track;
+            explanation.inhibitedFor = numberOf(inhibition, frame, analysis);
     if (path.isTracked) {
         // Before its tracker was seeded, the path is the detector's own.
         const PathStep seed = path.steps.front();

@@ -34,7 +34,7 @@ struct Explanation {
     /// The best of the other states of the cell and how far it lies behind, nat; of a model with one rate a cell there is none.
     std::optional<Index> otherState;
     double otherMargin = 0.0;
-    std::optional<int> inhibitedFor; ///< the track for which the cell was kept from the detector in this frame; 0: a blind place
+    std::optional<int> inhibitedFor; ///< the track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later
     bool isTracked = false;        ///< a tracker follows this cell; its path runs on without reset
 };
 

@@ -1,7 +1,9 @@
 #include "exchange/writeEvents.h"
 
+#include "analysis/secondLook.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
+#include "base/logmath.h"
 #include "detect/statisticDecimals.h"
 
 #include <algorithm>
@@ -11,14 +13,6 @@
 namespace faintline {
 
 namespace {
-
-    std::string row(std::initializer_list<std::string> cells)
-    {
-        std::string line;
-        for (const std::string &cell : cells)
-            line += (line.empty() ? "" : ",") + cell;
-        return line + "\n";
-    }
 
     /// Column names of a position: f for a frequency, else the axes' names.
     std::vector<std::string> positionNames(const Grid &grid)
@@ -45,13 +39,12 @@ namespace {
         return joined(words);
     }
 
-    std::vector<double> positionOf(const Grid &grid, Index cell)
+    /// 5 and 95 % of a point's position, probability that the signal is there, and its SNR in one frame.
+    std::vector<double> sightOf(const Grid &grid, const TrackPoint &point)
     {
-        std::vector<double> position;
-        const std::vector<Index> coordinates = grid.coordinates(cell);
-        for (std::size_t axis = 0; axis < coordinates.size(); ++axis)
-            position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
-        return position;
+        const Axis &axis = grid.axes.back();
+        return {axis.value(static_cast<double>(point.low)), axis.value(static_cast<double>(point.high)), static_cast<double>(point.presence),
+                dbFromRatio(static_cast<double>(point.level))};
     }
 
     /// On a grid of several axes, names of the rates along each.
@@ -64,18 +57,28 @@ namespace {
         return names;
     }
 
+    /// What is known of tracks that were looked at from both ends.
+    const std::vector<std::string> sightNames{"snr_db", "band_hz", "noise_probability"};
+    std::vector<double> sightOf(const Event &e)
+    {
+        return {e.snrDb, e.bandWidth, e.noiseProbability};
+    }
+
     std::string eventsCsv(const Analysis &analysis)
     {
         std::vector<std::string> names{"event", "t_onset", "t_detect", "t_end", joined(positionNames(analysis.grid())), "drift_hz_per_s",
                                        "statistic", "confirmed", "open"};
         const std::vector<std::string> rates = rateNames(analysis.grid());
         names.insert(names.end(), rates.begin(), rates.end());
+        const bool isSeenTwice = looksTwice(analysis);
+        if (isSeenTwice)
+            names.insert(names.end(), sightNames.begin(), sightNames.end());
         std::string text = joined(names) + "\n";
         for (const Event &e : events(analysis)) {
             const std::vector<std::string> cells{std::to_string(e.id), formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
                                                  formatNumber(e.endSeconds), joined(e.position), formatNumber(e.driftPerSecond),
                                                  formatNumber(e.statistic), e.isConfirmed ? "1" : "0", e.isOpen ? "1" : "0"};
-            text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond)) + "\n";
+            text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond)) + (isSeenTwice ? "," + joined(sightOf(e)) : "") + "\n";
         }
         return text;
     }
@@ -97,6 +100,8 @@ namespace {
         json["statistic"] = e.statistic;
         json["confirmed"] = e.isConfirmed;
         json["open"] = e.isOpen;
+        for (std::size_t i = 0; i < sightNames.size() && !std::isnan(e.snrDb); ++i)
+            json[sightNames[i]] = sightOf(e)[i];
         return json;
     }
 
@@ -148,7 +153,7 @@ namespace {
             double low = e.position.back();
             double high = low;
             for (const TrackPoint &point : track->points) {
-                const double hz = analysis.grid().axes.back().value(static_cast<double>(point.cell));
+                const double hz = analysis.grid().axes.back().value(lastPosition(point, analysis.grid().axes.back()));
                 low = std::min(low, hz);
                 high = std::max(high, hz);
             }
@@ -158,7 +163,10 @@ namespace {
             annotation["core:freq_lower_edge"] = centre + low;
             annotation["core:freq_upper_edge"] = centre + high;
             annotation["core:label"] = "line " + std::to_string(e.id);
-            annotation["core:comment"] = "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
+            std::string comment = "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
+            if (!std::isnan(e.snrDb))
+                comment += ", SNR " + formatNumber(std::round(10.0 * e.snrDb) / 10.0) + " dB in one window";
+            annotation["core:comment"] = comment;
             json["annotations"].push_back(annotation);
         }
         return json.dump(2) + "\n";
@@ -166,11 +174,17 @@ namespace {
 
     std::string tracksCsv(const Analysis &analysis)
     {
-        std::string text = row({"track", "t", joined(positionNames(analysis.grid())), "statistic"});
+        const bool isSeenTwice = looksTwice(analysis);
+        std::string text = joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
+            + (isSeenTwice ? ",f_low,f_high,presence,snr_db\n" : "\n");
         for (const Track &track : analysis.tracks)
-            for (const TrackPoint &point : track.points)
-                text += row({std::to_string(track.id), formatNumber(analysis.time().value(static_cast<double>(point.frame))),
-                             joined(positionOf(analysis.grid(), point.cell)), formatNumber(point.statistic)});
+            for (const TrackPoint &point : track.points) {
+                text += std::to_string(track.id) + "," + formatNumber(analysis.time().value(static_cast<double>(point.frame))) + ","
+                    + joined(positionOf(point, analysis.grid())) + "," + formatNumber(point.statistic);
+                if (isSeenTwice)
+                    text += "," + joined(sightOf(analysis.grid(), point));
+                text += "\n";
+            }
         return text;
     }
 
@@ -185,12 +199,19 @@ namespace {
             for (const std::string &name : names)
                 one[name] = Json::array();
             one["statistic"] = Json::array();
+            const bool isSeenTwice = looksTwice(analysis);
+            const char *const sight[] = {"f_low", "f_high", "presence", "snr_db"};
+            for (const char *name : sight)
+                if (isSeenTwice)
+                    one[name] = Json::array();
             for (const TrackPoint &point : track.points) {
                 one["t"].push_back(analysis.time().value(static_cast<double>(point.frame)));
-                const std::vector<double> position = positionOf(analysis.grid(), point.cell);
+                const std::vector<double> position = positionOf(point, analysis.grid());
                 for (std::size_t axis = 0; axis < names.size(); ++axis)
                     one[names[axis]].push_back(position[axis]);
                 one["statistic"].push_back(point.statistic);
+                for (std::size_t i = 0; i < std::size(sight) && isSeenTwice; ++i)
+                    one[sight[i]].push_back(sightOf(analysis.grid(), point)[i]);
             }
             json.push_back(std::move(one));
         }

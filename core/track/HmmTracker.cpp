@@ -78,6 +78,7 @@ const std::vector<Field<TrackSettings>> &TrackSettings::fields()
         field(&S::confirmNats, "confirmNats", "nat", 0.0, 1e6, "A track is confirmed when its level is this far above the threshold."),
         field(&S::confirmFrames, "confirmFrames", "frames", 1.0, 1e6, "A track is confirmed at this age at the earliest."),
         field(&S::smoothingFrames, "smoothingFrames", "frames", 1.0, 10000.0, "Lag of the smoothing of a track's path."),
+        field(&S::bothWays, "bothWays", "Whether complete tracks of lines are followed backward too: onset, end and frequency from both sides."),
     };
     return table;
 }

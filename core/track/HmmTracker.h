@@ -21,6 +21,7 @@ struct TrackSettings {
     double confirmNats = 0.0;  ///< a track is confirmed this far above the threshold …
     int confirmFrames = 1;     ///< … and at this age
     int smoothingFrames = 48;  ///< lag of the path's smoothing
+    bool bothWays = true;      ///< complete tracks are looked at from both ends (analysis/secondLook.h)
 
     static const std::vector<Field<TrackSettings>> &fields();
     bool operator==(const TrackSettings &) const = default;

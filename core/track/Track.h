@@ -2,6 +2,7 @@
 
 #include "base/Grid.h"
 
+#include <limits>
 #include <vector>
 
 namespace faintline {
@@ -12,7 +13,32 @@ struct TrackPoint {
     Index cell = 0;         ///< flat index on the frames' grid
     Index plane = 0;        ///< combination of rates, as in StateSpace
     double statistic = 0.0; ///< score of the path up to here, nat above background
+
+    // Known of tracks that were looked at from both ends (secondLook.h), along the last axis:
+    double position = std::numeric_limits<double>::quiet_NaN(); ///< in cells, below one
+    float low = std::numeric_limits<float>::quiet_NaN();        ///< 5 % of the posterior, cells
+    float high = std::numeric_limits<float>::quiet_NaN();       ///< 95 %
+    float presence = std::numeric_limits<float>::quiet_NaN();   ///< probability that the signal is there
+    float level = std::numeric_limits<float>::quiet_NaN();      ///< its mean power over the noise's along the path
 };
+
+/// Where a point is along the last axis, in cells, as exactly as is known.
+inline double lastPosition(const TrackPoint &point, const Axis &axis)
+{
+    return point.position == point.position ? point.position
+                                            : static_cast<double>(axis.count > 0 ? point.cell % axis.count : point.cell);
+}
+
+/// The same on all axes, in their units.
+inline std::vector<double> positionOf(const TrackPoint &point, const Grid &grid)
+{
+    std::vector<double> position;
+    const std::vector<Index> coordinates = grid.coordinates(point.cell);
+    for (std::size_t axis = 0; axis + 1 < coordinates.size(); ++axis)
+        position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
+    position.push_back(grid.axes.back().value(lastPosition(point, grid.axes.back())));
+    return position;
+}
 
 /// One signal from its onset to its end, and the decision that started it.
 struct Track {

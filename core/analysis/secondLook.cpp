@@ -1,0 +1,361 @@
+#include "analysis/secondLook.h"
+
+#include "analysis/chain.h"
+#include "spectrum/NoiseNormaliser.h"
+#include "spectrum/Window.h"
+#include "track/bothWays.h"
+#include "track/explanation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index extraFrames = 16;      ///< before and behind a path that presence is looked for in
+    constexpr Index slopeFrames = 24;      ///< at either end of it, for where it may go on
+    constexpr Index largestGapFrames = 24; ///< between two stretches of one signal
+    constexpr double levelCells = 0.75;    ///< where a signal's own maximum lies, on either side
+    constexpr Index skirtBins = 96;        ///< on either side of strong tracks
+    constexpr double strongGrowth = 2.0;   ///< nats a frame
+    constexpr std::size_t blockBytes = std::size_t(4) << 20;
+
+    constexpr Index longestPiece = 16384;  ///< frames of a track that are looked at together
+    constexpr Index pieceOverlap = 64;     ///< frames of the neighbouring pieces that are looked at too
+    constexpr std::size_t stripBytes = std::size_t(48) << 20; ///< that are read at a time
+
+    /// A track as it was found, or of a long one some thousand frames.
+    struct Piece {
+        const Track *track;
+        std::size_t from; ///< points
+        std::size_t to;   ///< one behind the last
+        PathStrip strip;
+
+        bool isFirst() const { return from == 0; }
+        bool isLast() const { return to == track->points.size(); }
+    };
+
+    struct Stretch {
+        Index from; ///< frames of the piece's strip
+        Index to;   ///< one behind the last
+        double gain;
+    };
+
+    /// Least-squares slope of so many points from `first` on, cells a frame.
+    double slopeOf(const std::vector<TrackPoint> &points, std::size_t first, std::size_t count)
+    {
+        const double middle = 0.5 * static_cast<double>(count - 1);
+        double cross = 0.0;
+        double square = 0.0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double t = static_cast<double>(i) - middle;
+            cross += t * static_cast<double>(points[first + i].cell);
+            square += t * t;
+        }
+        return square > 0.0 ? cross / square : 0.0;
+    }
+
+    class SecondLook
+    {
+    public:
+        SecondLook(const Analysis &analysis, const RunContext &context)
+            : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
+              m_spectrogram(dynamic_cast<const NormalisedSpectrogram &>(m_frames).spectrogram()),
+              m_explanations(m_cells, [&](double bins) { return leakageBound(m_spectrogram.settings().window, bins / m_spectrogram.binsPerCell()); })
+        {
+            m_model.axis = &analysis.model.space.axes().front();
+            m_model.likelihood = analysis.model.likelihood;
+            m_model.threshold = analysis.threshold;
+            m_model.binsPerCell = m_spectrogram.binsPerCell();
+        }
+
+        std::vector<Track> run(std::vector<Track> found)
+        {
+            std::stable_sort(found.begin(), found.end(), [](const Track &a, const Track &b) { return a.peakStatistic > b.peakStatistic; });
+            std::vector<Piece> pieces;
+            for (const Track &track : found)
+                cut(track, pieces);
+            for (std::size_t first = 0; first < pieces.size();) {
+                std::size_t bytes = 0;
+                std::size_t end = first;
+                while (end < pieces.size() && (end == first || bytes < stripBytes)) {
+                    const PathStrip &strip = pieces[end++].strip;
+                    bytes += sizeof(float) * static_cast<std::size_t>(strip.frameCount() * strip.width());
+                }
+                const std::span<Piece> some = std::span(pieces).subspan(first, end - first);
+                readStrips(some, m_context.part(static_cast<double>(first) / static_cast<double>(pieces.size()),
+                                                static_cast<double>(end) / static_cast<double>(pieces.size())));
+                for (Piece &piece : some)
+                    lookAt(piece);
+                first = end;
+            }
+            std::stable_sort(m_tracks.begin(), m_tracks.end(), [](const Track &a, const Track &b) {
+                return a.detectFrame != b.detectFrame ? a.detectFrame < b.detectFrame : a.points.front().cell < b.points.front().cell;
+            });
+            for (std::size_t i = 0; i < m_tracks.size(); ++i)
+                m_tracks[i].id = static_cast<int>(i) + 1;
+            return std::move(m_tracks);
+        }
+
+    private:
+        void cut(const Track &track, std::vector<Piece> &pieces) const
+        {
+            const std::size_t length = track.points.size();
+            const std::size_t count = (length + longestPiece - 1) / longestPiece;
+            for (std::size_t i = 0; i < count; ++i) {
+                Piece piece{&track, i * length / count, (i + 1) * length / count, {}};
+                piece.strip = stripRound(piece);
+                pieces.push_back(std::move(piece));
+            }
+        }
+
+        /// An empty strip round a piece of a path, which goes on for some frames at either end: as the track does, or beyond its ends as it
+        /// begins and ends.
+        PathStrip stripRound(const Piece &piece) const
+        {
+            PathStrip strip;
+            const std::vector<TrackPoint> &points = piece.track->points;
+            const auto goesOn = [&](const TrackPoint &end, double slope, Index frame) {
+                strip.centres.push_back(end.cell + static_cast<Index>(std::lround(slope * static_cast<double>(frame - end.frame))));
+            };
+            const std::size_t count = std::min(points.size(), static_cast<std::size_t>(slopeFrames));
+            const std::size_t from = piece.from - std::min(piece.from, static_cast<std::size_t>(pieceOverlap));
+            const std::size_t to = std::min(points.size(), piece.to + static_cast<std::size_t>(pieceOverlap));
+            strip.firstFrame = points[from].frame;
+            if (piece.isFirst()) {
+                strip.firstFrame = std::max<Index>(0, points.front().frame - extraFrames);
+                for (Index frame = strip.firstFrame; frame < points.front().frame; ++frame)
+                    goesOn(points.front(), slopeOf(points, 0, count), frame);
+            }
+            for (std::size_t i = from; i < to; ++i)
+                strip.centres.push_back(points[i].cell);
+            if (piece.isLast()) {
+                const Index end = std::min(m_frames.time().count, points.back().frame + 1 + extraFrames);
+                for (Index frame = points.back().frame + 1; frame < end; ++frame)
+                    goesOn(points.back(), slopeOf(points, points.size() - count, count), frame);
+            }
+            const bool isStrong = piece.track->peakStatistic > strongGrowth * static_cast<double>(points.size());
+            strip.halfWidth = std::max(bothWaysHalfWidth(m_model.binsPerCell), isStrong ? skirtBins : 0);
+            return strip;
+        }
+
+        /// Fills in the strips of some pieces.
+        void readStrips(std::span<Piece> pieces, const RunContext &context) const
+        {
+            std::vector<PathStrip *> strips;
+            for (Piece &piece : pieces)
+                strips.push_back(&piece.strip);
+            std::stable_sort(strips.begin(), strips.end(), [](const PathStrip *a, const PathStrip *b) { return a->firstFrame < b->firstFrame; });
+            const Index frameCount = m_frames.time().count;
+            const Index block = std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / m_cells);
+            const std::vector<CellBox> blind = blindBoxes(m_analysis);
+            std::vector<PathStrip *> open;
+            std::size_t next = 0;
+            std::vector<float> values;
+            for (Index first = 0; first < frameCount && (next < strips.size() || !open.empty()); first += block) {
+                context.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), "following tracks both ways");
+                const Index count = std::min(block, frameCount - first);
+                for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
+                    PathStrip &strip = *strips[next];
+                    strip.y.assign(static_cast<std::size_t>(strip.frameCount() * strip.width()), std::numeric_limits<float>::quiet_NaN());
+                    open.push_back(&strip);
+                }
+                std::erase_if(open, [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
+                if (open.empty())
+                    continue;
+                values.resize(static_cast<std::size_t>(count * m_cells));
+                m_frames.read(first, count, values);
+                for (Index i = 0; i < count; ++i) {
+                    const std::span<float> y = std::span(values).subspan(static_cast<std::size_t>(i * m_cells), static_cast<std::size_t>(m_cells));
+                    for (const CellBox &box : blind)
+                        box.forEachCell(m_frames.grid(), [&](Index cell) { y[static_cast<std::size_t>(cell)] = 0.0f; });
+                    for (PathStrip *strip : open)
+                        copyFrame(y, first + i - strip->firstFrame, *strip);
+                }
+            }
+        }
+
+        void copyFrame(std::span<const float> y, Index at, PathStrip &strip) const
+        {
+            if (at < 0 || at >= strip.frameCount())
+                return;
+            const Index first = strip.firstCell(at);
+            const Index from = std::clamp<Index>(first, 0, m_cells);
+            const Index to = std::clamp<Index>(first + strip.width(), 0, m_cells);
+            if (from < to)
+                std::copy(y.begin() + from, y.begin() + to, strip.row(at) + (from - first));
+        }
+
+        void divideByFloor(PathStrip &strip) const
+        {
+            std::vector<float> floor(static_cast<std::size_t>(strip.width()));
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                m_explanations.read(strip.firstFrame + at, strip.firstCell(at), floor);
+                float *y = strip.row(at);
+                for (const float level : floor)
+                    *y++ /= level;
+            }
+        }
+
+        void lookAt(Piece &piece)
+        {
+            PathStrip &strip = piece.strip;
+            divideByFloor(strip);
+            m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame, m_analysis.lnK.begin() + strip.firstFrame + strip.frameCount());
+            if (const std::optional<BothWays> seen = lookBothWays(strip, m_model))
+                for (const Stretch &stretch : stretchesOf(piece, *seen)) {
+                    m_explanations.add(explain(strip, *seen, stretch));
+                    accept(piece, *seen, stretch);
+                }
+            strip = {};
+        }
+
+        void accept(const Piece &piece, const BothWays &seen, const Stretch &stretch)
+        {
+            Track track = trackOf(piece, seen, stretch);
+            const bool goesOn = !piece.isFirst() && m_lastOf == piece.track && m_tracks.back().endFrame + 1 == track.onsetFrame;
+            m_lastOf = piece.track;
+            if (!goesOn) {
+                m_tracks.push_back(std::move(track));
+                return;
+            }
+            Track &before = m_tracks.back();
+            before.endFrame = track.endFrame;
+            before.isOpen = track.isOpen;
+            before.points.insert(before.points.end(), track.points.begin(), track.points.end());
+        }
+
+        /// The stretches of a piece, without what its neighbours will tell.
+        std::vector<Stretch> stretchesOf(const Piece &piece, const BothWays &seen) const
+        {
+            const std::vector<TrackPoint> &points = piece.track->points;
+            const Index from = piece.isFirst() ? 0 : points[piece.from].frame - piece.strip.firstFrame;
+            const Index to = piece.isLast() ? piece.strip.frameCount() : points[piece.to].frame - piece.strip.firstFrame;
+            const std::vector<float> &present = seen.presence.present;
+            const float least = std::min(0.5f, 0.5f * *std::max_element(present.begin(), present.end()));
+            std::vector<Stretch> stretches;
+            for (Index at = from; at < to; ++at) {
+                const auto i = static_cast<std::size_t>(at);
+                if (present[i] <= least)
+                    continue;
+                if (stretches.empty() || at - stretches.back().to > largestGapFrames)
+                    stretches.push_back({at, at, 0.0});
+                stretches.back().to = at + 1;
+                stretches.back().gain += seen.gains[i];
+            }
+            const auto best = std::max_element(stretches.begin(), stretches.end(), [](const Stretch &a, const Stretch &b) { return a.gain < b.gain; });
+            std::vector<Stretch> kept;
+            for (auto stretch = stretches.begin(); stretch != stretches.end(); ++stretch)
+                if (stretch == best || stretch->gain >= m_analysis.threshold)
+                    kept.push_back(*stretch);
+            return kept;
+        }
+
+        Track trackOf(const Piece &piece, const BothWays &seen, const Stretch &stretch) const
+        {
+            const PathStrip &strip = piece.strip;
+            const Track &found = *piece.track;
+            Track track = found.withoutPoints();
+            track.onsetFrame = strip.firstFrame + stretch.from;
+            track.endFrame = strip.firstFrame + stretch.to - 1;
+            track.isOpen = found.isOpen && track.endFrame + 1 == m_frames.time().count;
+            track.detectFrame = std::clamp(found.detectFrame, track.onsetFrame, track.endFrame);
+            if (found.confirmFrame >= 0)
+                track.confirmFrame = std::max(found.confirmFrame, track.detectFrame);
+            for (Index at = stretch.from; at < stretch.to; ++at) {
+                const auto i = static_cast<std::size_t>(at);
+                TrackPoint point;
+                point.frame = strip.firstFrame + at;
+                const Index known = std::clamp(point.frame, found.points.front().frame, found.points.back().frame);
+                const TrackPoint &before = found.points[static_cast<std::size_t>(known - found.points.front().frame)];
+                point.plane = before.plane;
+                point.statistic = before.statistic;
+                point.position = std::clamp(seen.positions[i], 0.0, static_cast<double>(m_cells - 1));
+                point.cell = static_cast<Index>(std::lround(point.position));
+                point.low = seen.presence.low[i];
+                point.high = seen.presence.high[i];
+                point.presence = seen.presence.present[i];
+                point.level = static_cast<float>(seen.levels[i]);
+                track.points.push_back(point);
+            }
+            return track;
+        }
+
+        ExplainedSignal explain(const PathStrip &strip, const BothWays &seen, const Stretch &stretch) const
+        {
+            const auto near = static_cast<Index>(std::floor(levelCells * m_model.binsPerCell));
+            ExplainedSignal signal;
+            signal.firstFrame = strip.firstFrame + stretch.from;
+            for (Index at = stretch.from; at < stretch.to; ++at) {
+                const auto i = static_cast<std::size_t>(at);
+                double power = seen.levels[i] + 1.0;
+                for (Index d = -near; d <= near; ++d)
+                    if (const float y = strip.valueAt(at, static_cast<Index>(std::lround(seen.positions[i])) + d); !std::isnan(y))
+                        power = std::max(power, static_cast<double>(y));
+                signal.positions.push_back(seen.positions[i]);
+                signal.levels.push_back(static_cast<float>(power - 1.0));
+            }
+            if (strip.halfWidth >= skirtBins)
+                for (Index first = 0; first < stretch.to - stretch.from; first += ExplainedSignal::skirtFrames)
+                    signal.skirts.push_back(skirtOf(strip, signal, stretch.from, first));
+            return signal;
+        }
+
+        /// What lies beside the path in units of its level, the lower of both sides, falling outwards; as far as it is significant.
+        static std::vector<float> skirtOf(const PathStrip &strip, const ExplainedSignal &signal, Index from, Index first)
+        {
+            const Index end = std::min(std::ssize(signal.positions), first + ExplainedSignal::skirtFrames);
+            const auto count = static_cast<double>(end - first);
+            double level = 0.0;
+            for (Index i = first; i < end; ++i)
+                level += static_cast<double>(signal.levels[static_cast<std::size_t>(i)]) / count;
+            const auto excess = [&](Index distance) {
+                double sum = 0.0;
+                double observed = 0.0;
+                for (Index i = first; i < end; ++i) {
+                    const auto cell = static_cast<Index>(std::lround(signal.positions[static_cast<std::size_t>(i)])) + distance;
+                    if (const float y = strip.valueAt(from + i, cell); !std::isnan(y)) {
+                        sum += static_cast<double>(y) - 1.0;
+                        observed += 1.0;
+                    }
+                }
+                return observed > 0.0 ? sum / observed : 0.0;
+            };
+            std::vector<float> shares;
+            double running = std::numeric_limits<double>::infinity();
+            for (Index d = 0; d <= strip.halfWidth; ++d) {
+                running = std::min({running, excess(d), excess(-d)});
+                if (running <= 1.0 + 3.0 / std::sqrt(count))
+                    break;
+                shares.push_back(static_cast<float>(running / std::max(level, 1e-9)));
+            }
+            return shares;
+        }
+
+        const Analysis &m_analysis;
+        const RunContext &m_context;
+        const NormalisedFrames &m_frames;
+        Index m_cells;
+        const Spectrogram &m_spectrogram;
+        Explanations m_explanations;
+        BothWaysModel m_model;
+        std::vector<Track> m_tracks;
+        const Track *m_lastOf = nullptr; ///< what the last of them was found as
+    };
+
+} // namespace
+
+bool looksTwice(const Analysis &analysis)
+{
+    return analysis.settings.track.bothWays && analysis.grid().axes.size() == 1 && analysis.bank.empty()
+        && std::holds_alternative<SmdSettings>(analysis.settings.detector)
+        && dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr;
+}
+
+std::vector<Track> lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context)
+{
+    return SecondLook(analysis, context).run(std::move(found));
+}
+
+} // namespace faintline

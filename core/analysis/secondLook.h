@@ -1,0 +1,26 @@
+#pragma once
+
+#include "analysis/analyse.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// Whether complete tracks are looked at a second time: those of the sequential Markov detector's paths through a spectrogram, if asked for.
+bool looksTwice(const Analysis &analysis);
+
+/// What was found, seen from both ends: each signal only while it was there, and where it was to a fraction of a bin.
+///
+/// The chain decides causally what is found; its statistic and its events' times of detection stay as they are. Each of its tracks, the strongest
+/// first, is looked at in a strip of frames round its path (bothWays.h):
+///
+///   1. y is divided by the floor that stronger tracks raise (explanation.h);
+///   2. a track whose evidence does not reach the threshold over that floor any more was theirs: it goes;
+///   3. the stretches where the signal is present stay, joined over up to 24 frames: the one with the largest evidence, and every other
+///      that reaches the threshold by itself;
+///   4. what stays is explained: it raises the floor for weaker ones.
+///
+/// `found`: by detection, as is the answer, numbered anew. Reads all frames once; memory goes with the tracks' length. Deterministic.
+std::vector<Track> lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context);
+
+} // namespace faintline

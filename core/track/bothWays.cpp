@@ -1,0 +1,185 @@
+#include "track/bothWays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double corridorCells = 3.0; ///< resolution cells on either side of the path
+    constexpr Index levelFrames = 12; ///< either way
+    constexpr double leastLevel = 0.5;
+    constexpr double largestLevel = 4.0;
+    constexpr double levelOfOneFrame = 10.0; ///< from that SNR on, a frame's neighbours are enough for its position
+    constexpr double framesAtMost = 8.0;
+    constexpr double rounding = 0.1; ///< nat, between the detector's score and the corridor's
+
+    Index inBins(double cells, double binsPerCell)
+    {
+        return static_cast<Index>(std::ceil(cells * binsPerCell));
+    }
+
+    Index nearest(double position)
+    {
+        return static_cast<Index>(std::lround(position));
+    }
+
+    /// Means over a window of frames that slides along.
+    class SlidingMean
+    {
+    public:
+        void add(double sum, double count)
+        {
+            m_sums.push_back(m_sums.back() + sum);
+            m_counts.push_back(m_counts.back() + count);
+        }
+        double count(Index at, Index either) const { return over(m_counts, at, either); }
+        double mean(Index at, Index either) const { return over(m_sums, at, either) / std::max(1.0, count(at, either)); }
+
+    private:
+        static double over(const std::vector<double> &sums, Index at, Index either)
+        {
+            const auto from = static_cast<std::size_t>(std::max<Index>(0, at - either));
+            const auto to = static_cast<std::size_t>(std::min(std::ssize(sums) - 1, at + either + 1));
+            return sums[to] - sums[from];
+        }
+
+        std::vector<double> m_sums{0.0};
+        std::vector<double> m_counts{0.0};
+    };
+
+    class Look
+    {
+    public:
+        Look(const PathStrip &strip, const BothWaysModel &model) : m_strip(strip), m_model(model) {}
+
+        std::optional<BothWays> run()
+        {
+            BothWays seen;
+            for (const Index centre : m_strip.centres)
+                seen.positions.push_back(static_cast<double>(centre));
+            for (int round = 0; round < 2; ++round) {
+                seen.levels = levels(seen);
+                if (round == 0
+                    && strongestPath(corridor(seen, true), *m_model.axis, m_model.lnK, m_strip.firstFrame) < m_model.threshold - rounding)
+                    return {};
+                seen.presence = presenceIn(corridor(seen, false), *m_model.axis, -0.5 * m_model.threshold, m_strip.firstFrame);
+                seen.positions = seen.presence.mean;
+            }
+            seen.levels = levels(seen);
+            seen.gains = gains(seen);
+            seen.positions = refined(seen);
+            return seen;
+        }
+
+    private:
+        std::vector<double> levels(const BothWays &seen) const
+        {
+            SlidingMean along;
+            for (Index at = 0; at < m_strip.frameCount(); ++at) {
+                const float y = m_strip.valueAt(at, nearest(seen.positions[static_cast<std::size_t>(at)]));
+                along.add(std::isnan(y) ? 0.0 : static_cast<double>(y), std::isnan(y) ? 0.0 : 1.0);
+            }
+            std::vector<double> result;
+            for (Index at = 0; at < m_strip.frameCount(); ++at)
+                result.push_back(std::max(0.0, along.mean(at, levelFrames) - 1.0));
+            return result;
+        }
+
+        /// The likelihood at a track's own level, in half octaves.
+        const Likelihood &likelihoodAt(double level)
+        {
+            const auto step = static_cast<int>(std::lround(2.0 * std::log2(std::clamp(level, leastLevel, largestLevel) / leastLevel)));
+            const auto found = m_likelihoods.find(step);
+            return found != m_likelihoods.end()
+                ? found->second
+                : m_likelihoods.emplace(step, Likelihood(m_model.likelihood.kind(), leastLevel * std::pow(2.0, 0.5 * step))).first->second;
+        }
+
+        /// `byDesign`: with the detector's likelihood instead of that of the track's own level.
+        Corridor corridor(const BothWays &seen, bool byDesign)
+        {
+            const Index half = inBins(corridorCells, m_model.binsPerCell);
+            const Index cells = m_model.axis->cells;
+            Corridor result;
+            result.width = 2 * half + 1;
+            result.lambda.resize(static_cast<std::size_t>(m_strip.frameCount() * result.width));
+            std::vector<float> y(static_cast<std::size_t>(result.width));
+            for (Index at = 0; at < m_strip.frameCount(); ++at) {
+                const Index first = nearest(seen.positions[static_cast<std::size_t>(at)]) - half;
+                result.firstCells.push_back(first);
+                for (Index i = 0; i < result.width; ++i)
+                    y[static_cast<std::size_t>(i)] = m_strip.valueAt(at, first + i);
+                const std::span<float> lambda = std::span(result.lambda).subspan(static_cast<std::size_t>(at * result.width), y.size());
+                (byDesign ? m_model.likelihood : likelihoodAt(seen.levels[static_cast<std::size_t>(at)])).apply(y, lambda);
+                for (Index i = 0; i < result.width; ++i)
+                    if (first + i < 0 || first + i >= cells)
+                        lambda[static_cast<std::size_t>(i)] = -std::numeric_limits<float>::infinity();
+            }
+            return result;
+        }
+
+        std::vector<double> gains(const BothWays &seen) const
+        {
+            const double staying = std::log(m_model.axis->rateChange.front());
+            std::vector<double> result;
+            for (Index at = 0; at < m_strip.frameCount(); ++at) {
+                const float y = m_strip.valueAt(at, nearest(seen.presence.mean[static_cast<std::size_t>(at)]));
+                result.push_back(m_model.likelihood.at(static_cast<double>(y)) + m_model.lnK[static_cast<std::size_t>(at)] + staying);
+            }
+            return result;
+        }
+
+        /// y between cells, along the mean path.
+        double powerBeside(const BothWays &seen, Index at, double offset) const
+        {
+            const double position = seen.presence.mean[static_cast<std::size_t>(at)] + offset;
+            const double below = std::floor(position);
+            const double share = position - below;
+            const auto cell = static_cast<Index>(below);
+            return (1.0 - share) * static_cast<double>(m_strip.valueAt(at, cell)) + share * static_cast<double>(m_strip.valueAt(at, cell + 1));
+        }
+
+        std::vector<double> refined(const BothWays &seen) const
+        {
+            constexpr int farthest = 2; ///< bins that a parabola may stand on
+            std::vector<double> result;
+            for (Index at = 0; at < m_strip.frameCount(); ++at) {
+                const double level = seen.levels[static_cast<std::size_t>(at)];
+                const auto half = static_cast<Index>(std::clamp(levelOfOneFrame / std::max(level, 0.1), 1.0, framesAtMost));
+                std::array<double, 2 * farthest + 1> power{};
+                for (Index other = std::max<Index>(0, at - half); other <= std::min(m_strip.frameCount() - 1, at + half); ++other)
+                    for (std::size_t i = 0; i < power.size(); ++i)
+                        if (const double y = powerBeside(seen, other, static_cast<double>(i) - farthest); !std::isnan(y))
+                            power[i] += y;
+                const auto peak = static_cast<std::size_t>(std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
+                const auto ln = [&](std::size_t i) { return std::log(std::max(power[i], 1e-9)); };
+                const double curvature = ln(peak - 1) - 2.0 * ln(peak) + ln(peak + 1);
+                const double within = curvature < 0.0 ? std::clamp(0.5 * (ln(peak - 1) - ln(peak + 1)) / curvature, -0.5, 0.5) : 0.0;
+                result.push_back(seen.presence.mean[static_cast<std::size_t>(at)]
+                                 + std::clamp(static_cast<double>(peak) - farthest + within, -1.0, 1.0));
+            }
+            return result;
+        }
+
+        const PathStrip &m_strip;
+        const BothWaysModel &m_model;
+        std::map<int, Likelihood> m_likelihoods; ///< by level, in half octaves
+    };
+
+} // namespace
+
+Index bothWaysHalfWidth(double binsPerCell)
+{
+    return 2 * inBins(corridorCells, binsPerCell) + 2;
+}
+
+std::optional<BothWays> lookBothWays(const PathStrip &strip, const BothWaysModel &model)
+{
+    return Look(strip, model).run();
+}
+
+} // namespace faintline

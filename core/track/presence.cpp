@@ -1,0 +1,245 @@
+#include "track/presence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double lowQuantile = 0.05;
+    constexpr double highQuantile = 0.95;
+    constexpr double largestLambda = 60.0; ///< more decides no more than this does
+
+    /// Probabilities of the states after a frame: rates × width, and "off" behind them.
+    using Weights = std::vector<double>;
+
+    struct Step {
+        Index from; ///< plane offset, states
+        Index to;
+        Index cells;
+        double probability;
+        double lnProbability;
+    };
+
+    /// Calls take(from, to, move) for every way from a corridor's cells in one frame into those of the next: a move goes between corridors that
+    /// lie apart by what the path moved.
+    template <class Take>
+    void forEachWay(const Corridor &corridor, const std::vector<Step> &steps, Index frame, Take take)
+    {
+        const auto at = static_cast<std::size_t>(frame);
+        const Index drift = corridor.firstCells[at] - corridor.firstCells[at - 1];
+        for (const Step &step : steps) {
+            const Index shift = step.cells - drift; // target cell - source cell, in the corridors' own counting
+            const Index last = std::min(corridor.width, corridor.width + shift);
+            for (Index to = std::max<Index>(0, shift); to < last; ++to)
+                take(step.from + to - shift, step.to + to, step);
+        }
+    }
+
+    /// The moves of each phase between planes of a corridor.
+    std::vector<std::vector<Step>> stepsOf(const KinematicAxis &axis, Index width)
+    {
+        std::vector<std::vector<Step>> steps;
+        for (Index phase = 0; phase < axis.phaseCount(); ++phase) {
+            steps.emplace_back();
+            for (const KinematicAxis::Move &move : axis.moves(phase))
+                steps.back().push_back({move.fromRate * width, move.toRate * width, move.cells, std::exp(move.lnProbability), move.lnProbability});
+        }
+        return steps;
+    }
+
+    class Chain
+    {
+    public:
+        Chain(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep)
+            : m_corridor(corridor), m_width(corridor.width), m_rates(axis.rateCount), m_states(m_width * m_rates),
+              m_change(std::exp(lnChange)), m_birth(m_change / static_cast<double>(m_states)), m_firstStep(firstStep),
+              m_steps(stepsOf(axis, corridor.width))
+        {
+        }
+
+        Index states() const { return m_states; }
+
+        Weights start() const
+        {
+            Weights weights(static_cast<std::size_t>(m_states) + 1, 0.5 / static_cast<double>(m_states));
+            weights.back() = 0.5;
+            return weights;
+        }
+
+        /// α of a frame from that of the one before, scaled to a sum of 1.
+        Weights forward(const Weights &before, Index frame) const
+        {
+            Weights after(before.size(), m_birth * before.back());
+            if (frame == 0)
+                std::fill(after.begin(), after.end(), before.front());
+            else
+                forEachMove(frame, [&](Index from, Index to, double p) {
+                    after[static_cast<std::size_t>(to)] += p * before[static_cast<std::size_t>(from)];
+                });
+            double on = 0.0;
+            for (std::size_t s = 0; s + 1 < before.size(); ++s)
+                on += before[s];
+            after.back() = frame == 0 ? before.back() : (1.0 - m_change) * before.back() + m_change * on;
+            applyEvidence(frame, after);
+            scale(after);
+            return after;
+        }
+
+        /// β of a frame from that of the next.
+        Weights backward(Weights next, Index nextFrame) const
+        {
+            applyEvidence(nextFrame, next);
+            double births = 0.0;
+            for (std::size_t s = 0; s + 1 < next.size(); ++s)
+                births += next[s];
+            Weights before(next.size(), m_change * next.back());
+            forEachMove(nextFrame, [&](Index from, Index to, double p) {
+                before[static_cast<std::size_t>(from)] += p * next[static_cast<std::size_t>(to)];
+            });
+            before.back() = (1.0 - m_change) * next.back() + m_birth * births;
+            scale(before);
+            return before;
+        }
+
+        void addTo(Presence &result, const Weights &alpha, const Weights &beta, Index frame) const
+        {
+            std::vector<double> cells(static_cast<std::size_t>(m_width));
+            for (Index s = 0; s < m_states; ++s)
+                cells[static_cast<std::size_t>(s % m_width)] +=
+                    alpha[static_cast<std::size_t>(s)] * beta[static_cast<std::size_t>(s)];
+            const double off = alpha.back() * beta.back();
+            double on = 0.0;
+            double moment = 0.0;
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                on += cells[c];
+                moment += cells[c] * static_cast<double>(c);
+            }
+            const auto first = static_cast<double>(m_corridor.firstCells[static_cast<std::size_t>(frame)]);
+            const auto at = static_cast<std::size_t>(frame);
+            result.present[at] = static_cast<float>(on + off > 0.0 ? on / (on + off) : 0.0);
+            result.mean[at] = first + (on > 0.0 ? moment / on : 0.5 * static_cast<double>(m_width - 1));
+            result.low[at] = static_cast<float>(first + quantile(cells, lowQuantile * on));
+            result.high[at] = static_cast<float>(first + quantile(cells, highQuantile * on));
+        }
+
+    private:
+        template <class Take>
+        void forEachMove(Index frame, Take take) const
+        {
+            forEachWay(m_corridor, m_steps[static_cast<std::size_t>((m_firstStep + frame) % static_cast<Index>(m_steps.size()))], frame,
+                       [&](Index from, Index to, const Step &step) { take(from, to, step.probability); });
+        }
+
+        void applyEvidence(Index frame, Weights &weights) const
+        {
+            const float *lambda = m_corridor.lambda.data() + frame * m_width;
+            double largest = 0.0;
+            for (Index c = 0; c < m_width; ++c)
+                largest = std::max(largest, std::min(largestLambda, static_cast<double>(lambda[c])));
+            for (Index c = 0; c < m_width; ++c) {
+                const double factor = std::exp(std::min(largestLambda, static_cast<double>(lambda[c])) - largest);
+                for (Index s = c; s < m_states; s += m_width)
+                    weights[static_cast<std::size_t>(s)] *= factor;
+            }
+            weights.back() *= std::exp(-largest);
+        }
+
+        static void scale(Weights &weights)
+        {
+            double sum = 0.0;
+            for (const double w : weights)
+                sum += w;
+            if (sum > 0.0)
+                for (double &w : weights)
+                    w /= sum;
+        }
+
+        /// Position where the sum from the lowest cell's lower edge reaches `sum`.
+        static double quantile(const std::vector<double> &cells, double sum)
+        {
+            double before = 0.0;
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                if (before + cells[c] >= sum && cells[c] > 0.0)
+                    return static_cast<double>(c) - 0.5 + (sum - before) / cells[c];
+                before += cells[c];
+            }
+            return 0.5 * static_cast<double>(cells.size() - 1);
+        }
+
+        const Corridor &m_corridor;
+        Index m_width;
+        Index m_rates;
+        Index m_states;
+        double m_change;
+        double m_birth; ///< into each state
+        Index m_firstStep;
+        std::vector<std::vector<Step>> m_steps; ///< of each phase
+    };
+
+} // namespace
+
+Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep)
+{
+    const Chain chain(corridor, axis, lnChange, firstStep);
+    const Index frames = corridor.frameCount();
+    const auto count = static_cast<std::size_t>(frames);
+    Presence result{std::vector<float>(count), std::vector<double>(count), std::vector<float>(count),
+                    std::vector<float>(count)};
+    if (frames == 0)
+        return result;
+    // α at the beginning of each chunk; within one it is made again on the way back.
+    const auto chunk = std::max<Index>(16, static_cast<Index>(std::sqrt(static_cast<double>(frames))));
+    std::vector<Weights> starts;
+    Weights alpha = chain.start();
+    for (Index frame = 0; frame < frames; ++frame) {
+        if (frame % chunk == 0)
+            starts.push_back(alpha);
+        alpha = chain.forward(alpha, frame);
+    }
+    Weights beta(alpha.size(), 1.0);
+    for (Index first = (std::ssize(starts) - 1) * chunk; first >= 0; first -= chunk) {
+        const Index end = std::min(frames, first + chunk);
+        std::vector<Weights> alphas;
+        alphas.push_back(chain.forward(starts[static_cast<std::size_t>(first / chunk)], first));
+        for (Index frame = first + 1; frame < end; ++frame)
+            alphas.push_back(chain.forward(alphas.back(), frame));
+        for (Index frame = end; frame-- > first;) {
+            chain.addTo(result, alphas[static_cast<std::size_t>(frame - first)], beta, frame);
+            if (frame > 0)
+                beta = chain.backward(std::move(beta), frame);
+        }
+    }
+    return result;
+}
+
+double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const std::vector<double> &lnK, Index firstStep)
+{
+    const auto steps = stepsOf(axis, corridor.width);
+    const auto states = static_cast<std::size_t>(corridor.width * axis.rateCount);
+    constexpr double nowhere = -std::numeric_limits<double>::infinity();
+    std::vector<double> scores(states, nowhere);
+    std::vector<double> next;
+    double largest = nowhere;
+    for (Index frame = 0; frame < corridor.frameCount(); ++frame) {
+        next.assign(states, nowhere);
+        if (frame > 0)
+            forEachWay(corridor, steps[static_cast<std::size_t>((firstStep + frame) % std::ssize(steps))], frame,
+                       [&](Index from, Index to, const Step &step) {
+                           double &best = next[static_cast<std::size_t>(to)];
+                           best = std::max(best, scores[static_cast<std::size_t>(from)] + step.lnProbability);
+                       });
+        for (std::size_t s = 0; s < states; ++s) {
+            const auto cell = static_cast<Index>(s) % corridor.width;
+            next[s] = std::max(0.0, next[s] + lnK[static_cast<std::size_t>(frame)])
+                + static_cast<double>(corridor.lambda[static_cast<std::size_t>(frame * corridor.width + cell)]);
+            largest = std::max(largest, next[s]);
+        }
+        std::swap(scores, next);
+    }
+    return largest;
+}
+
+} // namespace faintline

@@ -1,0 +1,165 @@
+#include "analysis/analyse.h"
+#include "recording/SimulatedRecording.h"
+
+#include <QtTest>
+
+#include <cmath>
+
+using namespace faintline;
+
+namespace {
+
+constexpr double rateHz = 400.0;
+constexpr double windowSeconds = 0.25;
+constexpr double cellHz = 1.0 / windowSeconds;
+
+LineSettings line(double hz, double snrDb, double from, double seconds, double drift = 0.0)
+{
+    LineSettings result;
+    result.frequencyHz = hz;
+    result.snrDb = snrDb;
+    result.startSeconds = from;
+    result.durationSeconds = seconds;
+    result.driftHzPerSecond = drift;
+    result.referenceSeconds = windowSeconds;
+    return result;
+}
+
+std::shared_ptr<const Analysis> analysisOf(const std::vector<LineSettings> &lines, double seconds, int seed, bool bothWays = true)
+{
+    LineScene scene;
+    scene.sampleRateHz = rateHz;
+    scene.durationSeconds = seconds;
+    scene.seed = seed;
+    scene.lines = lines;
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = windowSeconds;
+    settings.track.bothWays = bothWays;
+    return analyse(std::make_shared<SimulatedRecording>(scene), settings);
+}
+
+double secondsOf(const Analysis &analysis, Index frame)
+{
+    return analysis.time().value(static_cast<double>(frame));
+}
+
+} // namespace
+
+/// Tracks seen from both ends, against lines of known place.
+class tst_secondLook : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void placeAndBand_data();
+    void placeAndBand();
+    void beginsAndEndsWithTheLine();
+    void detectionStaysCausal();
+    void aStrongLineIsOneTrack();
+    void aLongTrackIsOne();
+    void withoutItTheChainsTracksStay();
+};
+
+void tst_secondLook::placeAndBand_data()
+{
+    QTest::addColumn<double>("snrDb");
+    QTest::addColumn<double>("drift");
+    QTest::addColumn<double>("largestError"); // of 90 %, cells
+    QTest::newRow("3 dB, constant") << 3.0 << 0.0 << 0.4;
+    QTest::newRow("3 dB, drifting") << 3.0 << 0.8 << 0.4;
+    QTest::newRow("10 dB, constant") << 10.0 << 0.0 << 0.25;
+    QTest::newRow("10 dB, drifting") << 10.0 << 0.8 << 0.25;
+}
+
+void tst_secondLook::placeAndBand()
+{
+    QFETCH(double, snrDb);
+    QFETCH(double, drift);
+    QFETCH(double, largestError);
+    int frames = 0;
+    int inBand = 0;
+    std::vector<double> errors;
+    for (int seed = 1; seed <= 3; ++seed) {
+        const double hz = 60.3 + 7.77 * seed;
+        const auto analysis = analysisOf({line(hz, snrDb, 0.0, 100.0, drift)}, 100.0, seed);
+        for (const Track &track : analysis->tracks)
+            for (const TrackPoint &point : track.points) {
+                const double truth = hz + drift * secondsOf(*analysis, point.frame);
+                const Axis &axis = analysis->grid().axes.front();
+                if (std::abs(axis.value(point.position) - truth) > 3.0 * cellHz)
+                    continue; // none of this line
+                ++frames;
+                inBand += truth >= axis.value(static_cast<double>(point.low)) && truth <= axis.value(static_cast<double>(point.high)) ? 1 : 0;
+                errors.push_back(std::abs(axis.value(point.position) - truth) / cellHz);
+            }
+    }
+    QVERIFY2(frames > 3 * 600, qPrintable(QString::number(frames)));
+    std::sort(errors.begin(), errors.end());
+    const double error = errors[errors.size() * 9 / 10];
+    const double share = static_cast<double>(inBand) / frames;
+    QVERIFY2(error < largestError, qPrintable(QString::number(error)));
+    QVERIFY2(share > 0.8 && share <= 1.0, qPrintable(QString::number(share)));
+}
+
+void tst_secondLook::beginsAndEndsWithTheLine()
+{
+    const double frame = 0.5 * windowSeconds;
+    int near = 0;
+    for (int seed = 1; seed <= 5; ++seed) {
+        const auto analysis = analysisOf({line(91.3, 10.0, 30.0, 40.0)}, 100.0, seed);
+        QCOMPARE(std::ssize(analysis->tracks), 1);
+        const Track &track = analysis->tracks.front();
+        near += std::abs(secondsOf(*analysis, track.onsetFrame) - 30.0) < 5.0 * frame ? 1 : 0;
+        near += std::abs(secondsOf(*analysis, track.endFrame) - 70.0) < 5.0 * frame ? 1 : 0;
+        for (const TrackPoint &point : track.points)
+            if (const double t = secondsOf(*analysis, point.frame); t > 31.0 && t < 69.0)
+                QVERIFY(point.presence > 0.9f);
+    }
+    QVERIFY2(near >= 9, qPrintable(QString::number(near)));
+}
+
+void tst_secondLook::detectionStaysCausal()
+{
+    const std::vector<LineSettings> lines{line(91.3, 3.0, 30.0, 40.0)};
+    const auto seen = analysisOf(lines, 100.0, 2);
+    const auto found = analysisOf(lines, 100.0, 2, false);
+    QCOMPARE(seen->tracks.size(), found->tracks.size());
+    for (std::size_t i = 0; i < seen->tracks.size(); ++i) {
+        QCOMPARE(seen->tracks[i].detectFrame, found->tracks[i].detectFrame);
+        QCOMPARE(seen->tracks[i].peakStatistic, found->tracks[i].peakStatistic);
+    }
+    QVERIFY(seen->statisticCounts == found->statisticCounts);
+}
+
+void tst_secondLook::aStrongLineIsOneTrack()
+{
+    for (int seed = 1; seed <= 3; ++seed) {
+        const auto analysis = analysisOf({line(91.3, 40.0, 10.0, 80.0, 0.3)}, 100.0, seed);
+        QCOMPARE(std::ssize(analysis->tracks), 1);
+    }
+}
+
+// Followed in pieces, which meet without a gap or a frame twice.
+void tst_secondLook::aLongTrackIsOne()
+{
+    const double seconds = 2600.0; // 20 800 frames
+    const auto analysis = analysisOf({line(91.3, 8.0, 0.0, seconds)}, seconds, 1);
+    const auto longest = std::max_element(analysis->tracks.begin(), analysis->tracks.end(),
+                                          [](const Track &a, const Track &b) { return a.points.size() < b.points.size(); });
+    QVERIFY(longest != analysis->tracks.end());
+    QVERIFY2(std::ssize(longest->points) > 20700, qPrintable(QString::number(longest->points.size())));
+    for (std::size_t i = 0; i < longest->points.size(); ++i)
+        QCOMPARE(longest->points[i].frame, longest->onsetFrame + static_cast<Index>(i));
+    QCOMPARE(longest->points.back().frame, longest->endFrame);
+}
+
+void tst_secondLook::withoutItTheChainsTracksStay()
+{
+    const auto analysis = analysisOf({line(91.3, 6.0, 30.0, 40.0)}, 100.0, 1, false);
+    QVERIFY(!analysis->tracks.empty());
+    for (const TrackPoint &point : analysis->tracks.front().points)
+        QVERIFY(std::isnan(point.position));
+}
+
+QTEST_APPLESS_MAIN(tst_secondLook)
+#include "tst_secondLook.moc"
