@@ -2,6 +2,7 @@
 
 #include "analysis/knownCalibration.h"
 #include "analysis/lineInNoise.h"
+#include "analysis/slopeUnit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,10 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
 {
     AnalysisSettings after = m_document.settings();
     settingField(field.toStdString()).set(after, value);
+    if (const SlopeUnit unit = after.model.slopeUnit; unit != m_document.settings().model.slopeUnit && m_document.recording()) {
+        after.model = m_document.settings().model; // the same slopes in the other unit
+        after.model = withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after.spectrogram, m_document.recording()->info()));
+    }
     m_document.edit(after, text, field);
 }
 
@@ -151,7 +156,7 @@ void AnalysisController::startAnalysis()
     // Of pings one is looked at: that of the cursor.
     const auto &cursor = m_document.viewport().cursor();
     const Span visible = m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
-    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.settings(), previous = m_document.analysis(), visible,
+    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.analysedSettings(), previous = m_document.analysis(), visible,
                     kept = m_kept](const RunContext &context) -> JobRunner::Delivery {
         if (const bool isSame =
                 previous && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
@@ -187,7 +192,7 @@ void AnalysisController::showPreview(const AnalysisSettings &settings, const Sta
                                      std::shared_ptr<const KeptFrames> kept)
 {
     m_kept = std::move(kept);
-    if (settings == m_document.settings() && !m_document.isCurrent() && m_runner.isRunning())
+    if (settings == m_document.analysedSettings() && !m_document.isCurrent() && m_runner.isRunning())
         m_document.setProvisional(preview.statistic);
     dropPartialPreview();
 }

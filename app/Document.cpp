@@ -1,5 +1,6 @@
 #include "app/Document.h"
 
+#include "analysis/slopeUnit.h"
 #include <QElapsedTimer>
 #include <QUndoCommand>
 
@@ -114,9 +115,14 @@ void Document::setProvisional(std::shared_ptr<const PeakPyramid> statistic)
     emit provisionalChanged();
 }
 
+AnalysisSettings Document::analysedSettings() const
+{
+    return m_opened.recording ? withSlopesInBins(m_settings, m_opened.recording->info()) : m_settings;
+}
+
 bool Document::isCurrent() const
 {
-    return m_analysis && m_analysis->settings == m_settings && m_analysis->recording == m_opened.recording
+    return m_analysis && m_analysis->settings == analysedSettings() && m_analysis->recording == m_opened.recording
         && (!m_opened.frames || m_analysis->frames == m_opened.frames);
 }
 

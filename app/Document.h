@@ -42,6 +42,8 @@ public:
     // ---- settings ------------------------------------------------------------------------------------------------
 
     const AnalysisSettings &settings() const { return m_settings; }
+    /// As an analysis takes them: slopes in bins a frame of what is open.
+    AnalysisSettings analysedSettings() const;
     QUndoStack &undoStack() { return m_undoStack; }
 
     /// One undoable step to what is open with a line added, its settings as they are.

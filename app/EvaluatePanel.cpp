@@ -101,7 +101,7 @@ void EvaluatePanel::followDocument()
         if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()))
             windowSeconds =
                 static_cast<double>(frames->spectrogram().windowSamples()) / analysis->recording->info().sampleRateHz;
-    m_form->setCurrent(m_document.settings(), windowSeconds);
+    m_form->setCurrent(m_document.analysedSettings(), windowSeconds);
 }
 
 void EvaluatePanel::followForm()

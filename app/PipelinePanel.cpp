@@ -1,6 +1,7 @@
 #include "app/PipelinePanel.h"
 
 #include "app/AnalysisController.h"
+#include "analysis/slopeUnit.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/SettingsForm.h"
 #include "widgets/Theme.h"
@@ -103,6 +104,8 @@ void PipelinePanel::showRecording()
 void PipelinePanel::showSettings()
 {
     m_form->setSettings(m_document.settings());
+    m_form->setHzPerSecondOfABinAFrame(
+        m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings().spectrogram, m_document.recording()->info()) : 0.0);
     for (const char *stage : {"selection", "spectrogram", "noise"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
     m_form->setSectionShown(QStringLiteral("conventional"), m_document.hasPings());

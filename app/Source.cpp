@@ -1,5 +1,6 @@
 #include "app/Source.h"
 
+#include "analysis/slopeUnit.h"
 #include "base/json.h"
 #include "exchange/ModelFile.h"
 #include "recording/AudioRecording.h"
@@ -111,7 +112,8 @@ std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const Analys
                                         const Analysis *previous, const PictureSink &pictures)
 {
     return opened.frames ? analyse(opened.frames, settings, context, previous)
-                         : analyse(opened.recording, settings, context, previous, {}, pictures);
+                         : analyse(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
+                                   previous, {}, pictures);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)

@@ -78,10 +78,10 @@ namespace {
 
 } // namespace
 
-SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, int stepsInOne,
+SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, double stepsInOne,
                        QWidget *parent)
     : QWidget(parent), m_info(info), m_default(defaultValue), m_value(defaultValue), m_stepsInOne(stepsInOne),
-      m_label(new QLabel(label)), m_reset(new QToolButton), m_message(new QLabel)
+      m_label(new QLabel(label)), m_unit(new QLabel(QString::fromStdString(info.unit))), m_reset(new QToolButton), m_message(new QLabel)
 {
     makeEditor();
     const QString toolTip = toolTipOf(info, defaultValue);
@@ -94,9 +94,8 @@ SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldV
     m_editor->setAccessibleDescription(QString::fromStdString(info.sentence));
     m_editor->setObjectName(QString::fromStdString(info.name));
 
-    auto *unit = new QLabel(QString::fromStdString(info.unit));
-    unit->setFont(Theme::font(12));
-    unit->setForegroundRole(QPalette::PlaceholderText);
+    m_unit->setFont(Theme::font(12));
+    m_unit->setForegroundRole(QPalette::PlaceholderText);
     m_reset->setText(QStringLiteral("↺"));
     m_reset->setAutoRaise(true);
     m_reset->setFixedSize(18, 20);
@@ -114,15 +113,15 @@ SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldV
     const bool isBelow = isBelowLabel(info);
     grid->addWidget(m_label, 0, 0);
     if (!info.unit.empty() && isWithLabel(info.unit)) {
-        unit->setContentsMargins(0, 0, 0, 2);
-        grid->addWidget(unit, 1, 0);
+        m_unit->setContentsMargins(0, 0, 0, 2);
+        grid->addWidget(m_unit, 1, 0);
         grid->addWidget(m_editor, 0, 1, 2, 1);
     } else {
         auto *line = new QHBoxLayout;
         line->setSpacing(5);
         line->addWidget(m_editor, 1);
         if (!info.unit.empty())
-            line->addWidget(unit);
+            line->addWidget(m_unit);
         grid->addLayout(line, isBelow ? 1 : 0, isBelow ? 0 : 1, 1, isBelow ? 2 : 1);
     }
     grid->addWidget(m_reset, isBelow ? 1 : 0, 2);
@@ -131,6 +130,17 @@ SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldV
     m_message->setWordWrap(true);
     m_message->setFont(Theme::font(12));
     setValue(defaultValue);
+}
+
+void SettingRow::setUnit(const QString &unit, double largestMagnitude)
+{
+    m_info.unit = unit.toStdString();
+    m_info.minimum = -largestMagnitude;
+    m_info.maximum = largestMagnitude;
+    for (QWidget *widget : {static_cast<QWidget *>(m_label), m_editor})
+        widget->setToolTip(toolTipOf(m_info, m_default));
+    m_unit->setText(unit);
+    m_editor->setAccessibleName(tr("%1 in %2").arg(m_label->text(), unit));
 }
 
 void SettingRow::setLabelWidth(int width)
@@ -212,7 +222,10 @@ void SettingRow::stepBy(int steps)
     constexpr double isMultiple = 1e-6;
     const double at = std::get<double>(m_value) * m_stepsInOne;
     const double from = steps > 0 ? std::floor(at + isMultiple) : std::ceil(at - isMultiple);
-    accept(std::clamp((from + steps) / m_stepsInOne, m_info.minimum, m_info.maximum));
+    constexpr double digits = 1e4; // of steps that are no whole numbers' parts, as Hz/s are
+    const double next = (from + steps) / m_stepsInOne;
+    const bool isWhole = m_stepsInOne == std::floor(m_stepsInOne);
+    accept(std::clamp(isWhole ? next : std::round(next * digits) / digits, m_info.minimum, m_info.maximum));
 }
 
 void SettingRow::accept(const FieldValue &value)

@@ -16,7 +16,7 @@ class SettingRow : public QWidget
 
 public:
     /// A number with steps, so many in 1, has arrows that go from one multiple to the next; any other can be typed.
-    SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, int stepsInOne = 0,
+    SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, double stepsInOne = 0.0,
                QWidget *parent = nullptr);
 
     const FieldInfo &info() const { return m_info; }
@@ -27,7 +27,9 @@ public:
     void setError(const QString &sentence);
     void setNote(const QString &note);
     void setLabelWidth(int width);
-    void setStepsInOne(int steps) { m_stepsInOne = steps; }
+    void setStepsInOne(double steps) { m_stepsInOne = steps; }
+    /// Where unit and range are not those of the field's table.
+    void setUnit(const QString &unit, double largestMagnitude);
 
 signals:
     void edited(const faintline::FieldValue &value);
@@ -46,9 +48,10 @@ private:
     FieldInfo m_info;
     FieldValue m_default;
     FieldValue m_value;
-    int m_stepsInOne;
+    double m_stepsInOne;
     QLabel *m_label;
     QWidget *m_editor = nullptr;
+    QLabel *m_unit;
     QToolButton *m_reset;
     QLabel *m_message; ///< error, or otherwise note
     QString m_error;

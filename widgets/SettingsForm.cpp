@@ -5,6 +5,8 @@
 #include "widgets/Theme.h"
 #include "widgets/settingWords.h"
 
+#include "analysis/slopeUnit.h"
+
 #include <QFontMetrics>
 #include <QLabel>
 #include <QPushButton>
@@ -26,6 +28,12 @@ namespace {
     bool isSlope(const QString &name)
     {
         return name == QLatin1String("model.lowestSlope") || name == QLatin1String("model.highestSlope");
+    }
+
+    /// Four digits, with a true minus sign.
+    QString numberOf(double value)
+    {
+        return QString::number(value, 'g', 4).replace(QLatin1Char('-'), QChar(0x2212));
     }
 
 } // namespace
@@ -108,11 +116,36 @@ void SettingsForm::setSettings(const AnalysisSettings &settings)
             continue;
         row->setValue(*value);
         if (isSlope(name))
-            row->setStepsInOne(settings.model.slopesPerBin);
+            showSlope(name, std::get<double>(*value));
         used.insert(prefixOf(name));
     }
     for (auto section = m_sections.begin(); section != m_sections.end(); ++section)
         section.value()->setVisible(used.contains(section.key()));
+}
+
+void SettingsForm::setHzPerSecondOfABinAFrame(double hzPerSecond)
+{
+    m_hzPerSecond = hzPerSecond;
+    for (const auto &field : AnalysisSettings::fields())
+        if (const QString name = QString::fromStdString(field.name); isSlope(name))
+            showSlope(name, std::get<double>(*field.get(m_settings)));
+}
+
+/// The unit it is given in, what an arrow goes on by, and what it is in the other unit.
+void SettingsForm::showSlope(const QString &name, double slope)
+{
+    SettingRow &row = *m_rows.value(name);
+    const bool isHertz = m_settings.model.slopeUnit == SlopeUnit::HzPerSecond;
+    const bool isKnown = m_hzPerSecond > 0.0;
+    constexpr double mostBins = 100.0;
+    row.setUnit(isHertz ? tr("Hz/s") : tr("bins/frame"), isHertz ? (isKnown ? mostBins * m_hzPerSecond : row.info().maximum) : mostBins);
+    row.setStepsInOne(m_settings.model.slopesPerBin / (isHertz && isKnown ? m_hzPerSecond : 1.0));
+    if (!isKnown)
+        return row.setNote(QString());
+    const ModelSettings &model = m_settings.model;
+    const ModelSettings inBins = withSlopesIn(SlopeUnit::BinsPerFrame, model, m_hzPerSecond);
+    const double bins = name == QLatin1String("model.lowestSlope") ? inBins.lowestSlope : inBins.highestSlope;
+    row.setNote(isHertz ? tr("%1 bins/frame here").arg(numberOf(bins)) : tr("%1 Hz/s here").arg(numberOf(slope * m_hzPerSecond)));
 }
 
 void SettingsForm::setError(const QString &name, const QString &sentence)

@@ -40,6 +40,9 @@ public:
     /// s").
     void setNote(const QString &name, const QString &note);
 
+    /// How many Hz/s one bin a frame is in what is open, shown beside slopes of either unit; 0 where nobody knows.
+    void setHzPerSecondOfABinAFrame(double hzPerSecond);
+
     /// Hides the stages that what is open does not go through.
     void setSectionShown(const QString &prefix, bool isShown);
     /// Scrolls to a field, unfolds its section and gives it the focus.
@@ -55,9 +58,11 @@ signals:
 
 private:
     void addRow(const Field<AnalysisSettings> &field);
+    void showSlope(const QString &name, double slope);
     FormSection &section(const QString &prefix);
 
     AnalysisSettings m_settings;
+    double m_hzPerSecond = 0.0; ///< of one bin a frame
     QMap<QString, SettingRow *> m_rows;
     QMap<QString, FormSection *> m_sections;
     QVBoxLayout *m_layout = nullptr;

@@ -31,7 +31,11 @@ void addCalibrate(CLI::App &app, Common &common)
     command->add_flag("--json", options->json, "As JSON");
     command->callback([options, &common] {
         const AnalysisSettings settings = options->analysis.settings();
-        const auto calibration = calibrate(settings, common.context());
+        std::shared_ptr<const Spectrogram> spectrogram;
+        if (!options->analysis.file.empty())
+            spectrogram = std::make_shared<Spectrogram>(options->analysis.recording(), settings.spectrogram, settings.selection);
+        const auto calibration = spectrogram ? calibrateBand(settings, spectrogram->frequency().count, common.context())
+                                             : calibrate(settings, common.context());
         Json json{{"detector", std::string(detectorNames[settings.detector.index()])},
                   {"lnK", calibration->lnK},
                   {"continuedFraction", calibration->continuedFraction},
@@ -41,9 +45,8 @@ void addCalibrate(CLI::App &app, Common &common)
         for (const double probability : {1e-3, 1e-4, 1e-5, 1e-6})
             pfa.push_back({{"pfaPerCell", probability}, {"thresholdNats", calibration->thresholdForPfa(probability)}});
         json["thresholds"] = pfa;
-        if (!options->analysis.file.empty()) {
-            const Spectrogram spectrogram(options->analysis.recording(), settings.spectrogram, settings.selection);
-            const double cellFramesPerHour = static_cast<double>(spectrogram.frequency().count) * 3600.0 / spectrogram.time().step;
+        if (spectrogram) {
+            const double cellFramesPerHour = static_cast<double>(spectrogram->frequency().count) * 3600.0 / spectrogram->time().step;
             const double nats = thresholdNats(settings.decide, *calibration, cellFramesPerHour);
             const double rate = calibration->eventRateAt(nats);
             const double half = calibration->thresholdUncertainty(rate);

@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 
+#include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
 #include "recording/SigmfRecording.h"
@@ -93,6 +94,8 @@ AnalysisSettings AnalysisOptions::settings() const
             throw Error("--set " + assignment, "must be name=value, such as spectrogram.windowSeconds=0.5");
         setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
     }
+    if (settings.model.slopeUnit != SlopeUnit::BinsPerFrame && !file.empty() && !file.ends_with(".npy") && !openPings(file))
+        settings = withSlopesInBins(settings, recording()->info());
     checkSettings(settings);
     return settings;
 }

@@ -97,9 +97,18 @@ namespace {
                + 1;
     }
 
+    /// In bins a frame; what Hz/s come to is known where there is a recording.
     void checkSlopes(const ModelSettings &model)
     {
+        if (model.lowestSlope > model.highestSlope)
+            throw Error("model.lowestSlope = " + formatNumber(model.lowestSlope), "must not exceed model.highestSlope");
+        if (model.slopeUnit != SlopeUnit::BinsPerFrame)
+            return;
         const auto check = [&](const char *name, double slope) {
+            constexpr double largest = 100.0;
+            if (std::abs(slope) > largest)
+                throw Error(std::string("model.") + name + " = " + formatNumber(slope),
+                            "must lie in -100 … 100 bins/frame; longer windows make the same Hz/s more of them");
             const double inSteps = slope * model.slopesPerBin;
             if (std::abs(inSteps - std::round(inSteps)) > 1e-6)
                 throw Error(std::string("model.") + name + " = " + formatNumber(slope),
@@ -108,8 +117,6 @@ namespace {
         };
         check("lowestSlope", model.lowestSlope);
         check("highestSlope", model.highestSlope);
-        if (model.lowestSlope > model.highestSlope)
-            throw Error("model.lowestSlope = " + formatNumber(model.lowestSlope), "must not exceed model.highestSlope");
         if (slopeCount(model) > 1001)
             throw Error("model.slopesPerBin = " + std::to_string(model.slopesPerBin),
                         "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
@@ -154,8 +161,15 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
         field(&S::motion, "motion", motionNames,
               "How signals move: slopes as given here, or a sonar's targets that keep their rates, that turn, or both "
               "kinds in parallel."),
-        field(&S::lowestSlope, "lowestSlope", "bins/frame", -100.0, 100.0, "Most negative slope a line may have."),
-        field(&S::highestSlope, "highestSlope", "bins/frame", -100.0, 100.0, "Most positive slope a line may have."),
+        field(&S::slopeUnit, "slopeUnit", slopeUnitNames,
+              "What the lowest and highest slope are given in; Hz/s become bins per frame with the window in use, taken "
+              "outwards to the next multiple of 1/slopesPerBin."),
+        field(&S::lowestSlope, "lowestSlope", "bins/frame", -1e9, 1e9,
+              "Most negative slope a line may have, at least -100 bins/frame; in Hz/s where model.slopeUnit is "
+              "hzPerSecond."),
+        field(&S::highestSlope, "highestSlope", "bins/frame", -1e9, 1e9,
+              "Most positive slope a line may have, at most 100 bins/frame; in Hz/s where model.slopeUnit is "
+              "hzPerSecond."),
         field(&S::slopesPerBin, "slopesPerBin", "", 1.0, 64.0,
               "Number of slopes per bin/frame: 8 means steps of 1/8 bin/frame."),
         field(&S::slopeChange, "slopeChange", "", 0.0, 1.0,
@@ -283,7 +297,9 @@ void checkSettings(const AnalysisSettings &settings)
     checkSlopes(settings.model);
     if (settings.conventional.hits > settings.conventional.window)
         throw Error("conventional.hits = " + std::to_string(settings.conventional.hits), "must not exceed conventional.window");
-    checkLaw("model.slopeChange", settings.model.slopeChange, slopeCount(settings.model));
+    const bool isInBins = settings.model.slopeUnit == SlopeUnit::BinsPerFrame;
+    checkLaw("model.slopeChange", settings.model.slopeChange,
+             isInBins ? slopeCount(settings.model) : std::max(1, static_cast<int>(settings.model.slopeChange.size())));
     checkLaw("model.rangeRateChange", settings.model.rangeRateChange, 1);
     checkLaw("model.bearingRateChange", settings.model.bearingRateChange, 1);
 }
@@ -382,6 +398,9 @@ MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
 {
     if (settings.motion != Motion::Slopes)
         return sonarModel(grid, settings.motion == Motion::Manoeuvring ? turning(settings) : nonManoeuvring());
+    if (settings.slopeUnit != SlopeUnit::BinsPerFrame)
+        throw Error("model.slopeUnit = hzPerSecond",
+                    "needs a recording, whose window says what a bin a frame is; give the slopes of frames and pings in binsPerFrame");
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)
         axes.push_back({axis.name,

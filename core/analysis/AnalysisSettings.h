@@ -24,10 +24,15 @@ enum class Motion {
 };
 inline constexpr std::array<std::string_view, 4> motionNames{"slopes", "nonManoeuvring", "manoeuvring", "bank"};
 
+/// What slopes are given in. All that computes takes them in bins a frame (analysis/slopeUnit.h).
+enum class SlopeUnit { BinsPerFrame, HzPerSecond };
+inline constexpr std::array<std::string_view, 2> slopeUnitNames{"binsPerFrame", "hzPerSecond"};
+
 /// What a signal is taken to do: how its slope changes, and how it differs from noise.
 struct ModelSettings {
     Motion motion = Motion::Slopes;
-    double lowestSlope = -1.0; ///< slope set, in bins per frame, whole multiples of 1/slopesPerBin
+    SlopeUnit slopeUnit = SlopeUnit::BinsPerFrame;
+    double lowestSlope = -1.0; ///< slope set; in bins per frame whole multiples of 1/slopesPerBin
     double highestSlope = 1.0;
     int slopesPerBin = 8; ///< neighbouring slopes differ by 1/slopesPerBin bin per frame
     std::vector<double> slopeChange{0.9,

@@ -357,6 +357,85 @@ namespace {
         return measureRareRates(make, makeNoise, {}, context);
     }
 
+    /// The first cells of another stream: a band whose ends paths run off.
+    class BandNoise final : public NoiseStream
+    {
+    public:
+        BandNoise(std::unique_ptr<NoiseStream> wide, Index cells)
+            : m_wide(std::move(wide)), m_cells(cells), m_y(static_cast<std::size_t>(m_wide->cells()))
+        {
+        }
+        Index cells() const override { return m_cells; }
+        void next(Random &random, std::span<float> y) override
+        {
+            m_wide->next(random, m_y);
+            std::copy_n(m_y.begin(), m_cells, y.begin());
+        }
+        std::vector<float> state() const override { return m_wide->state(); }
+        void setState(std::span<const float> state) override { m_wide->setState(state); }
+
+    private:
+        std::unique_ptr<NoiseStream> m_wide;
+        Index m_cells;
+        std::vector<float> m_y;
+    };
+
+    /// As `followTail`, in so many bins with two ends, or in a band that closes on itself.
+    RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic, const RunContext &context)
+    {
+        constexpr int least = 32;
+        int samples = least;
+        while (!isCyclic && samples < bins) // twice as many bins and more, so that the ends do not meet
+            samples *= 2;
+        const auto makeNoise = [&]() -> std::unique_ptr<NoiseStream> {
+            auto wide = spectralNoise(bare.spectrogram, samples);
+            if (isCyclic)
+                return wide;
+            return std::make_unique<BandNoise>(std::move(wide), bins);
+        };
+        const Grid grid{{{"frequency", "Hz", 0.0, 1.0, makeNoise()->cells(), isCyclic}}};
+        const MarkovModel model = makeModel(bare.model, grid);
+        if (isCyclic && grid.size() <= 4 * model.space.axes().front().largestDisplacement())
+            return {};
+        const auto *smd = std::get_if<SmdSettings>(&bare.detector);
+        const auto make = [&] {
+            return makeDetector(bare.detector, model, grid, frameGeometry(bare.spectrogram), smd ? resetRule(*smd, lnK) : ResetRule{});
+        };
+        return measureRareRates(make, makeNoise, {}, context);
+    }
+
+    /// Where a narrow band's rate is known, that of one in which its ends take away a `share` of that.
+    std::shared_ptr<const Calibration> withShareOfEnds(const Calibration &wide, const Calibration &narrow, double share)
+    {
+        auto result = std::make_shared<Calibration>(narrow);
+        RareRates &rates = result->rates;
+        for (std::size_t i = 0; i < rates.levels.size(); ++i) {
+            const double left = std::exp(narrow.rates.lnRates[i] - wide.rates.lnRates[i]);
+            rates.lnRates[i] = wide.rates.lnRates[i] + std::log(1.0 - share * (1.0 - left));
+            rates.relativeErrors[i] =
+                wide.rates.relativeErrors[i] + share * (narrow.rates.relativeErrors[i] - wide.rates.relativeErrors[i]);
+        }
+        const std::size_t before = rates.levels.size() - std::min<std::size_t>(4, rates.levels.size());
+        result->eventRate = std::exp(rates.lnRateAt(result->anchorNats));
+        result->relativeError = rates.relativeErrorAt(result->anchorNats);
+        result->tailSlope = (rates.lnRates[before] - rates.lnRates.back()) / (rates.levels.back() - rates.levels[before]);
+        return result;
+    }
+
+    /// A wide band's calibration with what a narrow one's ends take away.
+    std::shared_ptr<const Calibration> narrowed(const Calibration &wide, const RareRates &band, const RareRates &closed)
+    {
+        Calibration narrow = wide;
+        RareRates &rates = narrow.rates;
+        for (std::size_t i = 0; i < rates.levels.size(); ++i) {
+            const double level = rates.levels[i];
+            rates.lnRates[i] += std::min(0.0, band.lnRateAt(level) - closed.lnRateAt(level));
+            rates.relativeErrors[i] =
+                std::hypot(rates.relativeErrors[i], std::hypot(band.relativeErrorAt(level), closed.relativeErrorAt(level)));
+        }
+        return withShareOfEnds(wide, narrow, 1.0);
+    }
+
     /// The tail of the chain's events: the shape is that of excursions, ln S(T), the height that of the counts,
     ///
     ///   ln rate(T) = ln S(T) + δ(T),   δ = ln(events/noise) - ln S at the thresholds, linear between them, constant beyond.
@@ -622,6 +701,28 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
         const MarkovModel model = makeModel(bare.model, noiseSegment(bare, 0)->grid());
         return calibrateOn([&](int number) { return noiseSegment(bare, number); }, segments, model, bare, context);
     });
+}
+
+std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins, const RunContext &context)
+{
+    constexpr Index wideEnough = 256;   // less than a twentieth of the false alarms is lost at the ends
+    constexpr Index endsDoNotMeet = 64; // from here on the ends take away as much, whatever lies between them
+    const bool isMoving = settings.model.motion == Motion::Slopes
+                          && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
+    if (bins >= wideEnough || !isMoving)
+        return calibrate(settings, context);
+    const auto wide = calibrate(settings, context.part(0.0, 0.6));
+    if (wide->rates.isEmpty())
+        return wide;
+    const AnalysisSettings bare = dimensionless(settings);
+    const Index simulated = std::min(bins, endsDoNotMeet);
+    const auto narrow = kept("band of " + std::to_string(simulated) + " " + settingsToJson(bare), [&]() -> std::shared_ptr<const Calibration> {
+        const RareRates closed = followBand(bare, wide->lnK, 0, true, context.part(0.6, 0.8));
+        const RareRates band = closed.isEmpty() ? closed : followBand(bare, wide->lnK, simulated, false, context.part(0.8, 1.0));
+        return band.isEmpty() ? wide : narrowed(*wide, band, closed);
+    });
+    return bins == simulated ? narrow
+                             : withShareOfEnds(*wide, *narrow, static_cast<double>(simulated) / static_cast<double>(bins));
 }
 
 std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings, double cellFrames)

@@ -14,11 +14,19 @@ namespace faintline {
 /// How a detector answers to noise alone: found by simulation, the same noise through the same chain.
 ///
 /// An event is what the whole chain starts a track from, with its clustering, reset and inhibition, on frames whose background was
-/// estimated. Its rate is counted on noise at two thresholds where there are many. Beyond them it is followed to where events are rare by
-/// multilevel splitting on noise of known level (`RareRates`), never by a straight line: near the 50 % rule a tail is curved. Where
-/// splitting is impossible (several axes, detectors that cannot tell their state), ln(rate) = ln(eventRate) - θ(T - u), fitted by
-/// maximum likelihood to the Poisson counts at both. The background's own error changes the rates far out by less than the interval says:
-/// a chance excursion raises the background that it is divided by (tests/analysis/tst_calibrationTail).
+/// estimated. Its rate is known in two ways, put together:
+///
+///   ln rate(T) = ln S(T) + δ(T)
+///
+/// S: excursions of the statistic on noise of known level, followed by multilevel splitting (`RareRates`) as far as they are asked for; never
+/// a straight line, for near the 50 % rule a tail is curved. δ: what the chain counts over S at two thresholds, one where events crowd each
+/// other out (some 800, in a tenth of the noise) and one where they do not (some 400): linear between them, constant beyond. Above
+/// the second one S alone gives the shape, the count the height. Oracle: brute force over 200 hours (README of the core).
+///
+/// Where nothing is split (several axes, detectors that cannot tell their state, short windows such as P out of N's), ln(rate) =
+/// ln(eventRate) - θ(T - u), fitted by maximum likelihood to the Poisson counts at two thresholds far apart.
+/// The background's own error is not added: a chance excursion raises the background that it is divided by, and reckoning that error in
+/// ordered twice as many as came.
 struct Calibration {
     double lnK = 0.0;               ///< ln K in force; for other detectors, of the sequential Markov detector that guides their tracks
     double continuedFraction = 0.0; ///< realised, of all states
@@ -53,6 +61,14 @@ struct Calibration {
 /// are kept, for the life of the program and in the `CalibrationStore`. `cellFrames`: cells × frames to simulate for the tail.
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
                                              double cellFrames = 8e7);
+
+/// The same for a band of so many bins on one axis: paths run off its ends, and in a narrow band few of them last.
+///
+///   ln rate(T) = ln rate_wide(T) + ln S_band(T) - ln S_wide(T),   S: excursions per cell and frame, each by splitting
+///
+/// From 64 bins on the ends do not see each other: 1 - S_band/S_wide falls as 1/bins; from 256 on it is the wide band's calibration. So it
+/// is for lines that stay in their bin, and for detectors that are not followed by splitting.
+std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins, const RunContext &context = {});
 
 /// The model on a piece of its grid large enough to learn its answer to noise: where it has more than 20 000 cells, the longest
 /// bounded axis is cut to about 5000 cells in all and made cyclic, so that no path runs off the piece. A sonar's bounded range

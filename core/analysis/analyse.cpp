@@ -316,7 +316,7 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
         analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
     }
     analysis->model = makeModel(settings.model, analysis->grid());
-    analysis->calibration = calibrate(settings, context.part(0.2, 0.5));
+    analysis->calibration = calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5));
     analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
     analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
     run(*analysis, context.part(0.5, 1.0), sink, showing);

@@ -371,7 +371,9 @@ double RareRates::lnRateAt(double level) const
 
 double RareRates::relativeErrorAt(double level) const
 {
-    return interpolated(levels, relativeErrors, std::max(level, levels.front()));
+    const double known = interpolated(levels, relativeErrors, std::clamp(level, levels.front(), levels.back()));
+    const double growth = (relativeErrors.back() - relativeErrors.front()) / (levels.back() - levels.front());
+    return known + std::max(0.0, growth) * std::max(0.0, level - levels.back());
 }
 
 RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,

@@ -41,7 +41,8 @@ std::unique_ptr<NoiseStream> spectralNoise(const SpectrogramSettings &settings, 
 /// A cycle that rises high is one event of the chain, so that ratios of rates are those of events wherever these are rare.
 /// Trials of a level share ancestors: the errors are those of four independent runs, or the binomial ones if these are larger. Where single
 /// cells carry an excursion (exponential likelihood far above its K) that is much, with Rice's it is not.
-/// Source: Kahn and Harris 1951; Au and Beck 2001. Oracles: Lindley's recursion in closed form for one slope; importance sampling.
+/// Source: Kahn and Harris 1951; Au and Beck 2001. Oracles: Lindley's recursion in closed form for one slope; importance
+/// sampling with planted lines (tests/analysis/tst_rareRates).
 struct RareRates {
     std::vector<double> levels;         ///< ascending, in the statistic's own unit
     std::vector<double> lnRates;        ///< ln of cycles per cell and frame that reach the level

@@ -2,6 +2,7 @@
 
 #include "analysis/Calibration.h"
 #include "analysis/chain.h"
+#include "analysis/slopeUnit.h"
 #include "base/Error.h"
 #include "base/parallel.h"
 #include "base/Random.h"
@@ -35,6 +36,12 @@ namespace {
         settings.model = contestant.model;
         settings.detector = contestant.detector;
         return settings;
+    }
+
+    /// Of one detector, slopes in bins a frame.
+    AnalysisSettings contestantSettings(const InjectionExperiment &experiment, std::size_t detector, const RecordingInfo &info)
+    {
+        return withSlopesInBins(merged(experiment.settings, experiment.detectors[detector].settings), info);
     }
 
     /// What the frames of a selection hold, its levels as its background has them: clicks are judged by a whole band only.
@@ -202,10 +209,10 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
     const auto frames = framesOf(shared->spectrogram, shared->background, experiment.settings.noise);
     std::vector<Analysis> analyses;
     for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
-        const AnalysisSettings settings = merged(experiment.settings, experiment.detectors[d].settings);
+        const AnalysisSettings settings = contestantSettings(experiment, d, shared->spectrogram->recording().info());
         const auto n = static_cast<double>(experiment.detectors.size());
         const auto calibration =
-            calibrate(settings, context.part(0.2 + 0.6 * static_cast<double>(d) / n, 0.2 + 0.6 * static_cast<double>(d + 1) / n));
+            calibrateBand(settings, shared->spectrogram->frequency().count, context.part(0.2 + 0.6 * static_cast<double>(d) / n, 0.2 + 0.6 * static_cast<double>(d + 1) / n));
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);
         shared->rules.push_back(smd ? resetRule(*smd, calibration->lnK) : ResetRule{});
         Analysis analysis;
@@ -310,7 +317,7 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
         std::vector<std::unique_ptr<Detector>> contestants;
         std::vector<Look> looks;
         for (std::size_t d = 0; d < detectors; ++d) {
-            const AnalysisSettings settings = merged(m_experiment.settings, m_experiment.detectors[d].settings);
+            const AnalysisSettings settings = contestantSettings(m_experiment, d, m_shared->recording->info());
             // Blocks stand where they do in the whole recording, and the one that the line ends in is waited for.
             const Index block = framesPerDecision(settings.detector, frameGeometry(settings.spectrogram));
             const Index blockEnd = block == 1 ? lastNeeded : std::min(time.count - 1, (lastNeeded / block + 1) * block - 1);

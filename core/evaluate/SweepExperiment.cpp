@@ -3,6 +3,7 @@
 #include "analysis/Calibration.h"
 #include "analysis/analyse.h"
 #include "analysis/lineInNoise.h"
+#include "analysis/slopeUnit.h"
 #include "base/Error.h"
 #include "base/parallel.h"
 #include "base/Random.h"
@@ -220,6 +221,18 @@ RunOutcome sweepOutcome(int run, std::ptrdiff_t falseAlarms, double seconds, dou
     return outcome;
 }
 
+namespace {
+
+    /// As `settingsAt`, slopes in bins a frame of the window of that value.
+    AnalysisSettings settingsOfTrial(const SweepExperiment &experiment, std::size_t value, const Recording *recording)
+    {
+        RecordingInfo info;
+        info.sampleRateHz = experiment.sampleRateHz;
+        return withSlopesInBins(settingsAt(experiment, value), recording ? recording->info() : info);
+    }
+
+} // namespace
+
 SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer recording, const RunContext &context)
     : m_experiment(experiment), m_recording(std::move(recording))
 {
@@ -238,18 +251,18 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
     const auto count = static_cast<double>(experiment.values.size());
     for (std::size_t i = 0; i < experiment.values.size(); ++i) {
         const RunContext part = context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
-        const AnalysisSettings settings = settingsAt(m_experiment, i);
+        const AnalysisSettings settings = settingsOfTrial(m_experiment, i, m_recording.get());
         const Made made = remake(static_cast<int>(i));
         const Spectrogram spectrogram(made.recording, settings.spectrogram, made.settings.selection);
         const double cellFramesPerHour = static_cast<double>(spectrogram.frequency().count) * 3600.0 / spectrogram.time().step;
-        m_thresholds.push_back(thresholdNats(settings.decide, *calibrate(settings, part), cellFramesPerHour));
+        m_thresholds.push_back(thresholdNats(settings.decide, *calibrateBand(settings, spectrogram.frequency().count, part), cellFramesPerHour));
     }
 }
 
 SweepTrials::Made SweepTrials::remake(int run) const
 {
     const int trial = m_experiment.trialOf(run);
-    Made made{nullptr, {}, settingsAt(m_experiment, static_cast<std::size_t>(m_experiment.valueOf(run)))};
+    Made made{nullptr, {}, settingsOfTrial(m_experiment, static_cast<std::size_t>(m_experiment.valueOf(run)), m_recording.get())};
     Random places(static_cast<std::uint64_t>(m_experiment.seed), static_cast<std::uint64_t>(trial));
     const double wherePlaced = places.uniform();
     const double whenPlaced = places.uniform();

@@ -46,6 +46,11 @@ namespace {
         return formatNumber(value) + " s";
     }
 
+    int hopOf(int windowSamples, const SpectrogramSettings &settings)
+    {
+        return std::max(1, static_cast<int>(std::lround(static_cast<double>(windowSamples) / settings.stepsPerWindow)));
+    }
+
 } // namespace
 
 const std::vector<Field<SpectrogramSettings>> &SpectrogramSettings::fields()
@@ -89,6 +94,14 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
     return std::min(chosen, std::max(info.durationSeconds() / 4.0, 1.0 / info.sampleRateHz));
 }
 
+Spectrogram::Steps Spectrogram::stepsOf(const SpectrogramSettings &settings, const RecordingInfo &info)
+{
+    constexpr double most = 1e8; // longer windows are refused where they are made
+    const double wanted = (settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info)) * info.sampleRateHz;
+    const int samples = static_cast<int>(std::llround(std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, most) / settings.binsPerCell));
+    return {hopOf(samples, settings) / info.sampleRateHz, info.sampleRateHz / Fft::fastLength(samples * settings.binsPerCell)};
+}
+
 Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &settings, const SelectionSettings &selection)
     : m_recording(std::move(recording)), m_settings(settings), m_selection(selection)
 {
@@ -119,7 +132,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
                     "the part looked at is " + std::to_string(sampleCount) + " samples (" + seconds(static_cast<double>(sampleCount) / rate)
                         + ") long, shorter than one window of " + seconds(windowSeconds)
                         + "; choose a shorter spectrogram.windowSeconds");
-    m_hopSamples = std::max(1, static_cast<int>(std::lround(static_cast<double>(m_windowSamples) / settings.stepsPerWindow)));
+    m_hopSamples = hopOf(m_windowSamples, settings);
     m_window = sampleWindow(settings.window, m_windowSamples);
     m_scaleExponent = m_recording->scaleExponent(selection.channel);
     for (float &weight : m_window)

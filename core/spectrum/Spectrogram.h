@@ -73,6 +73,13 @@ public:
     /// the context allows.
     void read(Index first, Index count, std::span<float> out, const RunContext &context = {}) const;
 
+    /// From frame to frame and from bin to bin, of a recording cut so.
+    struct Steps {
+        double seconds = 0.0;
+        double hz = 0.0;
+    };
+    static Steps stepsOf(const SpectrogramSettings &settings, const RecordingInfo &info);
+
     /// T_FT for a recording nobody said anything about: 3·√(duration/rate), rounded to 1, 2 or 5 · 10ⁿ seconds, which
     /// gives about as many cells as frames.
     static double automaticWindowSeconds(const RecordingInfo &info);

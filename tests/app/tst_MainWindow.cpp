@@ -397,6 +397,32 @@ private slots:
         QVERIFY(window->document().isCurrent());
     }
 
+    /// The same slopes in the other unit: nothing moves, and the analysis belongs to the settings.
+    void slopesInEitherUnit()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        const auto &document = window->document();
+        const StateSpace before = document.analysis()->model.space;
+        const Axis frequency = document.analysis()->grid().axes.back();
+        const double hertz = frequency.step / document.analysis()->time().step;
+        window->controller().edit("model.slopeUnit", std::string("hzPerSecond"), "Other unit");
+        QVERIFY(settle(*window));
+        QVERIFY(document.isCurrent());
+        QVERIFY(std::abs(document.settings().model.highestSlope / hertz - 1.0) < 1e-3);
+        QVERIFY(document.analysis()->settings.model == ModelSettings());
+        window->controller().edit("model.highestSlope", 0.3 * hertz, "Slower");
+        QVERIFY(settle(*window));
+        QVERIFY(document.isCurrent());
+        QCOMPARE(document.analysis()->settings.model.highestSlope, 0.375);
+        QCOMPARE(document.analysis()->model.space.axes().front().rateCount, before.axes().front().rateCount - 5);
+        QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+        QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QVERIFY(document.isCurrent());
+        QVERIFY(document.settings().model == ModelSettings());
+    }
+
     void refusalsAreSentences()
     {
         auto window = this->window();

@@ -31,6 +31,7 @@ private slots:
     void errorsFromOutside();
     void theWheelChangesNothingInPassing();
     void slopesStepAlongTheirSet();
+    void slopesInEitherUnit();
     void labelsAreWords();
     void flagsAreCheckBoxes();
 
@@ -194,6 +195,36 @@ void tst_SettingsForm::slopesStepAlongTheirSet()
     QTest::keyClick(slope, Qt::Key_Return);
     QCOMPARE(m_edits.size(), std::size_t(5));
     QCOMPARE(errors().size(), 1);
+}
+
+/// What is open says what a bin a frame is; the other unit stands under the field, and arrows follow the same set.
+void tst_SettingsForm::slopesInEitherUnit()
+{
+    m_form->setHzPerSecondOfABinAFrame(16.0);
+    const auto shows = [this](const QString &text) {
+        const auto labels = m_form->findChildren<QLabel *>();
+        return std::any_of(labels.begin(), labels.end(), [&](const QLabel *label) { return label->text() == text; });
+    };
+    QVERIFY(shows("16 Hz/s here"));
+    AnalysisSettings settings;
+    settings.model.slopeUnit = SlopeUnit::HzPerSecond;
+    settings.model.lowestSlope = -5.0;
+    settings.model.highestSlope = 250.0;
+    m_form->setSettings(settings);
+    QVERIFY(shows("Hz/s"));
+    QVERIFY(shows("−0.375 bins/frame here"));
+    auto *slope = editor<QAbstractSpinBox>("model.highestSlope");
+    slope->setFocus();
+    QTest::keyClick(slope, Qt::Key_Up);
+    QCOMPARE(m_edits.back(), (std::pair<QString, FieldValue>("model.highestSlope", 252.0)));
+    slope->selectAll();
+    QTest::keyClicks(slope, "1601");
+    QTest::keyClick(slope, Qt::Key_Return);
+    QCOMPARE(errors().size(), 1);
+    m_form->setSettings({});
+    m_form->setHzPerSecondOfABinAFrame(0.0);
+    QVERIFY(!shows("16 Hz/s here"));
+    QVERIFY(shows("bins/frame"));
 }
 
 void tst_SettingsForm::labelsAreWords()

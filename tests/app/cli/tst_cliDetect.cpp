@@ -32,6 +32,7 @@ private slots:
     void keptCalibrationsChangeNoByte();
     void isTheLibrary();
     void explainsItsTerms();
+    void slopesInHertzAreTheSame();
     void framesInPlaceOfARecording();
     void pingsFromAScene();
     void oddRecordings_data();
@@ -205,6 +206,19 @@ void tst_cliDetect::framesInPlaceOfARecording()
     QVERIFY2(std::abs(events[0][4] - (1000.0 + 10.0 * ((detect - 5.0) / 2.0 + 5.0))) <= 20.0, content("target.csv").data());
     QVERIFY2(std::abs(events[0][5] - 5.0) < 0.6, content("target.csv").data()); // 10 m in 2 s
     QCOMPARE(readNumPy(pathOf("T.npy")).shape, (std::vector<Index>{40, 50}));
+    const Outcome told = run({"detect", "--frames", "y.npy", "--summary", "--set", "model.slopeUnit=hzPerSecond"});
+    QCOMPARE(told.code, 2);
+    QVERIFY2(told.err.startsWith("error: model.slopeUnit = hzPerSecond: needs a recording"), told.err.data());
+}
+
+// Half a second, two frames and two bins a cell: 4 Hz/s are a bin a frame, and what is between two slopes goes outwards.
+void tst_cliDetect::slopesInHertzAreTheSame()
+{
+    const Outcome found = run(QStringList{"detect", "line.wav", "--events", "hertz.csv", "--set", "model.slopeUnit=hzPerSecond", "--set",
+                                          "model.lowestSlope=-4", "--set", "model.highestSlope=3.6"}
+                              + lineSettings);
+    QCOMPARE(found.err, QByteArray());
+    QCOMPARE(content("hertz.csv"), content("events.csv"));
 }
 
 void tst_cliDetect::pingsFromAScene()

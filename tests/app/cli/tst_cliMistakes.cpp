@@ -58,6 +58,8 @@ void tst_cliMistakes::mistakes_data()
         "model.slopeChange = 0.5: h(0) + 2·");
     row("slopes upside down", {"detect", "line.wav", "--summary", "--set", "model.lowestSlope=3"},
         "model.lowestSlope = 3: must not exceed");
+    row("slopes too steep", {"detect", "line.wav", "--summary", "--set", "model.slopeUnit=hzPerSecond", "--set", "model.highestSlope=1e8"},
+        "model.highestSlope = ");
     row("no output", {"detect", "line.wav"}, "detect: says nothing without at least one of --events");
     row("comparison without a recording", {"compare"}, "command line: FILE is required");
     row("comparison in another format", {"compare", "line.wav", "--events", "e.txt"},

@@ -1,0 +1,51 @@
+#include "analysis/slopeUnit.h"
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    double fourDigits(double value)
+    {
+        if (value == 0.0)
+            return 0.0;
+        const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3.0);
+        const double digits = std::round(value / unit);
+        // 10⁻ⁿ is no double: a whole number over 10ⁿ reads back as it was written
+        return unit < 1.0 ? digits / std::round(1.0 / unit) : digits * std::round(unit);
+    }
+
+} // namespace
+
+double hzPerSecondOfABinAFrame(const SpectrogramSettings &settings, const RecordingInfo &info)
+{
+    const Spectrogram::Steps steps = Spectrogram::stepsOf(settings, info);
+    return steps.hz / steps.seconds;
+}
+
+ModelSettings withSlopesIn(SlopeUnit unit, ModelSettings model, double hzPerSecond)
+{
+    if (model.slopeUnit == unit)
+        return model;
+    constexpr double isOnTheSet = 0.01; // four digits of Hz/s come back to the slope they were made of
+    model.slopeUnit = unit;
+    if (unit == SlopeUnit::HzPerSecond) {
+        model.lowestSlope = fourDigits(model.lowestSlope * hzPerSecond);
+        model.highestSlope = fourDigits(model.highestSlope * hzPerSecond);
+    } else {
+        const double steps = model.slopesPerBin / hzPerSecond;
+        model.lowestSlope = (std::floor(model.lowestSlope * steps + isOnTheSet) + 0.0) / model.slopesPerBin;
+        model.highestSlope = (std::ceil(model.highestSlope * steps - isOnTheSet) + 0.0) / model.slopesPerBin;
+    }
+    return model;
+}
+
+AnalysisSettings withSlopesInBins(AnalysisSettings settings, const RecordingInfo &info)
+{
+    if (settings.model.slopeUnit != SlopeUnit::BinsPerFrame)
+        settings.model = withSlopesIn(SlopeUnit::BinsPerFrame, settings.model, hzPerSecondOfABinAFrame(settings.spectrogram, info));
+    return settings;
+}
+
+} // namespace faintline
