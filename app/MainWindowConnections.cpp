@@ -25,6 +25,7 @@
 #include "app/WelcomePage.h"
 #include "app/WindowViews.h"
 #include "app/Workbench.h"
+#include "app/filePath.h"
 #include "app/scanScenario.h"
 #include "widgets/EventTable.h"
 #include "widgets/ExceedancePlot.h"
@@ -110,7 +111,7 @@ void MainWindow::connectController()
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
     connect(m_report, &ReportWriter::written, this,
-            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, QFileInfo(path).fileName(), tr("is written.")); });
+            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path), tr("is written.")); });
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::closable, this, &QWidget::close);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {

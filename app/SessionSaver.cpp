@@ -1,8 +1,9 @@
 #include "app/SessionSaver.h"
 
-#include <QDir>
+#include "app/filePath.h"
+#include "widgets/labelText.h"
+
 #include <QFileDialog>
-#include <QFileInfo>
 #include <QMessageBox>
 
 #include <utility>
@@ -25,8 +26,7 @@ void SessionSaver::save()
 
 void SessionSaver::saveAs()
 {
-    const QFileInfo recording(m_document.source().path);
-    const QString suggested = recording.dir().filePath(recording.completeBaseName() + QStringLiteral(".faintline"));
+    const QString suggested = nameBeside(m_document.source().path, QStringLiteral(".faintline"));
     const QString path =
         QFileDialog::getSaveFileName(m_window, tr("Save session"), suggested, tr("Sessions (*.faintline)"));
     if (path.isEmpty())
@@ -56,7 +56,7 @@ bool SessionSaver::mayDiscard()
         return true;
     const QString question =
         tr("The settings for %1 are not saved in a session. Discard them?").arg(m_document.source().name());
-    return QMessageBox::question(m_window, tr("Unsaved settings"), question, QMessageBox::Discard | QMessageBox::Cancel,
+    return QMessageBox::question(m_window, tr("Unsaved settings"), asHtml(question), QMessageBox::Discard | QMessageBox::Cancel,
                                  QMessageBox::Cancel)
            == QMessageBox::Discard;
 }
@@ -68,7 +68,7 @@ bool SessionSaver::mayClose()
     const QString question =
         tr("Save the settings for %1 as a session before closing?").arg(m_document.source().name());
     const auto answer =
-        QMessageBox::question(m_window, tr("Unsaved settings"), question,
+        QMessageBox::question(m_window, tr("Unsaved settings"), asHtml(question),
                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
     m_isClosing = answer == QMessageBox::Save;
     if (m_isClosing)

@@ -1,6 +1,7 @@
 #include "app/saveView.h"
 
 #include "app/Provenance.h"
+#include "app/filePath.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 
@@ -81,8 +82,8 @@ void saveView(QWidget &view, const std::string &csv, const QString &path, const 
     else if (extension == QLatin1String("csv"))
         bytes = QByteArray::fromStdString(csv);
     else
-        throw Error(path.toStdString(), "must end in .png, .svg, .pdf or .csv");
-    writeTextFile(path.toStdString(), bytes.toStdString());
+        throw Error(pathBytes(path), "must end in .png, .svg, .pdf or .csv");
+    writeTextFile(pathBytes(path), bytes.toStdString());
     if (extension == QLatin1String("csv") && !provenance.empty())
         writeProvenanceBeside(path, provenance);
 }
