@@ -2,6 +2,7 @@
 
 #include "app/Provenance.h"
 #include "app/filePath.h"
+#include "base/fileName.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeReproduction.h"
 #include "widgets/labelText.h"
@@ -165,11 +166,10 @@ void ExperimentsPanel::exportTo(int id, const QString &path) const
     if (!entry)
         return;
     if (entry->reproduction)
-        writeReproduction(*entry->reproduction, pathBytes(path));
-    else if (path.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive))
-        writeWithOrigin(*entry->campaign, path);
-    else
-        writeCampaign(*entry->campaign, pathBytes(path));
+        return writeReproduction(*entry->reproduction, pathBytes(path));
+    const std::string name = pathBytes(path);
+    checkEnding(name, {".csv", ".jsonl"});
+    hasEnding(name, ".csv") ? writeWithOrigin(*entry->campaign, path) : writeCampaign(*entry->campaign, name);
 }
 
 void ExperimentsPanel::chooseImport()

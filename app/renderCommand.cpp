@@ -15,6 +15,7 @@
 #include "app/scanScenario.h"
 #include "app/settleViews.h"
 #include "base/AtomicFile.h"
+#include "base/fileName.h"
 #include "base/json.h"
 #include "widgets/PingMap.h"
 
@@ -268,6 +269,7 @@ namespace {
 
 void render(const RenderOptions &options)
 {
+    checkEnding(options.out, {".png"});
     for (const std::string &view : options.views)
         if (!WindowViews::names().contains(QString::fromStdString(view)))
             throw Error("--view " + view,
@@ -308,6 +310,7 @@ void render(const RenderOptions &options)
 
 void report(const RenderOptions &options)
 {
+    checkEnding(options.out, {".html"});
     const QString source = pathText(options.source);
     if (isScanScenario(source) || isLesson(source))
         throw Error(options.source, std::string(isLesson(source) ? "is a lesson" : "is a radar's scenario")
