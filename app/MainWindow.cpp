@@ -12,6 +12,7 @@
 #include "app/InjectDialog.h"
 #include "app/KeysOverlay.h"
 #include "app/LatencyPanel.h"
+#include "app/Lesson.h"
 #include "app/LessonGuide.h"
 #include "app/MessageBar.h"
 #include "app/NoiseFitPanel.h"
@@ -234,13 +235,25 @@ void MainWindow::open(const QString &path, const OpenOptions &options, const Ana
 {
     if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
         try {
-            return isOfScans ? openScans(readScanTest(path)) : m_lessons->start(readLesson(path));
+            return isOfScans ? openScans(readScanTest(path)) : startLesson(readLesson(path));
         } catch (const Error &error) {
             return showError(error);
         }
     }
-    if (!m_saver->mayDiscard())
-        return;
+    const auto next = [this, path, options, adjust] { openNow(path, options, adjust); };
+    if (m_saver->mayLose(tr("opening something else"), next))
+        next();
+}
+
+void MainWindow::startLesson(const Lesson &lesson)
+{
+    const auto next = [this, lesson] { m_lessons->start(lesson); };
+    if (m_saver->mayLose(tr("starting the lesson"), next))
+        next();
+}
+
+void MainWindow::openNow(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
+{
     OpenOptions chosen = options;
     if (m_isAsking && needsRawOptions(path, options)) {
         OpenOptionsDialog dialog(path, this);
@@ -277,10 +290,12 @@ void MainWindow::openScenario(ScenarioCard *card)
 {
     if (!card->analysis())
         return open(card->scenario().path);
-    if (!m_saver->mayDiscard())
-        return;
-    m_welcome->stop();
-    m_controller.adopt(card->opened(), card->analysis());
+    const auto next = [this, card] {
+        m_welcome->stop();
+        m_controller.adopt(card->opened(), card->analysis());
+    };
+    if (m_saver->mayLose(tr("opening something else"), next))
+        next();
 }
 
 void MainWindow::openScans(const ScanTest &test)
@@ -433,7 +448,7 @@ void MainWindow::showFailure(const Error &error)
 
 void MainWindow::closeEvent(QCloseEvent *event)
 {
-    if (!m_saver->mayClose())
+    if (!m_saver->mayLose(tr("closing"), [this] { close(); }))
         return event->ignore();
     m_lessons->leave();
     saveLayout();

@@ -8,6 +8,7 @@
 #include "app/EventReviews.h"
 #include "app/ExperimentsPanel.h"
 #include "app/FileDrop.h"
+#include "app/Lesson.h"
 #include "app/LessonGuide.h"
 #include "app/LessonList.h"
 #include "app/MessageBar.h"
@@ -113,7 +114,6 @@ void MainWindow::connectController()
     connect(m_report, &ReportWriter::written, this,
             [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path), tr("is written.")); });
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
-    connect(m_saver, &SessionSaver::closable, this, &QWidget::close);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
         m_memory.addRecent(path);
         emit saved(path);
@@ -127,7 +127,7 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_welcome->lessonList(), &LessonList::chosen, this,
-            [this](int lesson) { m_lessons->start(lessons()[static_cast<std::size_t>(lesson)]); });
+            [this](int lesson) { startLesson(lessons()[static_cast<std::size_t>(lesson)]); });
     connect(m_presentAction, &QAction::toggled, this, [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
     connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
