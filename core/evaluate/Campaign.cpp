@@ -17,6 +17,8 @@ namespace {
     struct Overloaded : F... {
         using F::operator()...;
     };
+    template <class... F>
+    Overloaded(F...) -> Overloaded<F...>; // clang 14 does not find it by itself
 
     InjectionTrials trialsOf(const InjectionExperiment &experiment, const RunContext &context)
     {
