@@ -5,6 +5,7 @@
 #include "widgets/ColourBar.h"
 #include "widgets/Theme.h"
 #include "widgets/WaterfallView.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 #include "widgets/settingWords.h"
 
@@ -91,7 +92,7 @@ namespace {
 ComparePanel::ComparePanel(Document &document, AnalysisController &controller, Comparer &comparer, QWidget *parent)
     : QWidget(parent), m_document(document), m_controller(controller), m_comparer(comparer),
       m_picture(new WaterfallView(tr("B − A (nat)"))),
-      m_picturePane(buildPicture()), m_sentence(new QLabel), m_differences(new QLabel), m_keep(new QPushButton(tr("Keep as A"))),
+      m_picturePane(buildPicture()), m_sentence(plainLabel()), m_differences(new QLabel), m_keep(new QPushButton(tr("Keep as A"))),
       m_swap(new QPushButton(tr("Swap"))), m_goTo(new QPushButton(tr("Go to A"))), m_compute(new QPushButton(tr("Compute A here"))),
       m_filters{new QToolButton, new QToolButton, new QToolButton}, m_table(new QTableWidget(0, ColumnCount))
 {
@@ -113,7 +114,7 @@ ComparePanel::ComparePanel(Document &document, AnalysisController &controller, C
     connect(&comparer, &Comparer::progressed, this, [this](double fraction, const QString &what) {
         m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
     });
-    connect(&comparer, &Comparer::failed, this, [this](const Error &error) { m_sentence->setText(QString::fromUtf8(error.what())); });
+    connect(&comparer, &Comparer::failed, this, [this](const Error &error) { m_sentence->setText(messageText(error.what())); });
     connect(&document, &Document::analysisChanged, this, &ComparePanel::updateButtons);
     follow();
 }
@@ -304,7 +305,7 @@ void ComparePanel::showEvents()
     if (result) {
         const Axis &place = result->b->grid().axes.back();
         const QString unitA = statisticUnit(result->a->settings), unitB = statisticUnit(result->b->settings);
-        const QString placeName = place.unit == "Hz" ? tr("Frequency") : QString::fromStdString(place.name);
+        const QString placeName = place.unit == "Hz" ? tr("Frequency") : labelText(place.name, mostUnitLetters);
         m_table->setHorizontalHeaderLabels({tr("In"), tr("Onset"), placeName,
                                             tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
         m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("When A detected it"));
@@ -328,7 +329,7 @@ void ComparePanel::showEvents()
             set(Onset, secondsText(event.onsetSeconds, step), event.onsetSeconds);
             set(Place,
                 place.unit == "Hz" ? hertzText(event.position.back(), place.step)
-                                   : numberText(event.position.back(), 1) + QLatin1Char(' ') + QString::fromStdString(place.unit),
+                                   : numberText(event.position.back(), 1) + QLatin1Char(' ') + labelText(place.unit, mostUnitLetters),
                 event.position.back());
             set(DetectedA, time(compared.a), compared.a ? compared.a->detectSeconds : nothing);
             set(DetectedB, time(compared.b), compared.b ? compared.b->detectSeconds : nothing);

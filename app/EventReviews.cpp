@@ -1,12 +1,14 @@
 #include "app/EventReviews.h"
 
 #include "analysis/judgeByBoxes.h"
+#include "app/filePath.h"
 #include "base/oneLine.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeReviewed.h"
 #include "widgets/EventTable.h"
 #include "widgets/PingMap.h"
 #include "widgets/WaterfallView.h"
+#include "widgets/labelText.h"
 
 #include <QAction>
 #include <QFileDialog>
@@ -127,7 +129,7 @@ void EventReviews::editNote()
     QString before;
     for (const EventReview &one : eventReviews(*m_document.analysis(), m_document.shownEvents(), m_document.annotations().reviews))
         if (one.event == id)
-            before = QString::fromStdString(one.note);
+            before = QString::fromStdString(oneLine(one.note));
     bool isGiven = false;
     const QString note = QInputDialog::getText(m_window, tr("Note on event %1").arg(id), tr("What there is to say about it:"), QLineEdit::Normal, before, &isGiven);
     if (isGiven && m_document.analysis())
@@ -165,7 +167,7 @@ void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
         const bool isIn = seconds >= box.startSeconds && seconds <= box.endSeconds && (!box.lowHz || (hz >= *box.lowHz && hz <= *box.highHz));
         if (!isIn)
             continue;
-        const QString name = box.label.empty() ? tr("annotation") : tr("“%1”").arg(QString::fromStdString(box.label).left(40));
+        const QString name = box.label.empty() ? tr("annotation") : tr("“%1”").arg(buttonText(QString::fromStdString(box.label), 40));
         menu.addAction(tr("Remove %1").arg(name), this, [this, i, name] {
             Annotations after = m_document.annotations();
             after.boxes.erase(after.boxes.begin() + static_cast<std::ptrdiff_t>(i));
@@ -187,7 +189,7 @@ void EventReviews::fillContextMenu(QMenu &menu, int track)
 void EventReviews::importFrom(const QString &path)
 {
     const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
-    const std::vector<Annotation> boxes = readAnnotations(path.toStdString(), info);
+    const std::vector<Annotation> boxes = readAnnotations(pathBytes(path), info);
     Annotations after = m_document.annotations();
     JudgedByBoxes imported{{}, boxes, 0};
     if (m_document.analysis()) {
@@ -197,14 +199,14 @@ void EventReviews::importFrom(const QString &path)
     after.boxes.insert(after.boxes.end(), imported.others.begin(), imported.others.end());
     m_document.annotate(std::move(after), tr("Import %1 annotations").arg(boxes.size()));
     const QString judged = imported.judged == 0 ? QString() : tr(" %1 event(s) are judged by them.").arg(imported.judged);
-    emit told(QFileInfo(path).fileName(), tr("%1 annotation(s) imported; Ctrl+Z takes them back.").arg(boxes.size()) + judged);
+    emit told(fileLabel(path), tr("%1 annotation(s) imported; Ctrl+Z takes them back.").arg(boxes.size()) + judged);
 }
 
 void EventReviews::exportTo(const QString &path)
 {
     if (!m_document.analysis())
         return;
-    writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), path.toStdString());
+    writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), pathBytes(path));
     // Only a threshold that is being dragged is not that of the settings.
     const bool isDragged = m_document.shownThreshold() != m_document.analysis()->threshold;
     m_provenance.with([this, path, isDragged, threshold = m_document.shownThreshold()](const std::string &provenance) {
@@ -234,9 +236,8 @@ void EventReviews::askForImport()
 
 void EventReviews::askForExport()
 {
-    const QFileInfo source(m_document.source().path);
     const QString path = QFileDialog::getSaveFileName(
-        m_window, tr("Export events and annotations"), source.dir().filePath(source.completeBaseName() + QStringLiteral("-events.csv")),
+        m_window, tr("Export events and annotations"), nameBeside(m_document.source().path, QStringLiteral("-events.csv")),
         tr("Table (*.csv);;JSON (*.json);;Raven selection table (*.selections.txt);;Audacity labels (*.txt);;SigMF annotations (*.sigmf-meta)"));
     if (path.isEmpty())
         return;

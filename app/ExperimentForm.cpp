@@ -2,6 +2,7 @@
 
 #include "evaluate/peers.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 #include <QCheckBox>
@@ -70,7 +71,7 @@ ExperimentForm::ExperimentForm(QWidget *parent)
       m_wanderTime(number(15, 1, 1000, 1, 0, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
       m_falseAlarms(number(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour that all detectors are set to"))),
       m_runs(count(20, 1, 100000, tr("Runs of 30 lines each in simulated noise; lines one by one in a recording"))),
-      m_seed(count(1, 0, 2147483647, tr("Seed: the same one gives the same bytes"))), m_meaning(new QLabel)
+      m_seed(count(1, 0, 2147483647, tr("Seed: the same one gives the same bytes"))), m_meaning(plainLabel())
 {
     m_noise->addItem(tr("in simulated noise"));
     m_noise->addItem(tr("in this recording"));
@@ -242,7 +243,7 @@ QString ExperimentForm::obstacle() const
         try {
             checkExperiment(lines());
         } catch (const Error &error) {
-            return QString::fromUtf8(error.what());
+            return messageText(error.what());
         }
     }
     return {};

@@ -1,6 +1,7 @@
 #include "app/Experiments.h"
 
 #include "evaluate/InjectionExperiment.h"
+#include "widgets/labelText.h"
 
 #include <algorithm>
 #include <numeric>
@@ -39,7 +40,7 @@ Experiments::Experiments(QObject *parent) : QObject(parent)
     connect(&m_runner, &JobRunner::finished, this, [this] { end(State::Done); });
     connect(&m_runner, &JobRunner::cancelled, this, [this] { end(State::Cancelled); });
     connect(&m_runner, &JobRunner::failed, this,
-            [this](const Error &error) { end(State::Failed, QString::fromUtf8(error.what())); });
+            [this](const Error &error) { end(State::Failed, messageText(error.what())); });
 }
 
 int Experiments::start(const QString &name, const Experiment &experiment, RecordingPointer recording)

@@ -1,8 +1,11 @@
 #include "app/ExperimentsPanel.h"
 
 #include "app/Provenance.h"
+#include "app/filePath.h"
+#include "base/fileName.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeReproduction.h"
+#include "widgets/labelText.h"
 
 #include <QFileDialog>
 #include <QFileInfo>
@@ -104,7 +107,7 @@ void ExperimentsPanel::add(int id)
     m_table->insertRow(row);
     auto *name = new QTableWidgetItem(m_experiments.entry(id)->name);
     name->setData(Qt::UserRole, id);
-    name->setToolTip(name->text());
+    name->setToolTip(asHtml(name->text()));
     m_table->setItem(row, Name, name);
     m_table->setItem(row, State, new QTableWidgetItem);
     auto *bar = new QProgressBar;
@@ -124,7 +127,7 @@ void ExperimentsPanel::follow(int id)
         static_cast<QProgressBar *>(m_table->cellWidget(row, Progress))
             ->setValue(static_cast<int>(100.0 * entry->progress));
         m_table->item(row, State)->setText(stateText(*entry));
-        m_table->item(row, State)->setToolTip(entry->failure);
+        m_table->item(row, State)->setToolTip(entry->failure.isEmpty() ? QString() : asHtml(entry->failure));
     }
     followSelection();
 }
@@ -140,8 +143,8 @@ void ExperimentsPanel::followSelection()
 
 int ExperimentsPanel::importFile(const QString &path)
 {
-    const std::string file = path.toStdString();
-    const QString name = QFileInfo(path).fileName();
+    const std::string file = pathBytes(path);
+    const QString name = fileLabel(path);
     return isCampaignFile(file) ? m_experiments.add(name, readCampaign(file))
                                 : m_experiments.add(name, readCurve(file));
 }
@@ -149,7 +152,7 @@ int ExperimentsPanel::importFile(const QString &path)
 /// The curve, and beside it the experiment that `evaluate` makes it from again.
 static void writeWithOrigin(const Campaign &campaign, const QString &path)
 {
-    writeCurve(campaign, path.toStdString());
+    writeCurve(campaign, pathBytes(path));
     Json json = {{"version", FAINTLINE_VERSION}, {"experiment", toJson(campaign.experiment)}};
     if (std::ssize(campaign.outcomes) < runCount(campaign.experiment)) // it was stopped
         for (const RunOutcome &outcome : campaign.outcomes)
@@ -163,11 +166,10 @@ void ExperimentsPanel::exportTo(int id, const QString &path) const
     if (!entry)
         return;
     if (entry->reproduction)
-        writeReproduction(*entry->reproduction, path.toStdString());
-    else if (path.endsWith(QLatin1String(".csv"), Qt::CaseInsensitive))
-        writeWithOrigin(*entry->campaign, path);
-    else
-        writeCampaign(*entry->campaign, path.toStdString());
+        return writeReproduction(*entry->reproduction, pathBytes(path));
+    const std::string name = pathBytes(path);
+    checkEnding(name, {".csv", ".jsonl"});
+    hasEnding(name, ".csv") ? writeWithOrigin(*entry->campaign, path) : writeCampaign(*entry->campaign, name);
 }
 
 void ExperimentsPanel::chooseImport()

@@ -1,5 +1,7 @@
 #include "app/FileDrop.h"
 
+#include "app/filePath.h"
+
 #include <QDropEvent>
 #include <QMimeData>
 #include <QUrl>
@@ -13,8 +15,8 @@ namespace {
     QString fileOf(const QMimeData &data)
     {
         for (const QUrl &url : data.urls())
-            if (url.isLocalFile())
-                return url.toLocalFile();
+            if (const QString path = pathOf(url); !path.isEmpty())
+                return path;
         return {};
     }
 

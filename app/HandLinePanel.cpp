@@ -5,6 +5,7 @@
 #include "widgets/HandLine.h"
 #include "widgets/StripPlot.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 #include <QEvent>
@@ -68,7 +69,7 @@ HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *
     : QWidget(parent), m_document(document), m_workbench(workbench), m_line(new HandLine(*workbench.input())),
       m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))),
       m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("&Take one back"))),
-      m_clear(new QPushButton(tr("&Clear"))), m_sentence(new QLabel), m_table(new QTableWidget(3, 3))
+      m_clear(new QPushButton(tr("&Clear"))), m_sentence(plainLabel()), m_table(new QTableWidget(3, 3))
 {
     m_draw->setCheckable(true);
     m_draw->setToolTip(

@@ -4,6 +4,7 @@
 #include "app/statisticUnit.h"
 #include "base/utc.h"
 #include "spectrum/NoiseNormaliser.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 #include "analysis/falseAlarmWords.h"
@@ -55,7 +56,7 @@ namespace {
     void describeRecording(Rows &rows, const RecordingInfo &info)
     {
         rows.heading(tr("Recording"));
-        rows.row(tr("Format"), QString::fromStdString(info.container + ", " + info.sampleType)
+        rows.row(tr("Format"), labelText(info.container + ", " + info.sampleType)
                                    + (info.isComplex ? tr(", I/Q") : QString()));
         rows.row(tr("Sample rate"), QString::fromStdString(formatNumber(info.sampleRateHz)) + tr(" Hz"));
         rows.row(tr("Length"), secondsText(info.durationSeconds(), 1e-3 * info.durationSeconds()));
@@ -65,7 +66,7 @@ namespace {
         if (info.startUnixSeconds)
             rows.row(tr("Begins"), QString::fromStdString(formatUtc(*info.startUnixSeconds)));
         for (const std::string &note : info.notes)
-            rows.note(QString::fromStdString(note));
+            rows.note(messageText(note));
     }
 
     void describeReadyFrames(Rows &rows, const Analysis &analysis)
@@ -74,11 +75,11 @@ namespace {
         rows.heading(analysis.grid().axes.size() > 1 ? tr("Pings") : tr("Frames"));
         rows.row(tr("Number"), tr("%1, every %2 s").arg(time.count).arg(time.step, 0, 'g', 4));
         for (const Axis &axis : analysis.grid().axes)
-            rows.row(capitalised(QString::fromStdString(axis.name)),
+            rows.row(capitalised(labelText(axis.name, mostUnitLetters)),
                      tr("%1 cells of %2 %3%4")
                          .arg(axis.count)
                          .arg(axis.step, 0, 'g', 4)
-                         .arg(QString::fromStdString(axis.unit), axis.cyclic ? tr(", all round") : QString()));
+                         .arg(labelText(axis.unit, mostUnitLetters), axis.cyclic ? tr(", all round") : QString()));
         rows.row(tr("States"), QString::number(analysis.model.space.stateCount()));
         if (analysis.lnKBand.deviation > 0.0)
             rows.row(tr("ln K on noise"), tr("%1 … %2 nat").arg(analysis.lnKBand.low(), 0, 'f', 3).arg(analysis.lnKBand.high(), 0, 'f', 3));

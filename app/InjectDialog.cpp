@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
@@ -32,7 +33,7 @@ namespace {
 
 InjectDialog::InjectDialog(const RecordingInfo &recording, double startSeconds, double frequencyHz,
                            double windowSeconds, QWidget *parent)
-    : QDialog(parent), m_recording(recording), m_windowSeconds(windowSeconds), m_why(new QLabel),
+    : QDialog(parent), m_recording(recording), m_windowSeconds(windowSeconds), m_why(plainLabel()),
       m_buttons(new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel))
 {
     setWindowTitle(tr("Inject a line"));
@@ -95,7 +96,7 @@ void InjectDialog::check()
     try {
         checkLine(line(), m_recording, "line");
     } catch (const Error &error) {
-        why = QString::fromUtf8(error.what());
+        why = messageText(error.what());
     }
     m_why->setText(why);
     m_buttons->button(QDialogButtonBox::Ok)->setEnabled(why.isEmpty());

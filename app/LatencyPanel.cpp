@@ -3,6 +3,7 @@
 #include "base/Interval.h"
 #include "evaluate/PingExperiment.h"
 #include "widgets/ChartPlot.h"
+#include "widgets/labelText.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -56,7 +57,7 @@ namespace {
 } // namespace
 
 LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_runs(new QSpinBox), m_button(new QPushButton(tr("&Measure"))), m_sentence(new QLabel),
+    : QWidget(parent), m_document(document), m_runs(new QSpinBox), m_button(new QPushButton(tr("&Measure"))), m_sentence(plainLabel()),
       m_pd(new ChartPlot), m_histogram(new ChartPlot)
 {
     constexpr int usualRuns = 12;
@@ -106,7 +107,7 @@ LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
         end();
     });
     connect(&m_runner, &JobRunner::failed, this, [this, end](const Error &error) {
-        m_sentence->setText(QString::fromUtf8(error.what()));
+        m_sentence->setText(messageText(error.what()));
         end();
     });
     follow();

@@ -5,6 +5,7 @@
 #include "model/transitionLaw.h"
 #include "widgets/LawPlot.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 #include <QLabel>
@@ -145,7 +146,7 @@ QString LawPanel::driftWords(const Analysis &analysis) const
         const double unit = axis.step / analysis.time().step;
         const double lowest = axes[i].rate(0);
         const double highest = axes[i].rate(axes[i].rateCount - 1);
-        const QString name = QString::fromStdString(axis.unit);
+        const QString name = labelText(axis.unit, mostUnitLetters);
         const QString cells = m_document.hasPings() ? tr("cells/ping") : tr("bins/frame");
         const QString words = lowest == -highest
             ? tr("±%1 (±%2 %3)").arg(perSecond(highest * unit, name)).arg(highest).arg(cells)
@@ -154,7 +155,7 @@ QString LawPanel::driftWords(const Analysis &analysis) const
                   .arg(lowest)
                   .arg(highest)
                   .arg(cells);
-        drifts << (axes.size() > 1 ? QString::fromStdString(axis.name) + QLatin1Char(' ') + words : words);
+        drifts << (axes.size() > 1 ? labelText(axis.name, mostUnitLetters) + QLatin1Char(' ') + words : words);
     }
     return tr("Largest drift: %1.").arg(drifts.join(QStringLiteral(", ")));
 }

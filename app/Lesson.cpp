@@ -1,9 +1,11 @@
 #include "app/Lesson.h"
 
 #include "app/WindowViews.h"
+#include "app/filePath.h"
 #include "app/lessonMeasures.h"
 #include "base/Error.h"
 #include "base/json.h"
+#include "widgets/labelText.h"
 
 #include <QDir>
 #include <QFile>
@@ -20,10 +22,7 @@ namespace {
 
     std::string textOf(const QString &path)
     {
-        QFile file(path);
-        if (!file.open(QIODevice::ReadOnly))
-            throw Error(path.toStdString(), "cannot be read: " + file.errorString().toStdString());
-        return file.read(largestLesson).toStdString();
+        return readBeginning(path, largestLesson).toStdString();
     }
 
     const Json *find(const Json &object, const char *key)
@@ -32,14 +31,20 @@ namespace {
         return found == object.end() ? nullptr : &*found;
     }
 
-    QString sentenceAt(const Json &object, const char *key, const std::string &where, bool isNeeded = false)
+    std::string textAt(const Json &object, const char *key, const std::string &where, bool isNeeded = false)
     {
         const Json *value = find(object, key);
         if (!value && !isNeeded)
             return {};
         if (!value || !value->is_string() || value->get<std::string>().empty())
             throw Error(jsonName(where, key), "must be a text");
-        return QString::fromStdString(value->get<std::string>());
+        return value->get<std::string>();
+    }
+
+    /// As it is read on the screen.
+    QString sentenceAt(const Json &object, const char *key, const std::string &where, bool isNeeded = false)
+    {
+        return paragraphs(textAt(object, key, where, isNeeded));
     }
 
     double boundOf(const Json &value, double otherwise, const std::string &where)
@@ -128,7 +133,7 @@ namespace {
         for (const Json &choice : *choices) {
             if (!choice.is_string())
                 throw Error(jsonName(where, "choices"), "must be a list of at least two texts");
-            question.choices << QString::fromStdString(choice.get<std::string>());
+            question.choices << paragraphs(choice.get<std::string>());
         }
         const auto answer = numberAt(object, "answer", where).value_or(-1.0);
         question.answer = static_cast<int>(answer);
@@ -191,14 +196,14 @@ namespace {
         LessonStep step;
         step.title = sentenceAt(object, "title", where, true);
         step.text = sentenceAt(object, "text", where, true);
-        if (const QString open = sentenceAt(object, "open", where); !open.isEmpty())
-            step.open = QDir::cleanPath(folder.filePath(open));
-        step.preset = sentenceAt(object, "preset", where).toStdString();
+        if (const std::string open = textAt(object, "open", where); !open.empty())
+            step.open = QDir::cleanPath(folder.filePath(QString::fromStdString(open)));
+        step.preset = textAt(object, "preset", where);
         if (!step.preset.empty())
             preset(step.preset);
         readSettings(object, step, where);
         readView(object, step, where);
-        step.point = sentenceAt(object, "point", where);
+        step.point = QString::fromStdString(textAt(object, "point", where));
         checkWidget(step.point, jsonName(where, "point"));
         step.facts = conditionAt(object, "facts", where);
         if (const Json *ask = find(object, "ask"))
@@ -218,7 +223,7 @@ namespace {
 
 Lesson lessonFromJson(const std::string &text, const QString &path)
 {
-    const Json json = parseJson(text, path.toStdString());
+    const Json json = parseJson(text, pathBytes(path));
     try {
         checkKeys(json, {}, {"title", "sentence", "steps"});
         Lesson lesson;
@@ -235,7 +240,7 @@ Lesson lessonFromJson(const std::string &text, const QString &path)
             throw Error("steps[0].open", "is missing: a lesson begins with something to look at");
         return lesson;
     } catch (const Error &error) {
-        throw Error(path.toStdString() + ": " + error.where(), error.why());
+        throw Error(pathBytes(path) + ": " + error.where(), error.why());
     }
 }
 
@@ -249,7 +254,7 @@ bool isLesson(const QString &path)
     if (!path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive))
         return false;
     try {
-        const Json json = parseJson(textOf(path), path.toStdString());
+        const Json json = parseJson(textOf(path), pathBytes(path));
         return json.is_object() && json.contains("steps");
     } catch (const Error &) {
         return false; // whoever opens it says why

@@ -78,6 +78,7 @@ void LessonGuide::goTo(int step)
         leave();
         return emit finished();
     }
+    m_watch.stop(); // until there is something to watch
     m_step = step;
     m_isReady = m_isRevealed = false;
     m_frame->pointAt(nullptr);
@@ -110,14 +111,15 @@ void LessonGuide::set()
         m_opened = path;
         setScans(path);
     } else if (m_opened != path || document.source().path != path) {
-        if (!m_opened.isEmpty())
-            document.undoStack().setClean(); // what a lesson changed is nothing to save
-        m_window.open(path, {}, [steps = stepsNow()](AnalysisSettings &settings) { settings = settingsAfter(steps, settings); });
+        m_window.openNow(path, {}, [steps = stepsNow()](AnalysisSettings &settings) { settings = settingsAfter(steps, settings); });
         m_opened = path;
         if (!m_window.controller().isBusy()) // the user would rather keep what is open, or it cannot be opened
             leave();
     } else {
+        const bool wasSaved = !document.isModified();
         document.edit(settingsAfter(stepsNow(), firstSettings(document.openedSource())), tr("Lesson: %1").arg(now().title));
+        if (wasSaved)
+            document.undoStack().setClean(); // what a lesson changes is nothing to save
     }
 }
 

@@ -1,6 +1,7 @@
 #include "app/LessonPanel.h"
 
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 
 #include <QButtonGroup>
 #include <QEvent>
@@ -40,7 +41,7 @@ namespace {
 } // namespace
 
 LessonPanel::LessonPanel(QWidget *parent)
-    : QWidget(parent), m_title(new QLabel), m_place(new QLabel), m_progress(new QProgressBar), m_area(new QScrollArea),
+    : QWidget(parent), m_title(plainLabel()), m_place(new QLabel), m_progress(new QProgressBar), m_area(new QScrollArea),
       m_back(new QPushButton(tr("Bac&k"))), m_next(new QPushButton(tr("Ne&xt"))), m_leave(new QPushButton(tr("Leave")))
 {
     m_title->setWordWrap(true);

@@ -12,6 +12,7 @@
 #include "app/InjectDialog.h"
 #include "app/KeysOverlay.h"
 #include "app/LatencyPanel.h"
+#include "app/Lesson.h"
 #include "app/LessonGuide.h"
 #include "app/MessageBar.h"
 #include "app/NoiseFitPanel.h"
@@ -35,6 +36,7 @@
 #include "app/WindowViews.h"
 #include "app/Workbench.h"
 #include "app/currentView.h"
+#include "app/filePath.h"
 #include "app/hint.h"
 #include "app/scanScenario.h"
 #include "app/statisticUnit.h"
@@ -44,6 +46,7 @@
 #include "widgets/OverviewStrip.h"
 #include "widgets/PingMap.h"
 #include "widgets/ReadOut.h"
+#include "widgets/labelText.h"
 
 #include <QCloseEvent>
 #include <QDateTime>
@@ -56,6 +59,7 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QToolBar>
+#include <QUrl>
 #include <QVBoxLayout>
 
 namespace faintline {
@@ -231,13 +235,25 @@ void MainWindow::open(const QString &path, const OpenOptions &options, const Ana
 {
     if (const bool isOfScans = isScanScenario(path); isOfScans || isLesson(path)) {
         try {
-            return isOfScans ? openScans(readScanTest(path)) : m_lessons->start(readLesson(path));
+            return isOfScans ? openScans(readScanTest(path)) : startLesson(readLesson(path));
         } catch (const Error &error) {
             return showError(error);
         }
     }
-    if (!m_saver->mayDiscard())
-        return;
+    const auto next = [this, path, options, adjust] { openNow(path, options, adjust); };
+    if (m_saver->mayLose(tr("opening something else"), next))
+        next();
+}
+
+void MainWindow::startLesson(const Lesson &lesson)
+{
+    const auto next = [this, lesson] { m_lessons->start(lesson); };
+    if (m_saver->mayLose(tr("starting the lesson"), next))
+        next();
+}
+
+void MainWindow::openNow(const QString &path, const OpenOptions &options, const AnalysisController::Adjust &adjust)
+{
     OpenOptions chosen = options;
     if (m_isAsking && needsRawOptions(path, options)) {
         OpenOptionsDialog dialog(path, this);
@@ -248,7 +264,7 @@ void MainWindow::open(const QString &path, const OpenOptions &options, const Ana
     m_welcome->stop();
     if (!isVisible()) {
         for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
-            one->setEmptySentence(tr("Reading %1 …").arg(QFileInfo(path).fileName()));
+            one->setEmptySentence(tr("Reading %1 …").arg(fileLabel(path)));
         showWorkbench();
     }
     m_controller.open(path, chosen, adjust);
@@ -274,10 +290,12 @@ void MainWindow::openScenario(ScenarioCard *card)
 {
     if (!card->analysis())
         return open(card->scenario().path);
-    if (!m_saver->mayDiscard())
-        return;
-    m_welcome->stop();
-    m_controller.adopt(card->opened(), card->analysis());
+    const auto next = [this, card] {
+        m_welcome->stop();
+        m_controller.adopt(card->opened(), card->analysis());
+    };
+    if (m_saver->mayLose(tr("opening something else"), next))
+        next();
 }
 
 void MainWindow::openScans(const ScanTest &test)
@@ -297,15 +315,15 @@ void MainWindow::openScans(const ScanTest &test)
 void MainWindow::chooseFile()
 {
     const QString folder = m_memory.recent().isEmpty() ? QString() : QFileInfo(m_memory.recent().first()).path();
-    const QString path = QFileDialog::getOpenFileName(this, tr("Open"), folder,
-                                                      tr("Everything (*);;Sessions (*.faintline);;Scenarios (*.json)"));
+    const QString path = pathOf(QFileDialog::getOpenFileUrl(this, tr("Open"), QUrl::fromLocalFile(folder),
+                                                            tr("Everything (*);;Sessions (*.faintline);;Scenarios (*.json)")));
     if (!path.isEmpty())
         open(path);
 }
 
 void MainWindow::chooseRawFile()
 {
-    const QString path = QFileDialog::getOpenFileName(this, tr("Open as raw samples"));
+    const QString path = pathOf(QFileDialog::getOpenFileUrl(this, tr("Open as raw samples")));
     if (path.isEmpty())
         return;
     OpenOptionsDialog dialog(path, this);
@@ -403,7 +421,7 @@ void MainWindow::showHint()
 void MainWindow::showTitle()
 {
     const QString path = m_document.sessionPath();
-    const QString name = path.isEmpty() ? m_document.source().name() : QFileInfo(path).fileName();
+    const QString name = path.isEmpty() ? m_document.source().name() : fileLabel(path);
     setWindowTitle(m_document.isEmpty() ? tr("Faintline") : tr("%1[*] — Faintline").arg(name));
     setWindowModified(m_document.isModified());
 }
@@ -430,7 +448,7 @@ void MainWindow::showFailure(const Error &error)
 
 void MainWindow::closeEvent(QCloseEvent *event)
 {
-    if (!m_saver->mayClose())
+    if (!m_saver->mayLose(tr("closing"), [this] { close(); }))
         return event->ignore();
     m_lessons->leave();
     saveLayout();
@@ -443,7 +461,7 @@ void MainWindow::fillRecentMenu()
 {
     m_recentMenu->clear();
     for (const QString &path : m_memory.recent())
-        m_recentMenu->addAction(QFileInfo(path).fileName(), this, [this, path] { open(path); })->setToolTip(path);
+        m_recentMenu->addAction(buttonText(fileLabel(path)), this, [this, path] { open(path); })->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
     if (m_recentMenu->isEmpty())
         m_recentMenu->addAction(tr("Nothing yet"))->setEnabled(false);
 }
@@ -483,8 +501,7 @@ void MainWindow::setAsking(bool isAsking)
 
 void MainWindow::exportReport()
 {
-    const QFileInfo source(m_document.source().path);
-    const QString path = QFileDialog::getSaveFileName(this, tr("Export report"), source.dir().filePath(source.completeBaseName() + QStringLiteral(".html")),
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export report"), nameBeside(m_document.source().path, QStringLiteral(".html")),
                                                       tr("Report (*.html)"));
     if (!path.isEmpty())
         m_report->write(path);

@@ -34,6 +34,7 @@ class InfoPanel;
 class KeysOverlay;
 class LatencyPanel;
 class LessonGuide;
+struct Lesson;
 class MessageBar;
 class NoiseFitPanel;
 class OverviewStrip;
@@ -67,6 +68,8 @@ public:
 
     /// Opens a recording, a scenario or a session. Asks only what the file itself cannot tell.
     void open(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {});
+    /// The same of a recording, a scenario or a session, whatever is unsaved.
+    void openNow(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {});
     void showWelcome();
     /// Offers unsaved work that a program left behind when it died.
     void offerRecovery();
@@ -150,6 +153,7 @@ private:
     void showEvents();
     void showHint();
     void showTitle();
+    void startLesson(const Lesson &lesson);
     void showError(const Error &error);
     void showFailure(const Error &error);
     void offerIq();

@@ -8,6 +8,7 @@
 #include "app/EventReviews.h"
 #include "app/ExperimentsPanel.h"
 #include "app/FileDrop.h"
+#include "app/Lesson.h"
 #include "app/LessonGuide.h"
 #include "app/LessonList.h"
 #include "app/MessageBar.h"
@@ -25,6 +26,7 @@
 #include "app/WelcomePage.h"
 #include "app/WindowViews.h"
 #include "app/Workbench.h"
+#include "app/filePath.h"
 #include "app/scanScenario.h"
 #include "widgets/EventTable.h"
 #include "widgets/ExceedancePlot.h"
@@ -110,9 +112,8 @@ void MainWindow::connectController()
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
     connect(m_report, &ReportWriter::written, this,
-            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, QFileInfo(path).fileName(), tr("is written.")); });
+            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path), tr("is written.")); });
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
-    connect(m_saver, &SessionSaver::closable, this, &QWidget::close);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
         m_memory.addRecent(path);
         emit saved(path);
@@ -126,7 +127,7 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_welcome->lessonList(), &LessonList::chosen, this,
-            [this](int lesson) { m_lessons->start(lessons()[static_cast<std::size_t>(lesson)]); });
+            [this](int lesson) { startLesson(lessons()[static_cast<std::size_t>(lesson)]); });
     connect(m_presentAction, &QAction::toggled, this, [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
     connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);

@@ -280,7 +280,7 @@ void MainWindow::buildHelpMenu()
     menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this, &MainWindow::showEquation);
     QMenu *lessonMenu = menu->addMenu(tr("&Lessons"));
     for (const Lesson &lesson : lessons())
-        lessonMenu->addAction(lesson.title, m_lessons, [this, &lesson] { m_lessons->start(lesson); })->setToolTip(lesson.sentence);
+        lessonMenu->addAction(lesson.title, this, [this, &lesson] { startLesson(lesson); })->setToolTip(lesson.sentence);
     menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this, [this] { m_palette->open(menuBar()->actions()); });
     menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
 }

@@ -2,6 +2,7 @@
 
 #include "base/oneLine.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -17,6 +18,9 @@ MessageBar::MessageBar(QWidget *parent) : QFrame(parent), m_label(new QLabel), m
     m_label->setWordWrap(true);
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse);
     m_label->setTextFormat(Qt::RichText);
+    QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Preferred); // no message widens the window
+    policy.setHeightForWidth(true);
+    m_label->setSizePolicy(policy);
     auto *closeButton = new QToolButton;
     closeButton->setText(tr("Dismiss"));
     closeButton->setAutoRaise(true);
@@ -41,7 +45,8 @@ void MessageBar::showMessage(Kind kind, const QString &where, const QString &why
 {
     m_kind = kind;
     const auto shown = [](const QString &text) { return QString::fromStdString(oneLine(text.toStdString(), longestMessage)); };
-    m_label->setText(QStringLiteral("<b>%1:</b> %2").arg(shown(where).toHtmlEscaped(), shown(why).toHtmlEscaped()));
+    const auto fitting = [](const QString &text) { return messageText(text.toStdString()).toHtmlEscaped(); };
+    m_label->setText(QStringLiteral("<b>%1:</b> %2").arg(fitting(where), fitting(why)));
     setAccessibleName(shown(where) + QStringLiteral(": ") + shown(why));
     m_action = std::move(action);
     m_actionButton->setText(actionText);

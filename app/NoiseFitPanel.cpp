@@ -5,6 +5,7 @@
 #include "app/Sight.h"
 #include "app/readingTable.h"
 #include "widgets/ChartPlot.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 #include <QHeaderView>
@@ -30,7 +31,7 @@ namespace {
         if (axis.unit != "Hz") {
             const int decimals = decimalsFor((band.high - band.low) / 10.0);
             return QObject::tr("%1 … %2 %3")
-                .arg(numberText(band.low, decimals), numberText(band.high, decimals), QString::fromStdString(axis.unit));
+                .arg(numberText(band.low, decimals), numberText(band.high, decimals), labelText(axis.unit, mostUnitLetters));
         }
         const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
         const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
@@ -81,11 +82,11 @@ namespace {
 } // namespace
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_sentence(new QLabel(tr("Open a recording to measure its noise."))),
+    : QWidget(parent), m_document(document), m_sentence(plainLabel()),
       m_plot(new ChartPlot), m_table(new QTableWidget(0, 4)), m_sight(new Sight(*this))
 {
     m_sentence->setWordWrap(true);
-    m_sentence->setTextFormat(Qt::PlainText);
+    m_sentence->setText(tr("Open a recording to measure its noise."));
     m_sentence->setContentsMargins(8, 6, 8, 4);
     m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
     m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
@@ -116,7 +117,7 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
         m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
     });
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_sentence->setText(QString::fromUtf8(error.what()));
+        m_sentence->setText(messageText(error.what()));
         emit settled();
     });
     connect(&m_runner, &JobRunner::finished, this, &NoiseFitPanel::settled);

@@ -1,8 +1,10 @@
 #include "app/OpenOptionsDialog.h"
 
+#include "app/filePath.h"
 #include "base/Error.h"
 #include "recording/RawRecording.h"
 #include "recording/SampleType.h"
+#include "widgets/labelText.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -20,16 +22,16 @@ namespace {
 
     QString suggestedType(const QString &path)
     {
-        const auto type = rawTypeOfExtension(path.toStdString());
+        const auto type = rawTypeOfExtension(pathBytes(path));
         return type && !type->empty() ? QString::fromStdString(*type) : QStringLiteral("ci16_le");
     }
 
 } // namespace
 
 OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
-    : QDialog(parent), m_fileBytes(QFileInfo(path).size()), m_type(new QComboBox), m_rate(new QDoubleSpinBox),
+    : QDialog(parent), m_fileBytes(fileSize(path)), m_type(new QComboBox), m_rate(new QDoubleSpinBox),
       m_channels(new QSpinBox), m_header(new QSpinBox), m_iq(new QCheckBox(tr("Take channels in pairs as I and Q"))),
-      m_length(new QLabel)
+      m_length(plainLabel())
 {
     setWindowTitle(tr("Raw samples"));
     for (const char *type : {"ci16_le", "ci8", "cu8", "cf32_le", "cf64_le", "ci16_be", "cf32_be", "ri16_le", "ri8",
@@ -53,7 +55,7 @@ OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
 
     auto *form = new QFormLayout(this);
     auto *what =
-        new QLabel(tr("<b>%1</b> holds bare samples. What are they?").arg(QFileInfo(path).fileName().toHtmlEscaped()));
+        new QLabel(tr("<b>%1</b> holds bare samples. What are they?").arg(fileLabel(path).toHtmlEscaped()));
     form->addRow(what);
     form->addRow(tr("&Type"), m_type);
     form->addRow(tr("Sample &rate"), m_rate);
@@ -85,7 +87,7 @@ void OpenOptionsDialog::showLength()
         m_length->setText(tr("%1 s").arg(std::max(0.0, samples) / m_rate->value(), 0, 'g', 6));
         m_iq->setEnabled(!type.isComplex && m_channels->value() % 2 == 0);
     } catch (const Error &error) {
-        m_length->setText(QString::fromStdString(error.why()));
+        m_length->setText(messageText(error.why()));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "widgets/PolarView.h"
 #include "widgets/StripPlot.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 #include <QCheckBox>
@@ -31,7 +32,7 @@ namespace {
 
     QString unitText(const Axis &axis)
     {
-        const QString unit = QString::fromStdString(axis.unit);
+        const QString unit = labelText(axis.unit, mostUnitLetters);
         return unit == QStringLiteral("°") ? unit : QLatin1Char(' ') + unit;
     }
 

@@ -5,6 +5,7 @@
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/SettingsForm.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 #include "widgets/settingWords.h"
 
@@ -22,7 +23,7 @@ namespace {
     /// "WAV, int16 · 12 kHz · 15 s"
     QString summary(const RecordingInfo &info)
     {
-        QStringList parts{QString::fromStdString(
+        QStringList parts{labelText(
             info.container == info.sampleType ? info.container : info.container + ", " + info.sampleType)};
         parts << hertzText(info.sampleRateHz, 1e-3 * info.sampleRateHz)
               << secondsText(info.durationSeconds(), 1e-2 * info.durationSeconds());
@@ -36,7 +37,7 @@ namespace {
     {
         QStringList axes;
         for (const Axis &axis : frames.grid().axes)
-            axes << QStringLiteral("%1 %2").arg(axis.count).arg(QString::fromStdString(axis.name));
+            axes << QStringLiteral("%1 %2").arg(axis.count).arg(labelText(axis.name, mostUnitLetters));
         const QString kind = axes.size() > 1 ? QObject::tr("pings") : QObject::tr("frames");
         return QObject::tr("%1 %2, every %3 s · %4")
             .arg(frames.time().count)
@@ -130,7 +131,7 @@ void PipelinePanel::showError(const Error &error)
     // "model.snr = -3" names a field.
     const QString name = QString::fromStdString(error.where()).section(QLatin1Char(' '), 0, 0);
     if (m_form->editor(name))
-        m_form->setError(name, QString::fromStdString(error.why()));
+        m_form->setError(name, messageText(error.why()));
 }
 
 void PipelinePanel::applyPreset(int index)

@@ -1,6 +1,7 @@
 #include "app/Provenance.h"
 
 #include "app/Session.h"
+#include "app/filePath.h"
 #include "base/AtomicFile.h"
 #include "recording/openRecording.h"
 
@@ -13,7 +14,7 @@ namespace faintline {
 std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations, std::string hash)
 {
     if (!source.isSimulated() && hash.empty())
-        hash = recordingHash(source.path.toStdString());
+        hash = recordingHash(pathBytes(source.path));
     Json json = parseJson(sessionText({source, hash, settings, {}, annotations}, QFileInfo(source.path).path()), "session");
     json.erase("view");
     json["version"] = FAINTLINE_VERSION;
@@ -43,7 +44,7 @@ void Provenance::answer()
         const Source &source = m_requests.front().source;
         if (!source.isSimulated() && source.path != m_hashed) {
             m_runner.start([this, path = source.path](const RunContext &) -> JobRunner::Delivery {
-                std::string hash = recordingHash(path.toStdString());
+                std::string hash = recordingHash(pathBytes(path));
                 return [this, path, hash = std::move(hash)] {
                     m_hashed = path;
                     m_hash = hash;
@@ -68,7 +69,7 @@ QString pictureProvenance(const std::string &json)
 
 void writeProvenanceBeside(const QString &path, const std::string &json)
 {
-    writeTextFile(path.toStdString() + ".provenance.json", json);
+    writeTextFile(pathBytes(path) + ".provenance.json", json);
 }
 
 } // namespace faintline

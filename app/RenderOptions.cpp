@@ -1,5 +1,7 @@
 #include "app/RenderOptions.h"
 
+#include "app/filePath.h"
+
 #include <QFileInfo>
 
 namespace faintline {
@@ -8,10 +10,9 @@ std::string pictureName(const RenderOptions &options, const std::string &view)
 {
     if (options.views.size() == 1)
         return options.out;
-    const QFileInfo out(QString::fromStdString(options.out));
-    return (out.path() + QLatin1Char('/') + out.completeBaseName() + QLatin1Char('-') + QString::fromStdString(view)
-            + QLatin1Char('.') + out.suffix())
-        .toStdString();
+    const QFileInfo out(pathText(options.out));
+    return pathBytes(out.path() + QLatin1Char('/') + out.completeBaseName() + QLatin1Char('-') + QString::fromStdString(view)
+                     + QLatin1Char('.') + out.suffix());
 }
 
 Json toJson(const RenderOptions &options, const std::string &view)

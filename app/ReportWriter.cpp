@@ -3,6 +3,7 @@
 #include "app/MainWindow.h"
 #include "app/Provenance.h"
 #include "app/WindowViews.h"
+#include "app/filePath.h"
 #include "base/AtomicFile.h"
 
 #include <QBuffer>
@@ -88,7 +89,7 @@ void ReportWriter::write(const QString &path)
                     source = document.source()](const RunContext &context) mutable -> JobRunner::Delivery {
         context.checkpoint(0.0, "report");
         material.provenance = provenanceOf(source, analysis->settings, material.annotations);
-        writeReport(*analysis, std::move(material), path.toStdString(), context);
+        writeReport(*analysis, std::move(material), pathBytes(path), context);
         return [this, path] { emit written(path); };
     });
 }

@@ -4,6 +4,7 @@
 #include "widgets/FormSection.h"
 #include "widgets/SettingRow.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/settingWords.h"
 
 #include <QLabel>
@@ -11,7 +12,7 @@
 
 namespace faintline {
 
-ScanTestForm::ScanTestForm(QWidget *parent) : QWidget(parent), m_error(new QLabel)
+ScanTestForm::ScanTestForm(QWidget *parent) : QWidget(parent), m_error(plainLabel())
 {
     constexpr int labelWidth = 104;
     auto *layout = new QVBoxLayout(this);
@@ -66,11 +67,11 @@ void ScanTestForm::showError(const Error &error)
     // "sprt.miss = 3" names a field.
     const QString name = QString::fromStdString(error.where()).section(QLatin1Char(' '), 0, 0);
     if (SettingRow *row = m_rows.value(name))
-        return row->setError(QString::fromStdString(error.why()));
+        return row->setError(messageText(error.why()));
     QPalette colours = palette();
     colours.setColor(QPalette::WindowText, Theme::colours(*this).error);
     m_error->setPalette(colours);
-    m_error->setText(QStringLiteral("%1: %2").arg(QString::fromStdString(error.where()), QString::fromStdString(error.why())));
+    m_error->setText(messageText(error.what()));
     m_error->show();
 }
 

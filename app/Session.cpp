@@ -1,5 +1,6 @@
 #include "app/Session.h"
 
+#include "app/filePath.h"
 #include "base/AtomicFile.h"
 #include "base/readingJson.h"
 
@@ -42,14 +43,14 @@ namespace {
     Json toJson(const Source &source, const std::string &hash, const QDir &folder)
     {
         if (source.isSimulated()) {
-            Json scene = {{"name", source.name().toStdString()},
+            Json scene = {{"name", QFileInfo(source.path).fileName().toStdString()},
                           {"scenario", source.pings ? toJson(*source.pings) : toJson(*source.scene)}};
             if (!source.injections.empty())
                 scene["injected"] = toJson(source.injections);
             return scene;
         }
         const OpenOptions &options = source.options;
-        const QString path = QFileInfo(source.path).absoluteFilePath();
+        const QString path = absolutePath(source.path);
         Json json = {{"path", folder.relativeFilePath(path).toStdString()}, {"sha256", hash}};
         if (options.iq)
             json["iq"] = true;
@@ -123,7 +124,7 @@ namespace {
 
     QDir folderOf(const QString &path)
     {
-        return QFileInfo(path).absoluteDir();
+        return QFileInfo(absolutePath(path)).dir();
     }
 
     Session sessionFromJson(const Json &json, const QString &path)
@@ -175,7 +176,7 @@ bool isSessionPath(const QString &path)
 
 Session readSession(const QString &path)
 {
-    const std::string where = path.toStdString();
+    const std::string where = pathBytes(path);
     const Json json = readJsonFile(where);
     try {
         return sessionFromJson(json, path);
@@ -200,13 +201,13 @@ std::string sessionText(const Session &session, const QString &folder)
 void writeSession(const QString &path, Session session)
 {
     if (!session.source.isSimulated() && session.recordingHash.empty())
-        session.recordingHash = recordingHash(session.source.path.toStdString());
-    writeTextFile(path.toStdString(), sessionText(session, folderOf(path).path()));
+        session.recordingHash = recordingHash(pathBytes(session.source.path));
+    writeTextFile(pathBytes(path), sessionText(session, folderOf(path).path()));
 }
 
 QString recordingMismatch(const Session &session)
 {
-    if (session.recordingHash.empty() || recordingHash(session.source.path.toStdString()) == session.recordingHash)
+    if (session.recordingHash.empty() || recordingHash(pathBytes(session.source.path)) == session.recordingHash)
         return {};
     return QStringLiteral("it has changed since the session was saved; results may differ");
 }

@@ -1,8 +1,9 @@
 #include "app/SessionSaver.h"
 
-#include <QDir>
+#include "app/filePath.h"
+#include "widgets/labelText.h"
+
 #include <QFileDialog>
-#include <QFileInfo>
 #include <QMessageBox>
 
 #include <utility>
@@ -13,7 +14,7 @@ SessionSaver::SessionSaver(Document &document, std::function<ViewState()> view, 
     : QObject(window), m_document(document), m_view(std::move(view)), m_window(window)
 {
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_isClosing = false;
+        m_afterSaving = nullptr;
         emit failed(error);
     });
 }
@@ -25,12 +26,11 @@ void SessionSaver::save()
 
 void SessionSaver::saveAs()
 {
-    const QFileInfo recording(m_document.source().path);
-    const QString suggested = recording.dir().filePath(recording.completeBaseName() + QStringLiteral(".faintline"));
+    const QString suggested = nameBeside(m_document.source().path, QStringLiteral(".faintline"));
     const QString path =
         QFileDialog::getSaveFileName(m_window, tr("Save session"), suggested, tr("Sessions (*.faintline)"));
     if (path.isEmpty())
-        m_isClosing = false;
+        m_afterSaving = nullptr;
     else
         saveTo(isSessionPath(path) ? path : path + QStringLiteral(".faintline"));
 }
@@ -44,35 +44,24 @@ void SessionSaver::saveTo(const QString &path)
             if (settings == m_document.settings() && annotations == m_document.annotations())
                 m_document.setSaved(path);
             emit saved(path);
-            if (std::exchange(m_isClosing, false))
-                emit closable();
+            if (const auto next = std::exchange(m_afterSaving, nullptr))
+                next();
         };
     });
 }
 
-bool SessionSaver::mayDiscard()
+bool SessionSaver::mayLose(const QString &what, std::function<void()> next)
 {
-    if (!m_isAsking || !m_document.isModified())
-        return true;
-    const QString question =
-        tr("The settings for %1 are not saved in a session. Discard them?").arg(m_document.source().name());
-    return QMessageBox::question(m_window, tr("Unsaved settings"), question, QMessageBox::Discard | QMessageBox::Cancel,
-                                 QMessageBox::Cancel)
-           == QMessageBox::Discard;
-}
-
-bool SessionSaver::mayClose()
-{
-    if (!m_isAsking || !m_document.isModified())
-        return true;
-    const QString question =
-        tr("Save the settings for %1 as a session before closing?").arg(m_document.source().name());
-    const auto answer =
-        QMessageBox::question(m_window, tr("Unsaved settings"), question,
-                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
-    m_isClosing = answer == QMessageBox::Save;
-    if (m_isClosing)
+    QMessageBox::StandardButton answer = QMessageBox::Discard;
+    if (m_isAsking && m_document.isModified()) {
+        const QString question = tr("Save the settings for %1 as a session before %2?").arg(m_document.source().name(), what);
+        answer = QMessageBox::question(m_window, tr("Unsaved settings"), asHtml(question),
+                                       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+    }
+    if (answer == QMessageBox::Save) {
+        m_afterSaving = std::move(next);
         save();
+    }
     return answer == QMessageBox::Discard;
 }
 

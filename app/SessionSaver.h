@@ -25,14 +25,12 @@ public:
     void save();
     void saveAs();
 
-    /// Whether something else may be opened: false where the person keeps the unsaved work.
-    bool mayDiscard();
-    /// Whether the window may close; if not yet because it is being saved, `closable` follows.
-    bool mayClose();
+    /// Whether unsaved work may be lost to what comes next, "opening something else". Not if the person keeps it; if it is to be saved first,
+    /// `next` is called when it is.
+    bool mayLose(const QString &what, std::function<void()> next);
 
 signals:
     void saved(const QString &path);
-    void closable();
     void failed(const faintline::Error &error);
 
 private:
@@ -42,7 +40,7 @@ private:
     std::function<ViewState()> m_view;
     QWidget *m_window;
     bool m_isAsking = true;
-    bool m_isClosing = false;
+    std::function<void()> m_afterSaving;
     JobRunner m_runner; ///< last, so that its job ends first
 };
 

@@ -1,15 +1,16 @@
 #include "app/Source.h"
 
+<<<<<<< HEAD
 #include "analysis/slopeUnit.h"
+=======
+#include "app/filePath.h"
+>>>>>>> strict18
 #include "base/json.h"
 #include "exchange/ModelFile.h"
 #include "recording/AudioRecording.h"
 #include "recording/RawRecording.h"
 #include "recording/SimulatedRecording.h"
 #include "spectrum/SimulatedPings.h"
-
-#include <QFile>
-#include <QFileInfo>
 
 namespace faintline {
 
@@ -19,11 +20,8 @@ namespace {
 
     void readScene(const QString &path, Source &source)
     {
-        const std::string where = path.toStdString();
-        QFile file(path);
-        if (!file.open(QIODevice::ReadOnly))
-            throw Error(where, "cannot be read: " + file.errorString().toStdString());
-        const QByteArray text = file.read(largestScenario);
+        const std::string where = pathBytes(path);
+        const QByteArray text = readBeginning(path, largestScenario);
         try {
             const Json json = parseJson(text.toStdString(), where);
             if (isPingScene(json))
@@ -38,9 +36,9 @@ namespace {
     NormalisedFramesPointer readStack(const QString &path)
     {
         const QString grid = gridPathOf(path);
-        auto frames = readFrames(path.toStdString(), QFileInfo::exists(grid) ? grid.toStdString() : std::string());
+        auto frames = readFrames(pathBytes(path), fileExists(grid) ? pathBytes(grid) : std::string());
         if (frames->grid().axes.size() > 2)
-            throw Error(path.toStdString(), "has frames on " + std::to_string(frames->grid().axes.size())
+            throw Error(pathBytes(path), "has frames on " + std::to_string(frames->grid().axes.size())
                                                 + " axes; one or two can be shown (faintline-cli sequential takes more)");
         return frames;
     }
@@ -61,7 +59,7 @@ namespace {
         } else if (source.isStack()) {
             opened.frames = readStack(source.path);
         } else {
-            opened.recording = openRecording(source.path.toStdString(), source.options);
+            opened.recording = openRecording(pathBytes(source.path), source.options);
         }
         opened.source = std::move(source);
         return opened;
@@ -71,7 +69,7 @@ namespace {
 
 QString Source::name() const
 {
-    return QFileInfo(path).fileName();
+    return fileLabel(path);
 }
 
 bool Source::isStack() const
@@ -130,8 +128,8 @@ OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &
 
 bool needsRawOptions(const QString &path, const OpenOptions &options)
 {
-    const std::string name = path.toStdString();
-    return options.rawType.empty() && !(options.rawRateHz > 0.0) && QFileInfo(path).isFile() && rawTypeOfExtension(name)
+    const std::string name = pathBytes(path);
+    return options.rawType.empty() && !(options.rawRateHz > 0.0) && isRegularFile(path) && rawTypeOfExtension(name)
            && !AudioRecording::recognises(name);
 }
 

@@ -33,7 +33,7 @@ struct Source {
     };
     std::vector<Injection> injections{};
 
-    /// What a window title says.
+    /// What a window title says: the file's name as a label shows it.
     QString name() const;
     bool isSimulated() const { return scene || pings; }
     /// Whether it is a stack of ready-made frames, a NumPy file.

@@ -7,6 +7,7 @@
 #include "widgets/ColourBar.h"
 #include "widgets/SliceMarks.h"
 #include "widgets/WaterfallView.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 #include <QComboBox>
@@ -60,7 +61,7 @@ namespace {
 
 StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
-      m_others(new QComboBox), m_model(new QComboBox), m_sentence(new QLabel),
+      m_others(new QComboBox), m_model(new QComboBox), m_sentence(plainLabel()),
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
       m_law(new LawPanel(document)), m_sight(new Sight(*this)), m_marks(std::make_unique<SliceMarks>(*m_view))
 {
@@ -147,7 +148,7 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
         m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
     });
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_sentence->setText(QString::fromUtf8(error.what()));
+        m_sentence->setText(messageText(error.what()));
         emit settled();
     });
     connect(&m_runner, &JobRunner::finished, this, &StateSlicePanel::settled);
@@ -227,7 +228,7 @@ void StateSlicePanel::fillAxes()
             const QSignalBlocker blocker(box);
             box->clear();
             for (const Axis &axis : axes)
-                box->addItem(capitalised(QString::fromStdString(axis.name)));
+                box->addItem(capitalised(labelText(axis.name, mostUnitLetters)));
         }
         m_rows->setCurrentIndex(0);
         m_columns->setCurrentIndex(2); // range × range rate: where a target's motion shows
@@ -367,10 +368,10 @@ QString StateSlicePanel::otherWords(const Cut &cut) const
     QStringList others;
     for (std::size_t i = 0; i < cut.axes.size(); ++i)
         if (i != cut.slice.rows && i != cut.slice.columns)
-            others << (cut.slice.places[i] ? tr("%1 %2 %3").arg(QString::fromStdString(cut.axes[i].name),
+            others << (cut.slice.places[i] ? tr("%1 %2 %3").arg(labelText(cut.axes[i].name, mostUnitLetters),
                                                                numberText(cut.values[i], decimalsFor(cut.axes[i].step)),
-                                                               QString::fromStdString(cut.axes[i].unit))
-                                           : tr("best %1").arg(QString::fromStdString(cut.axes[i].name)));
+                                                               labelText(cut.axes[i].unit, mostUnitLetters))
+                                           : tr("best %1").arg(labelText(cut.axes[i].name, mostUnitLetters)));
     return others.join(QStringLiteral(", "));
 }
 
@@ -388,7 +389,7 @@ QString StateSlicePanel::bestWords(const Cut &cut) const
     const Axis &frequency = cut.axes[0];
     const Axis &slope = cut.axes[1];
     const auto stateWords = [&](double hz, double rate) {
-        const QString unit = QString::fromStdString(slope.unit);
+        const QString unit = labelText(slope.unit, mostUnitLetters);
         return tr("%1, %2 %3").arg(hertzText(hz, frequency.step), numberText(rate, decimalsFor(slope.step)), unit);
     };
     QString words = tr("at the cursor %1 nat (%2)").arg(numberText(scoreAtCursor(cut), 1), stateWords(cut.values[0], cut.values[1]));

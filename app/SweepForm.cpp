@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/settingWords.h"
 
 #include <QCheckBox>
@@ -94,7 +95,7 @@ SweepForm::SweepForm(QWidget *parent)
       m_drift(number(0, -1e6, 1e6, 3, tr(" Hz/s"), tr("Steady drift"))),
       m_wander(number(0, 0, 1e6, 2, tr(" Hz"), tr("Standard deviation of the wander"))),
       m_trials(count(40, 1, 100000, tr("Lines on which every value is tried"))),
-      m_seed(count(1, 0, 2147483647, tr("Seed: the same one gives the same bytes"))), m_meaning(new QLabel)
+      m_seed(count(1, 0, 2147483647, tr("Seed: the same one gives the same bytes"))), m_meaning(plainLabel())
 {
     m_parameter->setAccessibleName(tr("Setting to vary"));
     m_parameter->setMaxVisibleItems(30);
@@ -267,7 +268,7 @@ void SweepForm::showMeaning()
                                .arg(text(sweep.trialSeconds()),
                                     sweep.recording.empty() ? tr(" of white noise, %1 Hz").arg(text(sweep.sampleRateHz)) : QString()));
     } catch (const Error &error) {
-        m_meaning->setText(QString::fromUtf8(error.what()));
+        m_meaning->setText(messageText(error.what()));
     }
 }
 

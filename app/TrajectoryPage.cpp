@@ -4,6 +4,7 @@
 #include "exchange/sequentialCsv.h"
 #include "widgets/CellPicture.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 
 #include <QComboBox>
 #include <QLabel>
@@ -113,7 +114,7 @@ void TrajectoryPage::showInspection()
         m_axis->clear();
         std::size_t finest = 0;
         for (std::size_t i = 0; i < inspection->test.posterior.size(); ++i) {
-            m_axis->addItem(QString::fromStdString(inspection->test.posterior[i].name));
+            m_axis->addItem(labelText(inspection->test.posterior[i].name, mostUnitLetters));
             if (inspection->test.posterior[i].cells > inspection->test.posterior[finest].cells)
                 finest = i;
         }

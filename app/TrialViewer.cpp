@@ -3,6 +3,7 @@
 #include "app/TrialWindow.h"
 #include "app/statisticUnit.h"
 #include "evaluate/campaignCharts.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 namespace faintline {
@@ -89,7 +90,7 @@ void TrialViewer::show(const ShownTrial &trial)
     const auto all = trialsOf(campaign, m_detector, m_snr);
     const TrialOutcome &outcome = all[static_cast<std::size_t>(m_trial)];
     const Contestant detector = detectorsOf(campaign.experiment)[m_detector];
-    const QString name = QString::fromStdString(detector.name);
+    const QString name = labelText(detector.name);
     const QString db = numberText(snrOf(campaign, m_snr), 1);
     const QString unit = statisticUnit(detector.settings);
     const bool isLine = std::holds_alternative<LineExperiment>(campaign.experiment);

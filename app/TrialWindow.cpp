@@ -3,6 +3,7 @@
 #include "app/Workbench.h"
 #include "app/statisticUnit.h"
 #include "widgets/ReadOut.h"
+#include "widgets/labelText.h"
 
 #include <QHBoxLayout>
 #include <QKeyEvent>
@@ -16,7 +17,7 @@ namespace faintline {
 
 TrialWindow::TrialWindow(QWidget *parent)
     : QWidget(parent, Qt::Window), m_workbench(new Workbench(m_document)), m_readOut(new ReadOut),
-      m_sentence(new QLabel), m_previous(new QPushButton(tr("Previous trial"))),
+      m_sentence(plainLabel()), m_previous(new QPushButton(tr("Previous trial"))),
       m_next(new QPushButton(tr("Next trial"))), m_nextMissed(new QPushButton(tr("Next miss")))
 {
     setObjectName(QStringLiteral("trialWindow"));

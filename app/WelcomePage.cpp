@@ -4,7 +4,9 @@
 #include "app/LessonList.h"
 #include "app/ScanCard.h"
 #include "app/ScenarioCard.h"
+#include "app/filePath.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 
 #include <QFileInfo>
 #include <QLabel>
@@ -108,11 +110,11 @@ void WelcomePage::setRecent(const QStringList &paths)
         return;
     m_recent->addWidget(sentence(tr("Recent"), Theme::boldFont(14)));
     for (const QString &path : paths.mid(0, mostRecent)) {
-        auto *button = new QPushButton(QFileInfo(path).fileName());
+        auto *button = new QPushButton(buttonText(fileLabel(path)));
         button->setFlat(true);
         button->setStyleSheet(QStringLiteral("text-align: left; padding: 3px 0px;"));
         button->setCursor(Qt::PointingHandCursor);
-        button->setToolTip(path);
+        button->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
         connect(button, &QPushButton::clicked, this, [this, path] { emit pathChosen(path); });
         m_recent->addWidget(button, 0, Qt::AlignLeft);
     }

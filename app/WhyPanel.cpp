@@ -7,6 +7,7 @@
 #include "widgets/ChartPlot.h"
 #include "widgets/PingViewports.h"
 #include "widgets/axisWords.h"
+#include "widgets/labelText.h"
 
 #include <QHeaderView>
 #include <QLabel>
@@ -51,7 +52,7 @@ namespace {
     {
         if (axis.unit == "Hz")
             return hertzText(value, axis.step);
-        return numberText(value, decimalsFor(axis.step)) + QLatin1Char(' ') + QString::fromStdString(axis.unit);
+        return numberText(value, decimalsFor(axis.step)) + QLatin1Char(' ') + labelText(axis.unit, mostUnitLetters);
     }
 
     QString placeWords(const std::vector<double> &position, const Grid &grid)
@@ -72,7 +73,7 @@ namespace {
             const Axis &along = analysis.grid().axes[axis];
             const double rate = rates[axis] * along.step / analysis.time().step;
             words << (along.unit == "Hz" ? rateText(rate)
-                                         : QStringLiteral("%1 %2/s").arg(powerText(rate, 3), QString::fromStdString(along.unit)));
+                                         : QStringLiteral("%1 %2/s").arg(powerText(rate, 3), labelText(along.unit, mostUnitLetters)));
         }
         return QObject::tr("the state of %1").arg(words.join(QStringLiteral(", ")));
     }
@@ -143,7 +144,7 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
 }
 
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
-    : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(new QLabel), m_plot(new ChartPlot),
+    : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_plot(new ChartPlot),
       m_ladder(new QTableWidget),
       m_sight(new Sight(*this)), m_pause(new QTimer(this))
 {
@@ -182,7 +183,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
             m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
     });
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_sentence->setText(QString::fromUtf8(error.what()));
+        m_sentence->setText(messageText(error.what()));
         emit settled();
     });
     connect(&m_runner, &JobRunner::finished, this, &WhyPanel::settled);

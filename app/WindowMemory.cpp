@@ -1,6 +1,6 @@
 #include "app/WindowMemory.h"
 
-#include <QFileInfo>
+#include "app/filePath.h"
 
 namespace faintline {
 
@@ -33,7 +33,7 @@ void WindowMemory::addRecent(const QString &path)
 {
     if (!m_store)
         return;
-    const QString absolute = QFileInfo(path).absoluteFilePath();
+    const QString absolute = absolutePath(path);
     QStringList paths = recent();
     paths.removeAll(absolute);
     paths.prepend(absolute);

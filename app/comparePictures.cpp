@@ -142,10 +142,11 @@ namespace {
         if (!isFolder)
             return {{QStringLiteral("picture.png"), where}};
         QMap<QString, QString> found;
-        QDirIterator all(where, {QStringLiteral("*.png")}, QDir::Files, QDirIterator::Subdirectories);
+        const QDir folder(QFileInfo(where).absoluteFilePath()); // a name relative to another folder would be its own
+        QDirIterator all(folder.path(), {QStringLiteral("*.png")}, QDir::Files, QDirIterator::Subdirectories);
         while (all.hasNext()) {
             const QString path = all.next();
-            found.insert(QDir(where).relativeFilePath(path), path);
+            found.insert(folder.relativeFilePath(path), path);
         }
         return found;
     }

@@ -3,6 +3,7 @@
 #include "app/MainWindow.h"
 #include "app/Recovery.h"
 #include "app/comparePictures.h"
+#include "app/filePath.h"
 #include "app/readPicture.h"
 #include "app/renderCommand.h"
 #include "app/replayPicture.h"
@@ -205,7 +206,7 @@ namespace {
         if (isChart(options))
             return runRender(argc, argv, options, RenderOptions().size, 1.0, replay);
         qInstallMessageHandler(keepQuiet);
-        const QImage picture = readPicture(QString::fromStdString(options.picture));
+        const QImage picture = readPicture(pathText(options.picture));
         return runRender(argc, argv, options, picture.size(), scaleOf(picture), replay);
     }
 
@@ -234,7 +235,7 @@ namespace {
         for (std::size_t i = 0; i < std::max<std::size_t>(1, files.size()); ++i) {
             windows.push_back(std::make_unique<MainWindow>(WindowMemory::programStore(), Recovery::programFolder()));
             if (i < files.size())
-                windows.back()->open(QString::fromStdString(files[i]), options);
+                windows.back()->open(pathText(files[i]), options);
             windows.back()->show();
         }
         windows.front()->offerRecovery();

@@ -1,10 +1,13 @@
 #include "app/readPicture.h"
 
+#include "app/filePath.h"
 #include "base/Error.h"
 
+#include <QBuffer>
 #include <QImageReader>
 
 #include <cstdio>
+#include <limits>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -44,14 +47,16 @@ namespace {
 
 QImage readPicture(const QString &path)
 {
-    QImageReader reader(path, "png");
+    QByteArray bytes = readBeginning(path, std::numeric_limits<int>::max());
+    QBuffer buffer(&bytes);
+    QImageReader reader(&buffer, "png");
     QImage image;
     {
         const Silence silence;
         image = reader.read();
     }
     if (image.isNull())
-        throw Error(path.toStdString(), "cannot be read as PNG: " + reader.errorString().toStdString());
+        throw Error(pathBytes(path), "cannot be read as PNG: " + reader.errorString().toStdString());
     return image;
 }
 

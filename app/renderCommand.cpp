@@ -11,9 +11,11 @@
 #include "app/WhyPanel.h"
 #include "app/WindowViews.h"
 #include "app/Workbench.h"
+#include "app/filePath.h"
 #include "app/scanScenario.h"
 #include "app/settleViews.h"
 #include "base/AtomicFile.h"
+#include "base/fileName.h"
 #include "base/json.h"
 #include "widgets/PingMap.h"
 
@@ -67,7 +69,7 @@ namespace {
         QObject::connect(&window.controller(), &AnalysisController::failed, &loop,
                          [&](const Error &error) { failure = error; });
         QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
-        window.open(QString::fromStdString(options.source), options.opening,
+        window.open(pathText(options.source), options.opening,
                     [options, settingsOfB](AnalysisSettings &settings) {
                         *settingsOfB = settings;
                         adjust(*settingsOfB, options);
@@ -81,7 +83,7 @@ namespace {
 
     void testScans(MainWindow &window, const RenderOptions &options)
     {
-        ScanTest test = readScanTest(QString::fromStdString(options.source));
+        ScanTest test = readScanTest(pathText(options.source));
         for (const std::string &assignment : options.settings)
             setScanTestField(test, assignment);
         checkScanTest(test);
@@ -95,7 +97,7 @@ namespace {
     /// The window as a lesson's step sets it up.
     void goThroughLesson(MainWindow &window, const RenderOptions &options)
     {
-        const Lesson lesson = readLesson(QString::fromStdString(options.source));
+        const Lesson lesson = readLesson(pathText(options.source));
         const int step = options.step.value_or(1);
         if (!options.settings.empty() || !options.preset.empty())
             throw Error("--set", "does not go with a lesson, which has settings of its own");
@@ -267,6 +269,7 @@ namespace {
 
 void render(const RenderOptions &options)
 {
+    checkEnding(options.out, {".png"});
     for (const std::string &view : options.views)
         if (!WindowViews::names().contains(QString::fromStdString(view)))
             throw Error("--view " + view,
@@ -277,11 +280,11 @@ void render(const RenderOptions &options)
     window.setAsking(false);
     window.resize(options.size);
     window.show();
-    if (isLesson(QString::fromStdString(options.source))) {
+    if (isLesson(pathText(options.source))) {
         goThroughLesson(window, options);
     } else if (options.step) {
         throw Error("--step " + std::to_string(*options.step), "is of a lesson; " + options.source + " is none");
-    } else if (isScanScenario(QString::fromStdString(options.source))) {
+    } else if (isScanScenario(pathText(options.source))) {
         checkViewsOfScans(options.views);
         testScans(window, options);
     } else {
@@ -307,7 +310,8 @@ void render(const RenderOptions &options)
 
 void report(const RenderOptions &options)
 {
-    const QString source = QString::fromStdString(options.source);
+    checkEnding(options.out, {".html"});
+    const QString source = pathText(options.source);
     if (isScanScenario(source) || isLesson(source))
         throw Error(options.source, std::string(isLesson(source) ? "is a lesson" : "is a radar's scenario")
                                         + "; a report is of a recording, of pings, or of a session");
@@ -325,7 +329,7 @@ void report(const RenderOptions &options)
         if (!isBusy)
             loop.quit();
     });
-    writer.write(QString::fromStdString(options.out));
+    writer.write(pathText(options.out));
     loop.exec();
     if (failure)
         throw *failure;

@@ -5,25 +5,27 @@
 #include "app/SequentialPanel.h"
 #include "app/Session.h"
 #include "app/TrajectoryPage.h"
+#include "app/filePath.h"
 #include "app/readPicture.h"
 #include "app/renderCommand.h"
 #include "app/settleViews.h"
 #include "base/AtomicFile.h"
+#include "base/oneLine.h"
 #include "base/readingJson.h"
 
 #include <QDir>
-#include <QFile>
 #include <QFileInfo>
 #include <QTemporaryDir>
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace faintline {
 
 bool isChart(const ReplayOptions &options)
 {
-    return QString::fromStdString(options.picture).endsWith(QLatin1String(".csv"), Qt::CaseInsensitive);
+    return pathText(options.picture).endsWith(QLatin1String(".csv"), Qt::CaseInsensitive);
 }
 
 double scaleOf(const QImage &picture)
@@ -59,11 +61,9 @@ namespace {
             });
             if (view == views.end())
                 throw Error(options.picture, "is of a chart that this version does not have");
-            QFile kept(QString::fromStdString(options.picture));
-            if (!kept.open(QIODevice::ReadOnly))
-                throw Error(options.picture, "cannot be read: " + kept.errorString().toStdString());
-            const bool isSame = kept.readAll().toStdString() == view->csv();
-            std::printf("%s: %s\n", qPrintable(QFileInfo(kept).fileName()), isSame ? "the same bytes" : "differs");
+            const QString kept = pathText(options.picture);
+            const bool isSame = readBeginning(kept, std::numeric_limits<qint64>::max()).toStdString() == view->csv();
+            std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(kept).fileName())).c_str(), isSame ? "the same bytes" : "differs");
             if (!isSame)
                 throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
         } catch (const Json::exception &error) {
@@ -75,7 +75,7 @@ namespace {
 
 void replay(const ReplayOptions &options)
 {
-    const QString path = QString::fromStdString(options.picture);
+    const QString path = pathText(options.picture);
     if (isChart(options))
         return replayChart(options);
     const QImage kept = readPicture(path);
@@ -91,14 +91,13 @@ void replay(const ReplayOptions &options)
         Json session = provenance;
         Json &source = session["recording"];
         if (source.contains("path")) {
-            const QFileInfo beside(QFileInfo(path).absoluteDir().filePath(QString::fromStdString(source["path"].get<std::string>())));
-            const QString recording = options.recording.empty() ? beside.absoluteFilePath()
-                                                                : QFileInfo(QString::fromStdString(options.recording)).absoluteFilePath();
-            if (!QFileInfo::exists(recording))
-                throw Error(recording.toStdString(),
+            const QString beside = QFileInfo(absolutePath(path)).dir().filePath(QString::fromStdString(source["path"].get<std::string>()));
+            const QString recording = absolutePath(options.recording.empty() ? beside : pathText(options.recording));
+            if (!fileExists(recording))
+                throw Error(pathBytes(recording),
                             "is what " + options.picture + " was made from, and is not there; --recording says where it is");
-            if (recordingHash(recording.toStdString()) != source["sha256"].get<std::string>())
-                throw Error(recording.toStdString(), "is not what " + options.picture + " was made from");
+            if (recordingHash(pathBytes(recording)) != source["sha256"].get<std::string>())
+                throw Error(pathBytes(recording), "is not what " + options.picture + " was made from");
             source["path"] = recording.toStdString();
         }
         session.erase("render");
@@ -110,15 +109,15 @@ void replay(const ReplayOptions &options)
         again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
         writeTextFile(again.source, session.dump(2) + "\n");
         try {
-            readSession(QString::fromStdString(again.source));
+            readSession(pathText(again.source));
         } catch (const Error &error) { // of a file of which nobody knows
             throw Error(options.picture, "tells of its making in a broken way: " + std::string(error.what()).substr(again.source.size() + 2));
         }
         render(again);
         const std::string remade = pictureName(again, provenance["render"].at("view").get<std::string>());
-        const bool isSame = QImage(QString::fromStdString(remade)).convertToFormat(QImage::Format_RGB32)
+        const bool isSame = QImage(pathText(remade)).convertToFormat(QImage::Format_RGB32)
                             == kept.convertToFormat(QImage::Format_RGB32);
-        std::printf("%s: %s\n", qPrintable(QFileInfo(path).fileName()), isSame ? "the same pixels" : "differs");
+        std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(path).fileName())).c_str(), isSame ? "the same pixels" : "differs");
         if (!isSame)
             throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
     } catch (const Json::exception &error) {

@@ -1,8 +1,9 @@
 #include "app/saveView.h"
 
 #include "app/Provenance.h"
+#include "app/filePath.h"
 #include "base/AtomicFile.h"
-#include "base/Error.h"
+#include "base/fileName.h"
 
 #include <QBuffer>
 #include <QCoreApplication>
@@ -69,6 +70,7 @@ namespace {
 
 void saveView(QWidget &view, const std::string &csv, const QString &path, const std::string &provenance)
 {
+    checkEnding(pathBytes(path), {".png", ".svg", ".pdf", ".csv"});
     const QString origin = QString::fromStdString(provenance);
     const QString extension = QFileInfo(path).suffix().toLower();
     QByteArray bytes;
@@ -78,11 +80,9 @@ void saveView(QWidget &view, const std::string &csv, const QString &path, const 
         bytes = svg(view, origin);
     else if (extension == QLatin1String("pdf"))
         bytes = pdf(view, origin);
-    else if (extension == QLatin1String("csv"))
-        bytes = QByteArray::fromStdString(csv);
     else
-        throw Error(path.toStdString(), "must end in .png, .svg, .pdf or .csv");
-    writeTextFile(path.toStdString(), bytes.toStdString());
+        bytes = QByteArray::fromStdString(csv);
+    writeTextFile(pathBytes(path), bytes.toStdString());
     if (extension == QLatin1String("csv") && !provenance.empty())
         writeProvenanceBeside(path, provenance);
 }

@@ -1,9 +1,8 @@
 #include "app/scanScenario.h"
 
+#include "app/filePath.h"
 #include "base/Error.h"
 #include "base/json.h"
-
-#include <QFile>
 
 namespace faintline {
 
@@ -13,11 +12,7 @@ namespace {
 
     Json read(const QString &path)
     {
-        const std::string where = path.toStdString();
-        QFile file(path);
-        if (!file.open(QIODevice::ReadOnly))
-            throw Error(where, "cannot be read: " + file.errorString().toStdString());
-        return parseJson(file.read(largestScenario).toStdString(), where);
+        return parseJson(readBeginning(path, largestScenario).toStdString(), pathBytes(path));
     }
 
 } // namespace
@@ -42,7 +37,7 @@ bool isScanScenario(const QString &path)
 
 ScanTest readScanTest(const QString &path)
 {
-    const std::string where = path.toStdString();
+    const std::string where = pathBytes(path);
     const Json json = read(path);
     try {
         const ScanTest test = scanTestOf(scanSceneFromJson(json));

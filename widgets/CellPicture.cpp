@@ -5,6 +5,7 @@
 #include "widgets/NumberScaleDraw.h"
 #include "widgets/Theme.h"
 #include "widgets/deviceRect.h"
+#include "widgets/labelText.h"
 #include "widgets/scaleTicks.h"
 
 #include <qwt_color_map.h>
@@ -152,8 +153,8 @@ void CellPicture::setPicture(const Axis &x, const Axis &y, std::vector<float> va
     m_title = title;
     m_item->forget();
     const auto titleOf = [](const Axis &axis) {
-        const QString name = QString::fromStdString(axis.name);
-        return axis.unit.empty() ? name : QStringLiteral("%1 (%2)").arg(name, QString::fromStdString(axis.unit));
+        const QString name = labelText(axis.name, mostUnitLetters);
+        return axis.unit.empty() ? name : QStringLiteral("%1 (%2)").arg(name, labelText(axis.unit, mostUnitLetters));
     };
     setAxisTitle(QwtAxis::XBottom, titleOf(x));
     setAxisTitle(QwtAxis::YLeft, titleOf(y));

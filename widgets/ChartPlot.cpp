@@ -4,6 +4,7 @@
 #include "widgets/NumberScaleDraw.h"
 #include "widgets/PowerScaleDraw.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 #include "widgets/scaleTicks.h"
 
@@ -46,7 +47,7 @@ namespace {
 
     QString words(const std::string &text)
     {
-        return QString::fromStdString(text);
+        return labelText(text);
     }
 
     std::unique_ptr<QwtSymbol> symbolOf(Curve::Kind kind, std::size_t style, const QColor &colour, const QColor &canvas)
@@ -100,7 +101,7 @@ namespace {
 ChartPlot::ChartPlot(QWidget *parent)
     : QWidget(parent), m_plot(new QwtPlot), m_grid(new QwtPlotGrid), m_ring(new QwtPlotMarker),
       m_sentence(new CanvasSentence), m_row(new QBoxLayout(QBoxLayout::LeftToRight)), m_keyArea(new QScrollArea),
-      m_key(new QWidget), m_keyLayout(new QVBoxLayout(m_key)), m_readOut(new QLabel)
+      m_key(new QWidget), m_keyLayout(new QVBoxLayout(m_key)), m_readOut(plainLabel())
 {
     m_grid->attach(m_plot);
     m_ring->setZ(60.0);
@@ -312,7 +313,7 @@ void ChartPlot::addLabels(std::size_t index)
     for (const Curve::Point &point : m_chart.curves[index].points) {
         if (point.label.empty())
             continue;
-        QwtText text(words(point.label));
+        QwtText text(words(point.label), QwtText::PlainText);
         text.setFont(Theme::plotFont());
         text.setColor(Theme::colours(*this).text);
         auto *item = new QwtPlotMarker;
@@ -385,7 +386,7 @@ void ChartPlot::rebuildKey()
     const bool isSame =
         m_boxes.size() == m_chart.curves.size()
         && std::equal(m_boxes.begin(), m_boxes.end(), m_chart.curves.begin(),
-                      [](const QCheckBox *box, const Curve &curve) { return box->text() == words(curve.name); });
+                      [](const QCheckBox *box, const Curve &curve) { return box->text() == buttonText(words(curve.name)); });
     if (!isSame) {
         while (QLayoutItem *item = m_keyLayout->takeAt(0)) {
             delete item->widget();
@@ -393,7 +394,7 @@ void ChartPlot::rebuildKey()
         }
         m_boxes.clear();
         for (std::size_t i = 0; i < m_chart.curves.size(); ++i) {
-            auto *box = new QCheckBox(words(m_chart.curves[i].name));
+            auto *box = new QCheckBox(buttonText(words(m_chart.curves[i].name)));
             box->setToolTip(tr("Show or hide this curve"));
             box->setChecked(isShown(i));
             box->setIconSize({26, 12});

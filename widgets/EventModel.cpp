@@ -1,5 +1,6 @@
 #include "widgets/EventModel.h"
 
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 
 #include <QGuiApplication>
@@ -135,7 +136,7 @@ QString EventModel::text(const Event &event, int column) const
     case Judged:
         return reviewText(review(event));
     case Note:
-        return QString::fromStdString(review(event).note);
+        return labelText(review(event).note, longestNote);
     default:
         return stateText(event);
     }
@@ -152,7 +153,7 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
     case Qt::ForegroundRole:
         return review(event).verdict == Verdict::Rejected ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText)) : QVariant();
     case Qt::ToolTipRole:
-        return index.column() == Note ? text(event, Note) : QVariant();
+        return index.column() == Note && !text(event, Note).isEmpty() ? QVariant(asHtml(text(event, Note))) : QVariant();
     case SortRole:
         return sortValue(event, index.column());
     case Qt::TextAlignmentRole:
@@ -183,7 +184,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         return {};
     if (role == Qt::TextAlignmentRole)
         return QVariant::fromValue(alignmentOf(section));
-    const auto unit = [this](std::size_t axis) { return QString::fromStdString(m_axes[axis].unit); };
+    const auto unit = [this](std::size_t axis) { return labelText(m_axes[axis].unit, mostUnitLetters); };
     const QString names[] = {tr("№"),
                              hasBearing() ? tr("Range (%1)").arg(unit(0)) : tr("f (Hz)"),
                              hasBearing() ? tr("Bearing (%1)").arg(unit(1)) : tr("Bearing"),

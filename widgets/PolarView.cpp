@@ -3,6 +3,7 @@
 #include "widgets/PingOverlayItem.h"
 #include "widgets/PolarItem.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/quantities.h"
 #include "widgets/scaleTicks.h"
 #include "widgets/waterfallCommands.h"
@@ -134,7 +135,7 @@ void PolarView::followPicture()
 {
     m_raster->setPicture(m_view.picture(), m_view.frequencyAxis());
     if (m_view.picture())
-        m_grid->unit = QString::fromStdString(m_view.picture()->time().unit);
+        m_grid->unit = labelText(m_view.picture()->time().unit, mostUnitLetters);
     restyle();
 }
 

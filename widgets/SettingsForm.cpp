@@ -3,6 +3,7 @@
 #include "widgets/FormSection.h"
 #include "widgets/SettingRow.h"
 #include "widgets/Theme.h"
+#include "widgets/labelText.h"
 #include "widgets/settingWords.h"
 
 #include "analysis/slopeUnit.h"
@@ -38,7 +39,7 @@ namespace {
 
 } // namespace
 
-SettingsForm::SettingsForm(QWidget *parent) : QWidget(parent), m_scroll(new QScrollArea), m_error(new QLabel)
+SettingsForm::SettingsForm(QWidget *parent) : QWidget(parent), m_scroll(new QScrollArea), m_error(plainLabel())
 {
     auto *content = new QWidget;
     m_layout = new QVBoxLayout(content);

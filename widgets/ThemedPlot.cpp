@@ -2,12 +2,15 @@
 
 #include "widgets/Theme.h"
 
+#include <qwt_text.h>
+
 #include <QEvent>
 
 namespace faintline {
 
 ThemedPlot::ThemedPlot(QWidget *parent) : QwtPlot(parent)
 {
+    QwtText::setTextEngine(QwtText::RichText, nullptr); // names and units come from files, whose tags are letters
     setFocusPolicy(Qt::StrongFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     canvas()->setFocusPolicy(Qt::NoFocus);

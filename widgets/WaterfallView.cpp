@@ -8,6 +8,7 @@
 #include "widgets/TimeScaleDraw.h"
 #include "widgets/WaterfallMouse.h"
 #include "widgets/axisWords.h"
+#include "widgets/labelText.h"
 #include "widgets/peakNear.h"
 #include "widgets/scaleTicks.h"
 #include "widgets/steadyAxes.h"
@@ -427,7 +428,7 @@ void WaterfallView::setAnnotations(const std::vector<Annotation> &boxes)
     constexpr double anyHz = 1e12;
     for (const Annotation &box : boxes)
         m_overlay->boxes.push_back({{{box.startSeconds, box.endSeconds}, {box.lowHz.value_or(-anyHz), box.highHz.value_or(anyHz)}},
-                                    QString::fromStdString(box.label), box.verdict == Verdict::Rejected});
+                                    labelText(box.label, 40), box.verdict == Verdict::Rejected});
     replot();
 }
 

@@ -1,5 +1,7 @@
 #include "widgets/axisWords.h"
 
+#include "widgets/labelText.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,19 +11,19 @@ FrequencyUnit shownUnit(const Axis &axis)
 {
     if (axis.unit == "Hz")
         return frequencyUnit(std::max(std::abs(axis.first), std::abs(axis.last())));
-    return {QString::fromStdString(axis.unit), 1.0};
+    return {labelText(axis.unit, mostUnitLetters), 1.0};
 }
 
 QString titleOf(const Axis &axis)
 {
-    const QString name = capitalised(QString::fromStdString(axis.name));
+    const QString name = capitalised(labelText(axis.name, mostUnitLetters));
     const QString unit = shownUnit(axis).name;
     return unit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, unit);
 }
 
 QString valueText(const Axis &axis, double value, double resolution)
 {
-    return numberText(value, decimalsFor(resolution)) + QLatin1Char(' ') + QString::fromStdString(axis.unit);
+    return numberText(value, decimalsFor(resolution)) + QLatin1Char(' ') + labelText(axis.unit, mostUnitLetters);
 }
 
 } // namespace faintline

@@ -2,6 +2,7 @@
 
 #include "widgets/WaterfallView.h"
 #include "widgets/axisWords.h"
+#include "widgets/labelText.h"
 #include "widgets/rasterise.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ QString boxText(const WaterfallView &view, const Viewport::Box &box)
         words << QStringLiteral("Δ ") + valueText(frequency, hz, 0.01 * hz);
     if (seconds > 0.0 && view.hasTime())
         words << WaterfallView::tr("%1 %2/s").arg(powerText(hz / seconds, 3), frequency.unit.empty() ? QStringLiteral("Hz")
-                                                                                                    : QString::fromStdString(frequency.unit));
+                                                                                                    : labelText(frequency.unit, mostUnitLetters));
     const auto cellsOf = [](const Axis &axis, Index count, const Span &span) {
         const auto clamped = [count](double index) { return std::clamp<Index>(std::lround(index), 0, count - 1); };
         return std::pair(clamped(axis.position(span.low)), clamped(axis.position(span.high)) + 1);

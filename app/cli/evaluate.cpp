@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 
 #include "base/Error.h"
+#include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
 #include "base/AtomicFile.h"
@@ -60,7 +61,7 @@ namespace {
     {
         OpenOptions options;
         options.iq = sweep.iq;
-        const SweepTrials trials(sweep, sweep.recording.empty() ? nullptr : openRecording(sweep.recording, options), context);
+        const SweepTrials trials(sweep, sweep.recording.empty() ? nullptr : openRecording(fileNameFromText(sweep.recording), options), context);
         const std::vector<double> seconds = trials.costs(context);
         std::printf("processor time for an hour of recording\n");
         for (std::size_t i = 0; i < seconds.size(); ++i)

@@ -2,7 +2,11 @@
 
 #include "analysis/Review.h"
 #include "analysis/analyse.h"
+<<<<<<< HEAD
 #include "analysis/slopeUnit.h"
+=======
+#include "base/fileName.h"
+>>>>>>> strict18
 #include "base/readingJson.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
@@ -30,7 +34,7 @@ namespace {
     /// The file that the provenance tells of by name and hash.
     std::string find(const Json &source, const std::string &result, const std::string &recording)
     {
-        const std::string name = fs::path(source.at("path").get<std::string>()).filename().string();
+        const std::string name = fs::path(fileNameFromText(source.at("path").get<std::string>())).filename().string();
         const std::string path = recording.empty() ? (fs::absolute(result).parent_path() / name).string() : recording;
         if (!fs::exists(path))
             throw Error(path, "is what " + result + " was made from, and is not there; --recording says where it is");

@@ -1,5 +1,6 @@
 #include "base/fileName.h"
 
+#include "base/Error.h"
 #include "base/oneLine.h"
 
 #include <algorithm>
@@ -36,6 +37,25 @@ std::string fileNameFromText(std::string_view text)
         i += character.size();
     }
     return name;
+}
+
+bool hasEnding(std::string_view path, std::string_view ending)
+{
+    const auto small = [](char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; };
+    return path.size() >= ending.size()
+           && std::equal(ending.begin(), ending.end(), path.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                         [&](char a, char b) { return small(a) == small(b); });
+}
+
+void checkEnding(const std::string &path, const std::vector<std::string> &endings)
+{
+    std::string known;
+    for (std::size_t i = 0; i < endings.size(); ++i) {
+        if (hasEnding(path, endings[i]))
+            return;
+        known += (i == 0 ? "" : i + 1 == endings.size() ? " or " : ", ") + endings[i];
+    }
+    throw Error(path, "must end in " + known);
 }
 
 } // namespace faintline

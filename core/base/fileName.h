@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace faintline {
 
@@ -9,5 +10,11 @@ namespace faintline {
 /// U+10FE00 + byte, from a private area that nobody's names use (KDE's convention).
 std::string textFromFileName(std::string_view name);
 std::string fileNameFromText(std::string_view text);
+
+/// Whether a file's name ends so, in small letters or capitals.
+bool hasEnding(std::string_view path, std::string_view ending);
+
+/// Throws an Error that lists them where a file's name ends in none of these.
+void checkEnding(const std::string &path, const std::vector<std::string> &endings);
 
 } // namespace faintline

@@ -310,22 +310,24 @@ template <class Semiring>
 void Recursion<Semiring>::prepareSlantedTiles()
     requires std::same_as<Semiring, MaxPlus<float>>
 {
-    if (m_isCyclic || m_slideRing > 0 || !m_departures.empty() || !m_rateDepartures.empty() || !m_matrices.empty())
-        return;
-    std::vector<SlantedTiles::Targets> phases;
-    for (const Phase &phase : m_phases) {
-        SlantedTiles::Targets &targets = phases.emplace_back(static_cast<std::size_t>(m_groups));
-        for (Index rate = 0; rate < m_groups; ++rate) {
-            std::vector<SlantedTiles::Source> &sources = targets[static_cast<std::size_t>(rate)];
-            if (phase.first.shifts.empty())
-                sources.push_back({rate, 0, 0.0f});
-            else
-                for (const Shift &shift : phase.first.shifts[static_cast<std::size_t>(rate)])
-                    sources.push_back({shift.from, shift.cells, shift.weight});
+    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
+        if (m_isCyclic || m_slideRing > 0 || !m_departures.empty() || !m_rateDepartures.empty() || !m_matrices.empty())
+            return;
+        std::vector<SlantedTiles::Targets> phases;
+        for (const Phase &phase : m_phases) {
+            SlantedTiles::Targets &targets = phases.emplace_back(static_cast<std::size_t>(m_groups));
+            for (Index rate = 0; rate < m_groups; ++rate) {
+                std::vector<SlantedTiles::Source> &sources = targets[static_cast<std::size_t>(rate)];
+                if (phase.first.shifts.empty())
+                    sources.push_back({rate, 0, 0.0f});
+                else
+                    for (const Shift &shift : phase.first.shifts[static_cast<std::size_t>(rate)])
+                        sources.push_back({shift.from, shift.cells, shift.weight});
+            }
         }
+        if (SlantedTiles tiles(m_rows, std::move(phases)); tiles.areWorthwhile())
+            m_slanted = std::move(tiles);
     }
-    if (SlantedTiles tiles(m_rows, std::move(phases)); tiles.areWorthwhile())
-        m_slanted = std::move(tiles);
 }
 
 template <class Semiring>
@@ -685,13 +687,17 @@ Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<
                                        const Likelihood &likelihood, const FrameJoin &join)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
-    RunContext context;
-    const Index work = std::ssize(frames.y) * m_planeCount;
-    context.threads = static_cast<int>(std::clamp<Index>(work / worthAThread, 1, m_threads));
-    if (std::ssize(frames.y) > m_planeSize)
-        return m_slanted->advance(scores, next, frames.y, frames.statistic, frames.firstStep, likelihood, join,
-                                  context);
-    return advanceOne(scores, next, frames, likelihood, join, context);
+    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
+        RunContext context;
+        const Index work = std::ssize(frames.y) * m_planeCount;
+        context.threads = static_cast<int>(std::clamp<Index>(work / worthAThread, 1, m_threads));
+        if (std::ssize(frames.y) > m_planeSize)
+            return m_slanted->advance(scores, next, frames.y, frames.statistic, frames.firstStep, likelihood, join,
+                                      context);
+        return advanceOne(scores, next, frames, likelihood, join, context);
+    } else {
+        return {};
+    }
 }
 
 template <class Semiring>
@@ -699,47 +705,51 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
                                           const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
     requires std::same_as<Semiring, MaxPlus<float>>
 {
-    scores = prepare(scores, frames.firstStep);
-    fillMargins(scores);
-    m_tileContinued.assign(m_tiles.size(), {});
-    const Phase &phase = phaseOf(frames.firstStep);
-    const auto doTile = [&](Index number, Scratch &own) {
-        const TileRows rows = m_tiles[static_cast<std::size_t>(number)];
-        const Index firstCell = rows.first * m_inner;
-        const Index n = rows.count * m_inner;
-        likelihood.apply(frames.y.subspan(static_cast<std::size_t>(firstCell), static_cast<std::size_t>(n)),
-                         std::span(own.lambda).first(static_cast<std::size_t>(n)));
-        Continued &continued = m_tileContinued[static_cast<std::size_t>(number)];
-        goThroughTile(phase, scores, rows, own, [&](Index firstPlane) {
-            own.targets.clear();
-            for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
-                float *const to = next.data() + (firstPlane + static_cast<Index>(k)) * m_planeSize;
-                own.targets.push_back({own.sourcesOf(k), to});
-                if (firstCell + 2 * n <= m_planeSize)
-                    fetch<true>(to + firstCell + n, n * static_cast<Index>(sizeof(float)));
-            }
-            FrameJoin joined = join;
-            joined.isFresh = firstPlane == 0;
-            const Continued part = finishMax(own.targets, n, 0, firstCell, own.lambda.data(), joined, frames.statistic.data() + firstCell);
-            continued.count += part.count;
-            continued.sum += part.sum;
-        });
-    };
-    // A stretch of tiles for each thread: each fetches the next tile ahead.
-    const Index count = std::ssize(m_tiles);
-    scratch(static_cast<std::size_t>(context.threads) - 1);
-    parallelFor(context.threads, context, "recursion", [&] {
-        return [&](Index thread) {
-            for (Index number = thread * count / context.threads; number < (thread + 1) * count / context.threads; ++number)
-                doTile(number, *m_scratch[static_cast<std::size_t>(thread)]);
+    if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
+        scores = prepare(scores, frames.firstStep);
+        fillMargins(scores);
+        m_tileContinued.assign(m_tiles.size(), {});
+        const Phase &phase = phaseOf(frames.firstStep);
+        const auto doTile = [&](Index number, Scratch &own) {
+            const TileRows rows = m_tiles[static_cast<std::size_t>(number)];
+            const Index firstCell = rows.first * m_inner;
+            const Index n = rows.count * m_inner;
+            likelihood.apply(frames.y.subspan(static_cast<std::size_t>(firstCell), static_cast<std::size_t>(n)),
+                             std::span(own.lambda).first(static_cast<std::size_t>(n)));
+            Continued &continued = m_tileContinued[static_cast<std::size_t>(number)];
+            goThroughTile(phase, scores, rows, own, [&](Index firstPlane) {
+                own.targets.clear();
+                for (std::size_t k = 0; k + 1 < own.firstSource.size(); ++k) {
+                    float *const to = next.data() + (firstPlane + static_cast<Index>(k)) * m_planeSize;
+                    own.targets.push_back({own.sourcesOf(k), to});
+                    if (firstCell + 2 * n <= m_planeSize)
+                        fetch<true>(to + firstCell + n, n * static_cast<Index>(sizeof(float)));
+                }
+                FrameJoin joined = join;
+                joined.isFresh = firstPlane == 0;
+                const Continued part = finishMax(own.targets, n, 0, firstCell, own.lambda.data(), joined, frames.statistic.data() + firstCell);
+                continued.count += part.count;
+                continued.sum += part.sum;
+            });
         };
-    });
-    Continued all;
-    for (const Continued &part : m_tileContinued) { // in this order: a sum in floating point
-        all.count += part.count;
-        all.sum += part.sum;
+        // A stretch of tiles for each thread: each fetches the next tile ahead.
+        const Index count = std::ssize(m_tiles);
+        scratch(static_cast<std::size_t>(context.threads) - 1);
+        parallelFor(context.threads, context, "recursion", [&] {
+            return [&](Index thread) {
+                for (Index number = thread * count / context.threads; number < (thread + 1) * count / context.threads; ++number)
+                    doTile(number, *m_scratch[static_cast<std::size_t>(thread)]);
+            };
+        });
+        Continued all;
+        for (const Continued &part : m_tileContinued) { // in this order: a sum in floating point
+            all.count += part.count;
+            all.sum += part.sum;
+        }
+        return all;
+    } else {
+        return {};
     }
-    return all;
 }
 
 template class Recursion<MaxPlus<float>>;

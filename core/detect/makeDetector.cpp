@@ -14,6 +14,8 @@ namespace {
     struct Overloaded : F... {
         using F::operator()...;
     };
+    template <class... F>
+    Overloaded(F...) -> Overloaded<F...>; // clang 14 does not find it by itself
 
     Index framesOf(double windows, const FrameGeometry &geometry)
     {

@@ -1,6 +1,7 @@
 #include "evaluate/Campaign.h"
 
 #include "base/Error.h"
+#include "base/fileName.h"
 #include "evaluate/PdCurve.h"
 #include "evaluate/sweepCurve.h"
 #include "recording/openRecording.h"
@@ -16,12 +17,14 @@ namespace {
     struct Overloaded : F... {
         using F::operator()...;
     };
+    template <class... F>
+    Overloaded(F...) -> Overloaded<F...>; // clang 14 does not find it by itself
 
     InjectionTrials trialsOf(const InjectionExperiment &experiment, const RunContext &context)
     {
         OpenOptions options;
         options.iq = experiment.iq;
-        return InjectionTrials(experiment, openRecording(experiment.recording, options), context);
+        return InjectionTrials(experiment, openRecording(fileNameFromText(experiment.recording), options), context);
     }
 
     SweepTrials trialsOf(const SweepExperiment &experiment, const RunContext &context)
@@ -30,7 +33,7 @@ namespace {
             return SweepTrials(experiment, nullptr, context);
         OpenOptions options;
         options.iq = experiment.iq;
-        return SweepTrials(experiment, openRecording(experiment.recording, options), context);
+        return SweepTrials(experiment, openRecording(fileNameFromText(experiment.recording), options), context);
     }
 
     std::vector<CurvePoint> curveOfSweep(const Campaign &campaign, const SweepExperiment &sweep)

@@ -24,7 +24,7 @@ namespace faintline {
 /// (y = 0). Thresholds give every detector the same number of false alarms in the rest of this recording (measuredThreshold), counted in
 /// blocks as long as a line and 12 resolution cells wide, on the same statistic that the trials are judged by.
 struct InjectionExperiment {
-    std::string recording; ///< path
+    std::string recording; ///< path, as text (base/fileName.h)
     bool iq = false;       ///< two channels as I and Q
     int seed = 1;
     int trials = 200;

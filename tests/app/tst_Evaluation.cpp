@@ -159,6 +159,8 @@ void tst_Evaluation::curvesComeBackFromFiles()
     const Chart before = m_window->evaluation().pd().chart();
     list.exportTo(id, m_folder.filePath("curve.csv"));
     list.exportTo(id, m_folder.filePath("runs.jsonl"));
+    QVERIFY_EXCEPTION_THROWN(list.exportTo(id, m_folder.filePath("curve.svg")), Error); // JSON lines under a drawing's name
+    QVERIFY(!QFile::exists(m_folder.filePath("curve.svg")));
     // The command line makes the same curve from what stands beside it.
     QProcess replay;
     replay.setWorkingDirectory(m_folder.path());

@@ -152,6 +152,24 @@ private slots:
         QVERIFY(refusal({path("e"), path("e"), {}, false}).empty());
     }
 
+    /// As examples/screenshots/README.md says it.
+    void foldersMayBeRelative()
+    {
+        save(plain({20, 10}), "relative/expected/same.png");
+        save(plain({20, 10}), "relative/out/now/same.png");
+        save(plain({20, 10}), "relative/expected/sub/other.png");
+        save(plain({20, 10}, qRgb(0, 0, 0)), "relative/out/now/sub/other.png");
+        const QString before = QDir::currentPath();
+        QVERIFY(QDir::setCurrent(m_folder.filePath("relative")));
+        const std::vector<CheckedPicture> pictures = checkPictures({"expected", "out/now", "out/report", false});
+        QDir::setCurrent(before);
+        QCOMPARE(pictures.size(), std::size_t(2));
+        QCOMPARE(pictures[0].name, QStringLiteral("same.png"));
+        QCOMPARE(pictures[0].state, CheckedPicture::State::Same);
+        QCOMPARE(pictures[1].state, CheckedPicture::State::Different);
+        QVERIFY(QFile::exists(m_folder.filePath("relative/out/report/difference/sub/other.png")));
+    }
+
     void refusalsAreOneLine()
     {
         save(plain({4, 4}), "p.png");

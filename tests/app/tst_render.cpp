@@ -244,6 +244,8 @@ private slots:
         QTest::newRow("no out") << QStringList{"render", scene} << "--out";
         QTest::newRow("view") << QStringList{"render", scene, "--out", out, "--view", "moon"} << "moon";
         QTest::newRow("view of pings") << QStringList{"render", scene, "--out", out, "--view", "polar"} << "polar";
+        QTest::newRow("another kind of picture") << QStringList{"render", scene, "--out", path("never.jpg")} << "must end in .png";
+        QTest::newRow("another kind of page") << QStringList{"report", scene, "--out", path("never.pdf")} << "must end in .html";
         QTest::newRow("size") << QStringList{"render", scene, "--out", out, "--size", "big"} << "--size";
         QTest::newRow("small") << QStringList{"render", scene, "--out", out, "--size", "400x300"} << "--size";
         QTest::newRow("theme") << QStringList{"render", scene, "--out", out, "--theme", "pink"} << "theme";

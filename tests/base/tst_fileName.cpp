@@ -1,5 +1,6 @@
 #include "base/fileName.h"
 
+#include "base/Error.h"
 #include "base/oneLine.h"
 
 #include <QtTest>
@@ -13,6 +14,7 @@ class tst_fileName : public QObject
 
 private slots:
     void thereAndBack();
+    void endings();
 };
 
 void tst_fileName::thereAndBack()
@@ -28,6 +30,18 @@ void tst_fileName::thereAndBack()
                 QVERIFY(characterLength(text, i) > 0);
             QVERIFY(fileNameFromText(text) == name);
         }
+}
+
+void tst_fileName::endings()
+{
+    QVERIFY(hasEnding("a.CSV", ".csv") && !hasEnding("csv", ".csv") && !hasEnding("a.csv.svg", ".csv"));
+    checkEnding("curve.csv", {".csv", ".jsonl"});
+    try {
+        checkEnding("curve.svg", {".csv", ".json", ".txt"});
+        QFAIL("refuses nothing");
+    } catch (const Error &error) {
+        QCOMPARE(error.what(), "curve.svg: must end in .csv, .json or .txt");
+    }
 }
 
 QTEST_APPLESS_MAIN(tst_fileName)
