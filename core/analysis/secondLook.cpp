@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace faintline {
 
@@ -187,27 +188,46 @@ namespace {
                 std::copy(y.begin() + from, y.begin() + to, strip.row(at) + (from - first));
         }
 
-        void divideByFloor(PathStrip &strip) const
+        /// Answers whether stronger tracks raise it at all.
+        bool divideByFloor(PathStrip &strip) const
         {
+            bool isRaised = false;
             std::vector<float> floor(static_cast<std::size_t>(strip.width()));
             for (Index at = 0; at < strip.frameCount(); ++at) {
                 m_explanations.read(strip.firstFrame + at, strip.firstCell(at), floor);
                 float *y = strip.row(at);
-                for (const float level : floor)
+                for (const float level : floor) {
                     *y++ /= level;
+                    isRaised = isRaised || level > 1.0f;
+                }
             }
+            return isRaised;
+        }
+
+        /// Divides the strip by the floor; answers whether a signal is left that the detector would still have found.
+        bool takeFloorOff(const Track &track, PathStrip &strip) const
+        {
+            const PathStrip before = strip;
+            if (!divideByFloor(strip))
+                return true;
+            const double left = strongestIn(strip, m_model);
+            return left >= m_analysis.threshold || track.peakStatistic - (strongestIn(before, m_model) - left) >= m_analysis.threshold;
         }
 
         void lookAt(Piece &piece)
         {
+            if (piece.isFirst()) // of another track: what came before may now raise the floor
+                for (ExplainedSignal &signal : std::exchange(m_explained, {}))
+                    m_explanations.add(std::move(signal));
             PathStrip &strip = piece.strip;
-            divideByFloor(strip);
             m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame, m_analysis.lnK.begin() + strip.firstFrame + strip.frameCount());
-            if (const std::optional<BothWays> seen = lookBothWays(strip, m_model))
-                for (const Stretch &stretch : stretchesOf(piece, *seen)) {
-                    m_explanations.add(explain(strip, *seen, stretch));
-                    accept(piece, *seen, stretch);
+            if (takeFloorOff(*piece.track, strip)) {
+                const BothWays seen = lookBothWays(strip, m_model);
+                for (const Stretch &stretch : stretchesOf(piece, seen)) {
+                    m_explained.push_back(explain(strip, seen, stretch));
+                    accept(piece, seen, stretch);
                 }
+            }
             strip = {};
         }
 
@@ -339,6 +359,7 @@ namespace {
         Index m_cells;
         const Spectrogram &m_spectrogram;
         Explanations m_explanations;
+        std::vector<ExplainedSignal> m_explained; ///< by the pieces of one track
         BothWaysModel m_model;
         std::vector<Track> m_tracks;
         const Track *m_lastOf = nullptr; ///< what the last of them was found as

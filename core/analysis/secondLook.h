@@ -15,7 +15,7 @@ bool looksTwice(const Analysis &analysis);
 /// first, is looked at in a strip of frames round its path (bothWays.h):
 ///
 ///   1. y is divided by the floor that stronger tracks raise (explanation.h);
-///   2. a track whose evidence does not reach the threshold over that floor any more was theirs: it goes;
+///   2. a track that the detector would not have found over that floor was theirs: it goes;
 ///   3. the stretches where the signal is present stay, joined over up to 24 frames: the one with the largest evidence, and every other
 ///      that reaches the threshold by itself;
 ///   4. what stays is explained: it raises the floor for weaker ones.

@@ -15,7 +15,6 @@ namespace {
     constexpr double largestLevel = 4.0;
     constexpr double levelOfOneFrame = 10.0; ///< from that SNR on, a frame's neighbours are enough for its position
     constexpr double framesAtMost = 8.0;
-    constexpr double rounding = 0.1; ///< nat, between the detector's score and the corridor's
 
     Index inBins(double cells, double binsPerCell)
     {
@@ -56,16 +55,11 @@ namespace {
     public:
         Look(const PathStrip &strip, const BothWaysModel &model) : m_strip(strip), m_model(model) {}
 
-        std::optional<BothWays> run()
+        BothWays run()
         {
-            BothWays seen;
-            for (const Index centre : m_strip.centres)
-                seen.positions.push_back(static_cast<double>(centre));
+            BothWays seen = alongCentres();
             for (int round = 0; round < 2; ++round) {
                 seen.levels = levels(seen);
-                if (round == 0
-                    && strongestPath(corridor(seen, true), *m_model.axis, m_model.lnK, m_strip.firstFrame) < m_model.threshold - rounding)
-                    return {};
                 seen.presence = presenceIn(corridor(seen, false), *m_model.axis, -0.5 * m_model.threshold, m_strip.firstFrame);
                 seen.positions = seen.presence.mean;
             }
@@ -75,7 +69,17 @@ namespace {
             return seen;
         }
 
+        double strongest() { return strongestPath(corridor(alongCentres(), true), *m_model.axis, m_model.lnK, m_strip.firstFrame); }
+
     private:
+        BothWays alongCentres() const
+        {
+            BothWays seen;
+            for (const Index centre : m_strip.centres)
+                seen.positions.push_back(static_cast<double>(centre));
+            return seen;
+        }
+
         std::vector<double> levels(const BothWays &seen) const
         {
             SlidingMean along;
@@ -177,9 +181,14 @@ Index bothWaysHalfWidth(double binsPerCell)
     return 2 * inBins(corridorCells, binsPerCell) + 2;
 }
 
-std::optional<BothWays> lookBothWays(const PathStrip &strip, const BothWaysModel &model)
+BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model)
 {
     return Look(strip, model).run();
+}
+
+double strongestIn(const PathStrip &strip, const BothWaysModel &model)
+{
+    return Look(strip, model).strongest();
 }
 
 } // namespace faintline

@@ -5,7 +5,6 @@
 #include "track/PathStrip.h"
 #include "track/presence.h"
 
-#include <optional>
 #include <vector>
 
 namespace faintline {
@@ -37,8 +36,10 @@ Index bothWaysHalfWidth(double binsPerCell);
 ///   f(t) = maximum of the power averaged along the mean path over ±clamp(10/r, 1, 8) frames, by a parabola through its logarithm, at most
 ///          one bin from the mean
 ///
-/// A line that stops is given up sooner the stronger it is; up to SNR 4, so that a keyed one stays one. Nothing is answered unless the detector's
-/// own score of the strongest path in the corridor reaches the threshold.
-std::optional<BothWays> lookBothWays(const PathStrip &strip, const BothWaysModel &model);
+/// A line that stops is given up sooner the stronger it is; up to SNR 4, so that a keyed one stays one.
+BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model);
+
+/// The detector's own score of the strongest path in the corridor, nat.
+double strongestIn(const PathStrip &strip, const BothWaysModel &model);
 
 } // namespace faintline
