@@ -189,7 +189,7 @@ namespace {
                 }
                 if (c < row.reference.size()) {
                     cell.reference = row.reference[c];
-                    cell.tolerance = tolerance * (options.quick ? std::sqrt(20.0 / quickRuns) : 1.0);
+                    cell.tolerance = tolerance;
                 }
                 cell.ours = points[d][c].pd;
                 cell.interval = points[d][c].interval;
