@@ -6,6 +6,7 @@
 #include "evaluate/reproduceParsons.h"
 
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,10 @@ Interval ReproducedCell::jointInterval() const
     constexpr double byChance = 0.05;
     constexpr double seeds = 20.0;
     const double tail = 0.5 * byChance / (seeds * std::max(1, judgedTogether));
-    const double widening = boost::math::quantile(boost::math::complement(boost::math::normal(), tail)) / single;
+    const double deviations = runs > 1
+        ? boost::math::quantile(boost::math::complement(boost::math::students_t(runs - 1.0), tail))
+        : boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
+    const double widening = deviations / single;
     return {ours - widening * (ours - interval.low), ours + widening * (interval.high - ours)};
 }
 

@@ -25,10 +25,11 @@ struct ReproducedCell {
     Interval interval;               ///< 95 %, of ours; empty (low = high) for exact values
 
     int judgedTogether = 1;          ///< cells of the same table or figure
+    int runs = 0;                    ///< whose scatter the interval is made of: their number counts where they are few; 0: many
 
     bool isJudged() const { return reference.has_value(); }
     /// The interval that holds for all cells judged together, in twenty seeds: it leaves out the reference of one of them by chance once in
-    /// twenty times (Bonferroni).
+    /// twenty times (Bonferroni; Student's law where a scatter of few runs makes it).
     Interval jointInterval() const;
     /// Ours is as near to the reference as the tolerance says, or the joint interval holds the reference.
     bool isInside() const;

@@ -65,6 +65,11 @@ void tst_reproduce::aWrongCellFails()
     for (std::uint64_t seed = 0; seed < 50; ++seed)
         outside += tableOf(40, 0.25, seed).isInside() ? 0 : 1;
     QVERIFY2(outside >= 48, qPrintable(QString::number(outside)));
+    // The scatter of a dozen runs is not known as well as that of many.
+    ReproducedCell few = tableOf(1, 0.0, 1).cells.front();
+    const Interval many = few.jointInterval();
+    few.runs = 12;
+    QVERIFY(few.jointInterval().high > many.high && few.jointInterval().low < many.low);
     // What is exact has no interval to be excused by.
     ReproducedCell exact;
     exact.reference = 1.0;
@@ -76,7 +81,7 @@ void tst_reproduce::aWrongCellFails()
 void tst_reproduce::fewRuns_data()
 {
     QTest::addColumn<QString>("name");
-    for (const char *name : {"billon:table1", "billon:table2", "grossi:figure4", "parsons:figure2"})
+    for (const char *name : {"billon:table2", "grossi:figure4", "parsons:figure2"})
         QTest::newRow(name) << name;
 }
 
