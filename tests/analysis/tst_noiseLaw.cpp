@@ -62,7 +62,7 @@ private slots:
 void tst_noiseLaw::whiteNoiseNeverWarns()
 {
     for (int seed = 1; seed <= 100; ++seed) {
-        const auto law = checkNoiseLaw(*analyse(noiseOf(seed, 40.0), shortWindows()));
+        const auto law = checkNoiseLaw(*analyse(noiseOf(seed, 30.0), shortWindows()));
         QVERIFY(law);
         QVERIFY2(law->isFollowed(), qPrintable(QString("seed %1: %2").arg(seed).arg(QString::fromStdString(law->warning()))));
     }
