@@ -1,6 +1,7 @@
 #include "app/InfoPanel.h"
 
 #include "app/Document.h"
+#include "app/NoiseCheck.h"
 #include "app/statisticUnit.h"
 #include "base/utc.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -121,15 +122,21 @@ namespace {
 
 } // namespace
 
-InfoPanel::InfoPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_label(new QLabel)
+InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, QWidget *parent)
+    : QWidget(parent), m_document(document), m_label(new QLabel), m_check(new NoiseCheck(document, controller))
 {
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     m_label->setAlignment(Qt::AlignTop | Qt::AlignLeft);
     m_label->setMargin(10);
     m_label->setWordWrap(true);
     auto *area = new QScrollArea;
-    area->setWidget(m_label);
+    auto *content = new QWidget;
+    auto *column = new QVBoxLayout(content);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    column->addWidget(m_check);
+    column->addWidget(m_label, 1);
+    area->setWidget(content);
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
     auto *layout = new QVBoxLayout(this);

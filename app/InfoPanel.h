@@ -6,15 +6,19 @@ class QLabel;
 
 namespace faintline {
 
+class AnalysisController;
 class Document;
+class NoiseCheck;
 
-/// In figures: what was opened, how it was cut into spectra, and how the detector answers to noise.
+/// In figures: what was opened, how it was cut into spectra, and how the detector answers to noise, this recording's too.
 class InfoPanel : public QWidget
 {
     Q_OBJECT
 
 public:
-    explicit InfoPanel(const Document &document, QWidget *parent = nullptr);
+    InfoPanel(const Document &document, AnalysisController &controller, QWidget *parent = nullptr);
+
+    NoiseCheck *check() const { return m_check; }
 
     QSize sizeHint() const override { return {380, 220}; }
 
@@ -23,6 +27,7 @@ private:
 
     const Document &m_document;
     QLabel *m_label;
+    NoiseCheck *m_check;
 };
 
 } // namespace faintline

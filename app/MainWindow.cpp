@@ -165,7 +165,7 @@ void MainWindow::buildDocks()
                                  {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
     m_why = new WhyPanel(m_document, m_pings->viewports());
-    m_info = new InfoPanel(m_document);
+    m_info = new InfoPanel(m_document, m_controller);
     m_noiseFit = new NoiseFitPanel(m_document);
     m_states = new StateSlicePanel(m_document, m_pings->viewports());
     m_latency = new LatencyPanel(m_document);

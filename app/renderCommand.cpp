@@ -191,6 +191,8 @@ namespace {
             measureLatency(window);
         if (has("slice"))
             cutStates(window);
+        if (has("noise") || has("window"))
+            settleNoiseCheck(window);
         if (has("noisefit"))
             measureNoise(window);
         for (const char *view : sequentialViews)

@@ -5,6 +5,8 @@
 #include "app/ExperimentForm.h"
 #include "app/LatencyPanel.h"
 #include "app/MainWindow.h"
+#include "app/InfoPanel.h"
+#include "app/NoiseCheck.h"
 #include "app/NoiseFitPanel.h"
 #include "app/OutputLayers.h"
 #include "app/SequentialPanel.h"
@@ -84,6 +86,11 @@ void measureNoise(MainWindow &window)
 {
     window.showNoiseFit();
     waitFor(window.noiseFit());
+}
+
+void settleNoiseCheck(MainWindow &window)
+{
+    waitFor(*window.info().check());
 }
 
 void settleLayers(MainWindow &window)

@@ -19,6 +19,9 @@ void measureNoise(MainWindow &window);
 void cutStates(MainWindow &window);
 void measureLatency(MainWindow &window);
 
+/// Until the noise outside tracks has been looked at.
+void settleNoiseCheck(MainWindow &window);
+
 /// What follows the size of a view that was shown: another one may have more pixels to fill, or smaller ones.
 void settleLayers(MainWindow &window);
 void settleCloseup(MainWindow &window);

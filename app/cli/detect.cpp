@@ -5,6 +5,7 @@
 #include "analysis/analyse.h"
 #include "analysis/explain.h"
 #include "analysis/judgeByBoxes.h"
+#include "analysis/noiseLaw.h"
 #include "analysis/regulation.h"
 #include "base/json.h"
 #include "base/oneLine.h"
@@ -71,6 +72,8 @@ namespace {
         if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
             std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s: strong signals drag it down\n",
                         analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(), time.value(static_cast<double>(dragged.front())));
+        if (const auto law = checkNoiseLaw(analysis); law && !law->isFollowed())
+            std::printf("warning: %s\n", law->warning().c_str());
         std::printf("%zu event(s)\n", found.size());
         for (const Event &e : found) {
             std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);

@@ -24,7 +24,14 @@ struct ReproducedCell {
     double ours = 0.0;
     Interval interval;               ///< 95 %, of ours; empty (low = high) for exact values
 
+    int judgedTogether = 1;          ///< cells of the same table or figure
+    int runs = 0;                    ///< whose scatter the interval is made of: their number counts where they are few; 0: many
+
     bool isJudged() const { return reference.has_value(); }
+    /// The interval that holds for all cells judged together, in twenty seeds: it leaves out the reference of one of them by chance once in
+    /// twenty times (Bonferroni; Student's law where a scatter of few runs makes it).
+    Interval jointInterval() const;
+    /// Ours is as near to the reference as the tolerance says, or the joint interval holds the reference.
     bool isInside() const;
     /// ours - paper, in standard errors of the difference; nothing without a paper's figure or where neither error is known.
     std::optional<double> z() const;
@@ -43,7 +50,7 @@ struct Reproduction {
 };
 
 struct ReproduceOptions {
-    bool quick = false; ///< about a tenth of the trials, for a look; tolerances widen accordingly by 1/√(share)
+    bool quick = false; ///< about a tenth of the trials, for a look
     std::uint64_t seed = 1;
 };
 
@@ -53,6 +60,9 @@ struct Reproducible {
     std::string title;
     std::function<Reproduction(const ReproduceOptions &, const RunContext &)> run;
 };
+
+/// Tells every cell how many are judged together.
+void judgeTogether(Reproduction &reproduction);
 
 /// All of them, in the order of publication.
 const std::vector<Reproducible> &reproducibles();

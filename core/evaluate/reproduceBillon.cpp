@@ -14,7 +14,7 @@ namespace faintline {
 namespace {
 
     constexpr int runs = 60;
-    constexpr int quickRuns = 6;
+    constexpr int quickRuns = 12;
     constexpr double tolerance = 0.04; ///< what 20 runs allow
     constexpr double paperSignals = 90.0;
     constexpr double none = -1.0;      ///< a cell the table leaves empty
@@ -189,10 +189,11 @@ namespace {
                 }
                 if (c < row.reference.size()) {
                     cell.reference = row.reference[c];
-                    cell.tolerance = tolerance * (options.quick ? std::sqrt(20.0 / quickRuns) : 1.0);
+                    cell.tolerance = tolerance;
                 }
                 cell.ours = points[d][c].pd;
                 cell.interval = points[d][c].interval;
+                cell.runs = options.quick ? quickRuns : runs;
                 made.cells.push_back(std::move(cell));
             }
         }

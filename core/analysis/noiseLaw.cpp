@@ -1,0 +1,157 @@
+#include "analysis/noiseLaw.h"
+
+#include "base/Random.h"
+#include "detect/Smd.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index settlingFrames = 100;
+    constexpr Index stretchFrames = 400; ///< with them
+    constexpr Index leastCounted = 20;
+    constexpr double mostCellFrames = 4e6;
+    constexpr double clusterVariance = 16.0; ///< of the fraction, in that of independent states
+    constexpr double deviations = 4.0;
+    constexpr double tolerance = 0.01;
+    constexpr Index widestSkirt = 50; ///< resolution cells
+    constexpr double noiseMean = 1.1;
+    constexpr double overlap = 1.3; ///< deviation of a mean over frames that overlap, in that of independent ones
+
+    /// Part of a track that lies in a stretch, with the power round it.
+    struct Piece {
+        std::vector<TrackPoint> points;
+        std::vector<double> below; ///< Σ y at 0, 1, 2 … bins below the track
+        std::vector<double> above;
+        Index lowest = 0; ///< offsets of what is not taken for noise
+        Index highest = 0;
+    };
+
+    std::vector<Piece> piecesOf(const std::vector<Track> &tracks, Index first, Index end)
+    {
+        std::vector<Piece> pieces;
+        for (const Track &track : tracks) {
+            Piece piece;
+            std::copy_if(track.points.begin(), track.points.end(), std::back_inserter(piece.points),
+                         [&](const TrackPoint &point) { return point.frame >= first && point.frame < end; });
+            if (!piece.points.empty())
+                pieces.push_back(std::move(piece));
+        }
+        return pieces;
+    }
+
+    /// The points of all pieces, by frame.
+    std::multimap<Index, std::pair<Piece *, Index>> byFrame(std::vector<Piece> &pieces)
+    {
+        std::multimap<Index, std::pair<Piece *, Index>> points;
+        for (Piece &piece : pieces)
+            for (const TrackPoint &point : piece.points)
+                points.emplace(point.frame, std::pair(&piece, point.cell));
+        return points;
+    }
+
+    /// Where, going away from a track, the power along it comes down to the noise's.
+    Index endOfSkirt(const std::vector<double> &sums, Index least, Index frames)
+    {
+        const double highest = (noiseMean + 2.0 * overlap / std::sqrt(static_cast<double>(frames))) * static_cast<double>(frames);
+        Index end = least;
+        while (end + 1 < std::ssize(sums)
+               && (sums[static_cast<std::size_t>(end)] > highest || sums[static_cast<std::size_t>(end + 1)] > highest))
+            ++end;
+        return end;
+    }
+
+} // namespace
+
+std::string NoiseLaw::warning() const
+{
+    if (isFollowed())
+        return {};
+    char text[200];
+    const bool isMore = found > expected;
+    std::snprintf(text, sizeof text,
+                  "the noise outside tracks is not what the threshold was calibrated for: %.1f %% of paths go on, %.1f … %.1f %% "
+                  "are expected; expect %s false alarms than ordered",
+                  100.0 * found, 100.0 * band.low, 100.0 * band.high, isMore ? "more" : "fewer");
+    return text;
+}
+
+std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext &context)
+{
+    const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector);
+    const bool isFixed = smd && (smd->reset == SmdSettings::Reset::Calibrated || smd->reset == SmdSettings::Reset::Fixed);
+    const NormalisedFrames &frames = *analysis.frames;
+    const Index count = frames.time().count;
+    const Index cells = frames.grid().size();
+    if (!isFixed || !analysis.recording || !analysis.calibration || count < settlingFrames + leastCounted)
+        return {};
+    const Index length = std::min(stretchFrames, count);
+    const auto stretches = std::clamp<Index>(static_cast<Index>(mostCellFrames / static_cast<double>(length * cells)), 1, count / length);
+    const int binsPerCell = analysis.settings.spectrogram.binsPerCell;
+    const auto least = static_cast<Index>(std::ceil(analysis.settings.decide.inhibitCells.front() * binsPerCell));
+    const auto widest = std::max(least + 1, widestSkirt * binsPerCell);
+    Random random(7000, 0);
+    std::vector<float> y(static_cast<std::size_t>(cells));
+    std::vector<float> statistic(y.size());
+    double sum = 0.0;
+    double counted = 0.0;
+    for (Index stretch = 0; stretch < stretches; ++stretch) {
+        const Index first = stretches == 1 ? (count - length) / 2 : stretch * (count - length) / (stretches - 1);
+        std::vector<Piece> pieces = piecesOf(analysis.tracks, first, first + length);
+        const auto points = byFrame(pieces);
+        for (Piece &piece : pieces) {
+            piece.below.resize(static_cast<std::size_t>(widest));
+            piece.above.resize(static_cast<std::size_t>(widest));
+        }
+        for (auto it = points.begin(); it != points.end();) {
+            context.checkpoint(0.0, "looking at the noise outside tracks");
+            const Index frame = it->first;
+            frames.read(frame, 1, y);
+            for (; it != points.end() && it->first == frame; ++it) {
+                auto &[piece, cell] = it->second;
+                for (Index offset = 0; offset < widest; ++offset) {
+                    const auto at = static_cast<std::size_t>(offset);
+                    piece->below[at] += static_cast<double>(y[static_cast<std::size_t>(std::max<Index>(0, cell - offset))]);
+                    piece->above[at] += static_cast<double>(y[static_cast<std::size_t>(std::min(cells - 1, cell + offset))]);
+                }
+            }
+        }
+        for (Piece &piece : pieces) {
+            piece.lowest = -endOfSkirt(piece.below, least, std::ssize(piece.points));
+            piece.highest = endOfSkirt(piece.above, least, std::ssize(piece.points));
+        }
+        Smd detector(analysis.model, resetRule(*smd, analysis.calibration->lnK));
+        for (Index frame = first; frame < first + length; ++frame) {
+            context.checkpoint(static_cast<double>(stretch * length + frame - first) / static_cast<double>(stretches * length),
+                               "looking at the noise outside tracks");
+            frames.read(frame, 1, y);
+            const auto [from, to] = points.equal_range(frame);
+            for (auto it = from; it != to; ++it)
+                for (Index cell = std::max<Index>(0, it->second.second + it->second.first->lowest);
+                     cell <= std::min(cells - 1, it->second.second + it->second.first->highest); ++cell)
+                    y[static_cast<std::size_t>(cell)] = static_cast<float>(random.exponential());
+            detector.update(y, statistic);
+            if (frame - first < settlingFrames)
+                continue;
+            sum += detector.regulation().continuedFraction;
+            counted += 1.0;
+        }
+    }
+    NoiseLaw law;
+    law.expected = analysis.calibration->continuedFraction;
+    law.found = sum / counted;
+    const double sigma =
+        std::sqrt(clusterVariance * law.expected * (1.0 - law.expected) / (counted * static_cast<double>(cells)));
+    const double half = deviations * sigma + tolerance + 1.0 / static_cast<double>(cells);
+    law.band = {law.expected - half, law.expected + half};
+    return law;
+}
+
+} // namespace faintline

@@ -1,0 +1,89 @@
+#include "app/InfoPanel.h"
+#include "app/NoiseCheck.h"
+#include "app/openWindow.h"
+
+#include <QLabel>
+#include <QPushButton>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// "Count on noise like this recording's": a job that can be stopped, a sentence, and a threshold moved by a click.
+class tst_NoiseCheck : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase()
+    {
+        m_scene = writeFile(m_folder, "noise.json", R"({"sampleRateHz": 200, "durationSeconds": 120, "noise": {"deviation": 1}})");
+    }
+
+    void saysWhatCame()
+    {
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, m_scene));
+        NoiseCheck &check = *window->info().check();
+        QVERIFY(settle(check));
+        QVERIFY(label(check, "noiseWarning")->isHidden()); // white noise follows its law
+        button(check, "countOnSurrogates")->click();
+        QVERIFY(check.isBusy());
+        QCOMPARE(button(check, "countOnSurrogates")->text(), QString("Stop"));
+        QVERIFY(settle(check));
+        const QString said = label(check, "surrogateResult")->text();
+        QVERIFY2(said.contains(" ordered in ") && said.contains("ratio "), qPrintable(said));
+        QVERIFY(!label(check, "surrogateResult")->isHidden());
+        QCOMPARE(button(check, "countOnSurrogates")->text(), QString("Count on noise like this recording's"));
+    }
+
+    void canBeStopped()
+    {
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, m_scene));
+        NoiseCheck &check = *window->info().check();
+        QVERIFY(settle(check));
+        check.toggle();
+        QVERIFY(check.isBusy());
+        check.toggle();
+        QVERIFY(settle(check));
+        QVERIFY(label(check, "surrogateResult")->isHidden());
+    }
+
+    void correctsByAClick()
+    {
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, m_scene));
+        NoiseCheck &check = *window->info().check();
+        QVERIFY(settle(check));
+        const double before = window->document().analysis()->threshold;
+        SurrogateCount count;
+        count.hours = 2.0;
+        count.ordered = 30.0;
+        count.events = 90;
+        count.ratio = 3.0;
+        count.interval = {2.4, 3.7};
+        check.show(count);
+        QVERIFY(button(check, "correctThreshold")->isHidden()); // nothing to correct
+        count.correction = 0.75;
+        check.show(count);
+        QVERIFY(!button(check, "correctThreshold")->isHidden());
+        button(check, "correctThreshold")->click();
+        QVERIFY(settle(*window));
+        QCOMPARE(window->document().settings().decide.by, DecideSettings::By::Nats);
+        QVERIFY(std::abs(window->document().analysis()->threshold - (before + 0.75)) < 0.0051);
+        QVERIFY(button(check, "correctThreshold")->isHidden()); // of other settings it was said
+        QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QCOMPARE(window->document().analysis()->threshold, before);
+    }
+
+private:
+    static QLabel *label(NoiseCheck &check, const char *name) { return check.findChild<QLabel *>(name); }
+    static QPushButton *button(NoiseCheck &check, const char *name) { return check.findChild<QPushButton *>(name); }
+
+    QTemporaryDir m_folder;
+    QString m_scene;
+};
+
+QTEST_MAIN(tst_NoiseCheck)
+#include "tst_NoiseCheck.moc"
