@@ -1,10 +1,7 @@
 #include "app/Source.h"
 
-<<<<<<< HEAD
 #include "analysis/slopeUnit.h"
-=======
 #include "app/filePath.h"
->>>>>>> strict18
 #include "base/json.h"
 #include "exchange/ModelFile.h"
 #include "recording/AudioRecording.h"

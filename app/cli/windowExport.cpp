@@ -2,11 +2,8 @@
 
 #include "analysis/Review.h"
 #include "analysis/analyse.h"
-<<<<<<< HEAD
 #include "analysis/slopeUnit.h"
-=======
 #include "base/fileName.h"
->>>>>>> strict18
 #include "base/readingJson.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
