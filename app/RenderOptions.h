@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/PartOptions.h"
+#include "app/cli/PartOptions.h"
 #include "base/json.h"
 #include "recording/openRecording.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/PartOptions.h"
+#include "app/cli/PartOptions.h"
 
 #include "analysis/AnalysisSettings.h"
 #include "base/Error.h"
