@@ -119,6 +119,15 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<Track> &fo
         line.points.reserve(static_cast<qsizetype>(track.points.size()));
         for (const TrackPoint &point : track.points)
             line.points << QPointF(time.value(static_cast<double>(point.frame)), frequency.value(lastPosition(point, frequency)));
+        if (!track.points.empty() && std::isfinite(track.points.front().low)) {
+            const auto at = [&](const TrackPoint &point, float cell) {
+                return QPointF(time.value(static_cast<double>(point.frame)), frequency.value(static_cast<double>(cell)));
+            };
+            for (const TrackPoint &point : track.points)
+                line.band << at(point, point.low);
+            for (auto point = track.points.rbegin(); point != track.points.rend(); ++point)
+                line.band << at(*point, point->high);
+        }
         lines.push_back(std::move(line));
     }
     return lines;
@@ -137,15 +146,6 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<TruthLine>
         }
         if (line.points.back().x() < one.endSeconds)
             line.points << QPointF(one.endSeconds, one.frequencyHz.back());
-        if (!track.points.empty() && std::isfinite(track.points.front().low)) {
-            const auto at = [&](const TrackPoint &point, float cell) {
-                return QPointF(time.value(static_cast<double>(point.frame)), frequency.value(static_cast<double>(cell)));
-            };
-            for (const TrackPoint &point : track.points)
-                line.band << at(point, point.low);
-            for (auto point = track.points.rbegin(); point != track.points.rend(); ++point)
-                line.band << at(*point, point->high);
-        }
         lines.push_back(std::move(line));
     }
     return lines;
