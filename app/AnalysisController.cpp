@@ -3,6 +3,7 @@
 #include "analysis/knownCalibration.h"
 #include "analysis/lineInNoise.h"
 #include "analysis/slopeUnit.h"
+#include "spectrum/noiseMean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -256,7 +257,8 @@ AnalysisController::Opening AnalysisController::openNow(const QString &path, con
     if (!isSessionPath(path)) {
         OpenedSource opened = openSource(sourceOf(path, options));
         const AnalysisSettings settings = firstSettings(opened);
-        return {std::move(opened), settings, {}, {}, {}};
+        const QString warning = opened.source.isStack() ? QString::fromStdString(noiseMeanWarning(*opened.frames)) : QString();
+        return {std::move(opened), settings, {}, {}, warning};
     }
     const Session session = readSession(path);
     return {openSource(session.source), session.settings, session.view, path, recordingMismatch(session), session.annotations};

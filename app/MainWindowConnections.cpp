@@ -64,6 +64,12 @@ void MainWindow::connectDocument()
         if (m_document.recording())
             m_readOut->setStartUnixSeconds(m_document.recording()->info().startUnixSeconds);
         m_overview->setPicture(nullptr, {});
+        // Nothing of what was open before stays under the new name.
+        m_events->setEvents({});
+        for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
+            one->setEmptySentence(tr("Listening to the noise of %1 …").arg(m_document.source().name()));
+        if (m_pages->currentWidget() != m_welcome)
+            showWorkbench();
         m_iqAction->setChecked(m_document.source().options.iq);
         m_workbench->setPlaying(false);
         m_pings->setPlaying(false);

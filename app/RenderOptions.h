@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/cli/PartOptions.h"
 #include "base/json.h"
 #include "recording/openRecording.h"
 
@@ -31,6 +32,7 @@ struct RenderOptions {
     std::vector<std::string> settingsA; ///< of "compare": those of A alone
     OpenOptions opening;
     std::optional<int> channel;
+    PartOptions part;
     std::optional<int> step;   ///< of a lesson, counted from 1
     bool isFocused = true;     ///< the keys are the view's, which has a frame then
 };

@@ -128,8 +128,8 @@ QWidget *SequentialPanel::buildLeft()
     m_state->setTextFormat(Qt::PlainText);
     m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_start->setToolTip(tr("Run tests on simulated radar scans with these settings; the window stays free meanwhile"));
-    m_onSelection->setToolTip(tr("One test on the recording's frames and frequencies in view, with α and β from above and the signal "
-                                 "model of the pipeline; without a cut-off"));
+    m_onSelection->setToolTip(tr("One test on the recording's frames and frequencies in view, with α, β and the cut-off from above and the "
+                                 "signal model of the pipeline"));
     connect(m_start, &QPushButton::clicked, this, &SequentialPanel::run);
     connect(m_cancel, &QPushButton::clicked, &m_tests, &SequentialTests::cancel);
     connect(m_onSelection, &QPushButton::clicked, this, &SequentialPanel::startOnSelection);
@@ -275,10 +275,8 @@ void SequentialPanel::startOnSelection()
     selection.frameCount = time.nearest(visible.time.high - 0.5 * time.step) - selection.firstFrame + 1;
     selection.firstCell = frequency.nearest(visible.frequency.low + 0.5 * frequency.step);
     selection.cellCount = frequency.nearest(visible.frequency.high - 0.5 * frequency.step) - selection.firstCell + 1;
-    SprtSettings sprt = m_form->test().sprt;
-    sprt.cutOffStage = 0;
     try {
-        m_tests.start(selection, sprt);
+        m_tests.start(selection, m_form->test().sprt);
     } catch (const Error &error) {
         emit failed(error);
     }

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/readProvenance.h"
 
 #include "base/Error.h"
 #include "base/Interruption.h"
@@ -7,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -34,6 +36,17 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
                            faintline::cli::addCalibrate, faintline::cli::addInject, faintline::cli::addSequential,
                            faintline::cli::addCompare, faintline::cli::addReplay, faintline::cli::addBench})
         add(app, common);
+}
+
+/// The word that stands where a command should, if it is none.
+std::string unknownCommand(const CLI::App &app, const std::vector<std::string> &arguments)
+{
+    const std::vector<std::string> rest = faintline::cli::fromCommandOn(arguments);
+    if (rest.empty() || rest.front().starts_with("-"))
+        return {};
+    const std::vector<const CLI::App *> commands = app.get_subcommands([](const CLI::App *) { return true; });
+    const bool isKnown = std::any_of(commands.begin(), commands.end(), [&](const CLI::App *one) { return one->get_name() == rest.front(); });
+    return isKnown ? std::string() : rest.front();
 }
 
 int complain(const std::string &message, int code)
@@ -68,6 +81,8 @@ int main(int argc, char **argv)
             app.exit(error); // --help, --version
             return faintline::flushStandardOutput() ? 0 : complain(unwritable, 1);
         }
+        if (const std::string word = unknownCommand(app, common.arguments); !word.empty())
+            return complain(word + ": is no command; " + programName + " --help lists them", 2);
         return complain(std::string("command line: ") + error.what(), 2);
     } catch (const faintline::Error &error) {
         return complain(error.what(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);

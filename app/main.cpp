@@ -95,6 +95,7 @@ namespace {
         command->add_option("--preset-a", options.presetA, "Settings that A of a comparison begins with");
         command->add_option("--set-a", options.settingsA, "name=value of A of a comparison, as often as wanted")->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
+        options.part.addTo(*command);
         command->add_option("--step", options.step, "Of a lesson (.json with steps): the one shown, counted from 1");
         addOpening(*command, options.opening);
         return command;
@@ -108,6 +109,7 @@ namespace {
         command->add_option("--preset", options.preset, "Settings to begin with");
         command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
+        options.part.addTo(*command);
         addOpening(*command, options.opening);
         return command;
     }

@@ -37,7 +37,9 @@ namespace {
         if (!options.preset.empty())
             settings = preset(options.preset).settings;
         settings.selection.channel = options.channel.value_or(settings.selection.channel);
-        for (const std::string &assignment : options.settings) {
+        std::vector<std::string> all = options.part.assignments();
+        all.insert(all.end(), options.settings.begin(), options.settings.end());
+        for (const std::string &assignment : all) {
             const std::size_t equals = assignment.find('=');
             if (equals == std::string::npos)
                 throw Error("--set " + assignment, "must be name=value");
@@ -83,6 +85,8 @@ namespace {
 
     void testScans(MainWindow &window, const RenderOptions &options)
     {
+        if (!options.part.assignments().empty())
+            throw Error("--from … --high", "choose a part of a recording; a radar's scans are simulated");
         ScanTest test = readScanTest(pathText(options.source));
         for (const std::string &assignment : options.settings)
             setScanTestField(test, assignment);
@@ -99,7 +103,7 @@ namespace {
     {
         const Lesson lesson = readLesson(pathText(options.source));
         const int step = options.step.value_or(1);
-        if (!options.settings.empty() || !options.preset.empty())
+        if (!options.settings.empty() || !options.preset.empty() || !options.part.assignments().empty())
             throw Error("--set", "does not go with a lesson, which has settings of its own");
         if (const auto count = std::ssize(lesson.steps); step < 1 || step > count)
             throw Error("--step " + std::to_string(step), "must lie in 1 … " + std::to_string(count) + " of this lesson");

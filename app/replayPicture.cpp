@@ -73,13 +73,9 @@ namespace {
 
 } // namespace
 
-void replay(const ReplayOptions &options)
+PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, const QString &folder)
 {
-    const QString path = pathText(options.picture);
-    if (isChart(options))
-        return replayChart(options);
-    const QImage kept = readPicture(path);
-    const QString text = kept.text(pictureProvenanceKey());
+    const QString text = picture.text(pictureProvenanceKey());
     if (text.isEmpty())
         throw Error(options.picture, "tells nothing of what it was made from");
     const Json provenance = parseJson(text.toStdString(), options.picture);
@@ -87,11 +83,11 @@ void replay(const ReplayOptions &options)
         if (!provenance.contains("recording") || !provenance.contains("render") || provenance["render"].contains("step"))
             throw Error(options.picture,
                         "is of the whole window, of a radar's scans, or of a lesson: what it tells does not suffice to make it again");
-        const QTemporaryDir folder;
         Json session = provenance;
         Json &source = session["recording"];
         if (source.contains("path")) {
-            const QString beside = QFileInfo(absolutePath(path)).dir().filePath(QString::fromStdString(source["path"].get<std::string>()));
+            const QDir place = QFileInfo(absolutePath(pathText(options.picture))).dir();
+            const QString beside = place.filePath(QString::fromStdString(source["path"].get<std::string>()));
             const QString recording = absolutePath(options.recording.empty() ? beside : pathText(options.recording));
             if (!fileExists(recording))
                 throw Error(pathBytes(recording),
@@ -102,27 +98,40 @@ void replay(const ReplayOptions &options)
         }
         session.erase("render");
         session.erase("version");
-        RenderOptions again = renderOptionsFromJson(provenance["render"]);
-        if (again.size != (kept.size() / again.scale))
+        PictureOrigin origin{renderOptionsFromJson(provenance["render"]), provenance["render"].at("view").get<std::string>()};
+        if (!(origin.options.scale >= 1.0 && origin.options.scale <= 4.0))
+            throw Error(options.picture, "tells of a scale that no picture has; it lies in 1 … 4");
+        if (origin.options.size != picture.size() / origin.options.scale)
             throw Error(options.picture, "tells of another size than it has");
-        again.source = folder.filePath(QStringLiteral("picture.faintline")).toStdString();
-        again.out = folder.filePath(QStringLiteral("picture.png")).toStdString();
-        writeTextFile(again.source, session.dump(2) + "\n");
+        origin.options.source = QDir(folder).filePath(QStringLiteral("picture.faintline")).toStdString();
+        origin.options.out = QDir(folder).filePath(QStringLiteral("picture.png")).toStdString();
+        writeTextFile(origin.options.source, session.dump(2) + "\n");
         try {
-            readSession(pathText(again.source));
+            readSession(pathText(origin.options.source));
         } catch (const Error &error) { // of a file of which nobody knows
-            throw Error(options.picture, "tells of its making in a broken way: " + std::string(error.what()).substr(again.source.size() + 2));
+            throw Error(options.picture,
+                        "tells of its making in a broken way: " + std::string(error.what()).substr(origin.options.source.size() + 2));
         }
-        render(again);
-        const std::string remade = pictureName(again, provenance["render"].at("view").get<std::string>());
-        const bool isSame = QImage(pathText(remade)).convertToFormat(QImage::Format_RGB32)
-                            == kept.convertToFormat(QImage::Format_RGB32);
-        std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(path).fileName())).c_str(), isSame ? "the same pixels" : "differs");
-        if (!isSame)
-            throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+        return origin;
     } catch (const Json::exception &error) {
         throw Error(options.picture, "tells of its making in a broken way: " + complaint(error));
     }
+}
+
+void replay(const ReplayOptions &options)
+{
+    if (isChart(options))
+        return replayChart(options);
+    const QImage kept = readPicture(pathText(options.picture));
+    const QTemporaryDir folder;
+    const PictureOrigin origin = originOf(kept, options, folder.path());
+    render(origin.options);
+    const std::string remade = pictureName(origin.options, origin.view);
+    const bool isSame =
+        QImage(pathText(remade)).convertToFormat(QImage::Format_RGB32) == kept.convertToFormat(QImage::Format_RGB32);
+    std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(pathText(options.picture)).fileName())).c_str(), isSame ? "the same pixels" : "differs");
+    if (!isSame)
+        throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
 }
 
 } // namespace faintline

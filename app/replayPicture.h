@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/RenderOptions.h"
+
 #include <QImage>
 
 #include <string>
@@ -17,6 +19,15 @@ bool isChart(const ReplayOptions &options);
 
 /// Device pixels per pixel that a picture says it was made with, else 1: Qt wants to know before its application begins.
 double scaleOf(const QImage &picture);
+
+/// What a picture tells of its making.
+struct PictureOrigin {
+    RenderOptions options; ///< their source is a session that was written into a folder
+    std::string view;
+};
+
+/// Reads it, looks for the recording and checks that it is the same. Throws Error.
+PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, const QString &folder);
 
 /// Compares pixels, or bytes; prints whether they are the same. Throws Error where they are not, or where it cannot be made again.
 void replay(const ReplayOptions &options);

@@ -11,10 +11,13 @@ minutes=${1:-10}
 if [ ! -f build-fuzz/build.ninja ]; then
     cmake --preset fuzz >/dev/null
 fi
-cmake --build build-fuzz --target faintline-fuzz faintline-cli
+cmake --build build-fuzz --target faintline-fuzz faintline-fuzz-window faintline-cli
 
-fuzz=$PWD/build-fuzz/tests/faintline-fuzz
-parsers=${*:-$(FAINTLINE_FUZZ=LIST "$fuzz")}
+core=$PWD/build-fuzz/tests/faintline-fuzz
+window=$PWD/build-fuzz/tests/faintline-fuzz-window
+ofWindow=" $(FAINTLINE_FUZZ=LIST "$window" | tr '\n' ' ')"
+parsers=${*:-$(FAINTLINE_FUZZ=LIST "$core")$ofWindow}
+export QT_QPA_PLATFORM=offscreen
 count=$(echo $parsers | wc -w)
 seconds=$((minutes * 60 / count))
 [ "$seconds" -gt 0 ] || seconds=1
@@ -39,7 +42,18 @@ if [ ! -d "$seeds" ]; then
         printf 'Selection\tBegin Time (s)\tEnd Time (s)\n1\t2\t3\n' > raven.txt
         printf '1\t2\t[rejected] a\n\\\t3\t4\n' > labels.txt
         printf 'detector,snr_db,pd,pd_low,pd_high,trials,threshold\n"a ""b""",1,0.5,0.4,0.6,10,\n' > curve.csv
-        rm -f ./*.provenance.json
+        mv line.wav.provenance.json provenance.json
+        rm -f ./*.wav.provenance.json ./*.npy.provenance.json ./line.*.provenance.json ./truth-*.provenance.json
+        cat > session.json <<'EOF'
+{"faintline": 1, "recording": {"path": "line.wav", "sha256": "", "iq": true, "rawType": "ci16_le", "rawRateHz": 1000, "rawChannels": 1,
+ "rawHeaderBytes": 0, "injected": [{"line": {"snrDb": 3, "frequencyHz": 99}, "amplitude": 0.1, "channel": 0, "seed": 1}]},
+ "settings": {"decide": {"falseAlarmsPerHour": 1}}, "view": {"seconds": [0, 1], "hz": [0, 9], "cursor": [1, 2], "orientation": "", "colourMap": "",
+ "bearing": [0, 1], "cursorBearing": 3, "polar": true},
+ "annotations": {"reviews": [{"verdict": "accepted", "note": "a", "paths": []}],
+ "boxes": [{"seconds": [1, 2], "hz": [3, 4], "label": "a", "note": "b", "verdict": "rejected"}]}}
+EOF
+        echo '{"faintline": 1, "recording": {"name": "s", "scenario": {"kind": "lines", "lines": []}}, "settings": {}, "render":
+ {"view": "output", "size": [4, 3], "theme": "light", "scale": 1, "time": 1, "set": ["a=b"], "layer": "age", "overlay": true, "focused": false}}' > origin.txt
     )
 fi
 
@@ -49,6 +63,7 @@ for parser in $parsers; do
     corpus=build-fuzz/corpus/$parser
     mkdir -p "$corpus"
     log=build-fuzz/$parser.log
+    case $ofWindow in *" $parser "*) fuzz=$window ;; *) fuzz=$core ;; esac
     FAINTLINE_FUZZ=$parser "$fuzz" "$corpus" "$seeds" -dict=tests/fuzz/words.dict -max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 \
         -max_len=65536 -artifact_prefix="build-fuzz/found/$parser-" -print_final_stats=1 > "$log" 2>&1 || status=1
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")

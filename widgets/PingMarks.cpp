@@ -108,7 +108,7 @@ PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, 
     for (std::size_t i = 0; i < truth.targets.size(); ++i)
         if (auto trail = trailOf(truth.targets[i], static_cast<int>(i) + 1, ping, tailPings))
             marks.truth.push_back(std::move(*trail));
-    if (ping < std::ssize(analysis.inhibitions))
+    if (analysis.settings.decide.inhibits && ping < std::ssize(analysis.inhibitions))
         marks.boxes = boxesOf(analysis, ping);
     return marks;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "app/cli/PartOptions.h"
+
 #include "analysis/AnalysisSettings.h"
 #include "base/Error.h"
 #include "base/RunContext.h"
@@ -40,10 +42,7 @@ struct AnalysisOptions {
     std::string preset;
     std::vector<std::string> assignments; ///< --set name=value
     int channel = -1;
-    double from = 0.0;
-    double to = 0.0;
-    double low = 0.0;
-    double high = 0.0;
+    PartOptions part;
     OpenOptions open;
 
     void addTo(CLI::App &command, Common &common);

@@ -56,10 +56,7 @@ void AnalysisOptions::addTo(CLI::App &command, Common &common)
     command.add_option("--preset", preset, "Named settings to start from (see 'describe')");
     command.add_option("--set", assignments, "A setting, name=value; may be repeated")->take_all()->allow_extra_args(false);
     command.add_option("--channel", channel, "Channel, counted from 0")->check(CLI::Range(0, 1023));
-    command.add_option("--from", from, "Start of the part looked at, s");
-    command.add_option("--to", to, "End of the part looked at, s");
-    command.add_option("--low", low, "Lower edge of the band, Hz");
-    command.add_option("--high", high, "Upper edge of the band, Hz");
+    part.addTo(command);
     command.add_flag("--iq", open.iq, "Take two channels as I and Q");
     command.add_option("--raw-type", open.rawType, "Sample type of a raw file, as in SigMF: ci16_le, rf32_le …");
     command.add_option("--raw-rate", open.rawRateHz, "Sample rate of a raw file, Hz");
@@ -80,15 +77,9 @@ AnalysisSettings AnalysisOptions::settings() const
         settings = faintline::preset("sonar").settings;
     if (channel >= 0)
         settings.selection.channel = channel;
-    if (from != 0.0)
-        setSetting(settings, "selection.fromSeconds", formatNumber(from));
-    if (to != 0.0)
-        setSetting(settings, "selection.toSeconds", formatNumber(to));
-    if (low != 0.0 || high != 0.0) {
-        setSetting(settings, "selection.lowHz", formatNumber(low));
-        setSetting(settings, "selection.highHz", formatNumber(high));
-    }
-    for (const std::string &assignment : assignments) {
+    std::vector<std::string> all = part.assignments();
+    all.insert(all.end(), assignments.begin(), assignments.end());
+    for (const std::string &assignment : all) {
         const std::size_t equals = assignment.find('=');
         if (equals == std::string::npos)
             throw Error("--set " + assignment, "must be name=value, such as spectrogram.windowSeconds=0.5");

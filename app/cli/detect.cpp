@@ -18,6 +18,7 @@
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
+#include "spectrum/noiseMean.h"
 
 #include <CLI/CLI.hpp>
 
@@ -142,11 +143,10 @@ namespace {
             std::printf("%zu annotation(s), %d event(s) judged by them\n", boxes.size(), judged.judged);
     }
 
-    void detect(const DetectOptions &options, const Common &common)
+    void detect(DetectOptions options, const Common &common)
     {
-        if (options.events.empty() && options.tracks.empty() && options.statistic.empty()
-            && options.conventional.empty() && !options.summary)
-            throw Error("detect", "says nothing without at least one of --events, --tracks, --statistic, --summary, --conventional");
+        if (options.events.empty() && options.tracks.empty() && options.statistic.empty() && options.conventional.empty())
+            options.summary = true; // who asks for nothing else wants to know what there is
         if (!options.annotations.empty() && options.events.empty())
             throw Error("--annotations", "is told beside the events; it needs --events");
         if (!options.events.empty())
@@ -214,6 +214,9 @@ namespace {
             printSummary(*analysis);
         if (options.summary && recording && recording->nonFiniteCount() > 0)
             std::printf("some samples are not finite; they are read as 0\n");
+        if (options.summary && !options.frames.empty())
+            if (const std::string warning = noiseMeanWarning(*frames); !warning.empty())
+                std::printf("%s\n", warning.c_str());
         if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)
             printScore(*analysis, *pings);
         if (options.summary && analysis->grid().axes.size() > 1) {
@@ -378,7 +381,7 @@ void addDetect(CLI::App &app, Common &common)
                         "Of pings: write the events of the conventional detector beside it (one ping's threshold, then "
                         "M of N in a gate), like --events");
     addOutput(*command, common, "--statistic", options->statistic, "Write the statistic: .npy, float32, shape (frames, cells…)");
-    command->add_flag("--summary", options->summary, "Say in numbers what was found");
+    command->add_flag("--summary", options->summary, "Say in numbers what was found; so it does where nothing is written");
     command->callback([options, &common] { detect(*options, common); });
 }
 

@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/provenance.h"
+#include "app/cli/readProvenance.h"
 #include "app/cli/windowExport.h"
 
 #include "analysis/CalibrationStore.h"
@@ -29,68 +30,12 @@ namespace {
 
     const std::string suffix = ".provenance.json";
 
-    struct Provenance {
-        std::string version;
-        fs::path folder;
-        std::vector<std::string> arguments;
-        std::vector<std::pair<std::string, std::string>> inputs; ///< name, hash
-        std::vector<std::string> outputs;
-    };
-
-    // Names are bytes, and need not be the text that JSON holds.
-    std::string nameFrom(const Json &text)
-    {
-        return fileNameFromText(text.get<std::string>());
-    }
-
-    std::vector<std::string> namesFrom(const Json &texts)
-    {
-        std::vector<std::string> names;
-        for (const Json &text : texts)
-            names.push_back(nameFrom(text));
-        return names;
-    }
-
     Json textsFrom(const std::vector<std::string> &names)
     {
         Json texts = Json::array();
         for (const std::string &name : names)
             texts.push_back(textFromFileName(name));
         return texts;
-    }
-
-    /// Without what stands before the sub-command: threads and progress, which change no byte.
-    std::vector<std::string> fromCommandOn(std::vector<std::string> arguments)
-    {
-        while (!arguments.empty() && arguments.front().starts_with("--")) {
-            const bool takesNext = arguments.front().find('=') == std::string::npos;
-            arguments.erase(arguments.begin(), arguments.begin() + std::min<std::ptrdiff_t>(takesNext ? 2 : 1, std::ssize(arguments)));
-        }
-        return arguments;
-    }
-
-    Provenance readProvenance(const std::string &path)
-    {
-        const Json json = readJsonFile(path);
-        try {
-            Provenance provenance{json.at("faintline"), nameFrom(json.at("folder")), namesFrom(json.at("arguments")), {},
-                                  namesFrom(json.at("outputs"))};
-            for (const Json &input : json.at("inputs"))
-                provenance.inputs.emplace_back(nameFrom(input.at("file")), input.at("hash"));
-            // What was not written by one of these might do anything, or call itself.
-            constexpr std::string_view commands[]{"detect", "compare", "simulate", "inject"};
-            provenance.arguments = fromCommandOn(provenance.arguments);
-            const bool isKnown = !provenance.arguments.empty()
-                && std::find(std::begin(commands), std::end(commands), provenance.arguments.front()) != std::end(commands);
-            constexpr std::size_t most = 1000;
-            if (provenance.arguments.size() > most || provenance.outputs.size() > most)
-                throw Error(path, "is a longer command line than any that is written here");
-            if (provenance.outputs.empty() || !isKnown)
-                throw Error(path, "is no provenance of something that detect, compare, simulate or inject wrote");
-            return provenance;
-        } catch (const Json::exception &) {
-            throw Error(path, "is no provenance: it needs faintline, folder, arguments, inputs and outputs");
-        }
     }
 
     /// A folder that goes with everything in it.

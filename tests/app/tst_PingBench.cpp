@@ -1,5 +1,6 @@
 // A sonar's pings in the window: opened, stepped through, saved and reopened.
 
+#include "app/MessageBar.h"
 #include "app/LatencyPanel.h"
 #include "app/LawPanel.h"
 #include "app/NoiseFitPanel.h"
@@ -34,6 +35,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace faintline;
 using namespace faintline::test;
@@ -381,6 +383,51 @@ private slots:
         QVERIFY(!w->pingBench().isVisible());
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         QVERIFY(w->pingBench().isVisible());
+    }
+
+    void nothingStaysUnderANewName()
+    {
+        writeFile(m_folder, "before.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
+        const auto w = window();
+        QVERIFY(openAndSettle(*w, path("before.json")));
+        QVERIFY(w->workbench().input()->picture());
+        QSignalSpy opened(&w->document(), &Document::opened);
+        w->open(path("pings.json"), {}, [](AnalysisSettings &settings) { settings = nineRates(settings); });
+        QVERIFY(opened.wait(patience));
+        QVERIFY(!w->document().analysis()); // it is not calibrated yet
+        QVERIFY(w->pingBench().isVisible());
+        QVERIFY(!w->pingBench().output()->plane()->picture());
+        QVERIFY(!w->workbench().input()->picture());
+        QVERIFY(settle(*w));
+        QVERIFY(w->pingBench().output()->plane()->picture());
+        writeFile(m_folder, "other.json", QByteArray(scene).replace("\"seed\": 5", "\"seed\": 6"));
+        w->open(path("other.json"), {}, [](AnalysisSettings &settings) { settings = nineRates(settings); });
+        QVERIFY(opened.wait(patience));
+        QVERIFY(!w->document().analysis());
+        QVERIFY(!w->pingBench().output()->plane()->picture());
+        QCOMPARE(w->eventTable().table()->model()->rowCount(), 0);
+        QVERIFY(settle(*w));
+    }
+
+    void framesOfAnotherScaleAreToldOf()
+    {
+        const auto w = window();
+        QVERIFY(openWithNineRates(*w, path("stack.npy")));
+        QCOMPARE(w->messages().text(), QString());
+        QFile stack(path("stack.npy"));
+        QVERIFY(stack.open(QIODevice::ReadOnly));
+        QByteArray bytes = stack.readAll();
+        const qsizetype values = 24 * 120 * 8;
+        for (qsizetype i = bytes.size() - values * qsizetype(sizeof(float)); i < bytes.size(); i += qsizetype(sizeof(float))) {
+            float y = 0.0f;
+            std::memcpy(&y, bytes.constData() + i, sizeof y);
+            y *= 5.0f;
+            std::memcpy(bytes.data() + i, &y, sizeof y);
+        }
+        writeFile(m_folder, "loud.npy", bytes);
+        QFile::copy(path("stack.grid.json"), path("loud.grid.json"));
+        QVERIFY(openWithNineRates(*w, path("loud.npy")));
+        QVERIFY2(w->messages().text().contains("the noise's mean is about 5"), qPrintable(w->messages().text()));
     }
 
     void aMistakeIsALine()

@@ -343,6 +343,9 @@ void tst_Sequential::aNewRunReplacesTheOld()
 void tst_Sequential::theRecordingsViewIsTested()
 {
     openLine();
+    ScanTest test = panel().form().test();
+    test.sprt.cutOffStage = 0; // 20 stages of the radar's are less than this line takes
+    panel().form().setTest(test);
     Viewport &viewport = m_window->document().viewport();
     viewport.zoomTo({25.0, 50.0}, {100.0, 140.0}); // where the line is
     panel().startOnSelection();
@@ -359,6 +362,18 @@ void tst_Sequential::theRecordingsViewIsTested()
     QVERIFY(std::abs(paths[0].points.back().y() - 120.0) < 4.0);
     QVERIFY(panel().trajectory().posterior().yAxis().first >= 99.0 && panel().trajectory().posterior().yAxis().last() <= 141.0);
     QVERIFY(panel().asn().chart().curves.empty());
+
+    // The cut-off counts as well.
+    const ScanTest before = test;
+    test.sprt.cutOffStage = 3;
+    test.sprt.falseAlarm = 1e-12; // far from decided by then
+    test.sprt.miss = 1e-12;
+    panel().form().setTest(test);
+    panel().startOnSelection();
+    QVERIFY(settle());
+    QCOMPARE(tests().walks()[0].second.stages, Index(3));
+    QVERIFY(tests().walks()[0].second.isForced);
+    panel().form().setTest(before);
 
     viewport.zoomTo({0.0, 15.0}, {300.0, 400.0}); // where there is nothing
     panel().startOnSelection();

@@ -199,6 +199,18 @@ private slots:
         QVERIFY(pixelsOf(path("t1.png")) != pixelsOf(path("t3.png")));
     }
 
+    void theSamePartAsOfTheCommandLine()
+    {
+        const QStringList scene{"render", path("scene.json"), "--view", "input", "--size", "700x500"};
+        const QStringList named{"--set", "selection.fromSeconds=5", "--set", "selection.toSeconds=25", "--set", "selection.lowHz=150", "--set",
+                                "selection.highHz=1e12"};
+        QCOMPARE(run(scene + named + QStringList{"--out", path("named.png")}).error, QByteArray());
+        QCOMPARE(run(scene + QStringList{"--from", "5", "--to", "25", "--low", "150", "--out", path("part.png")}).error, QByteArray());
+        QCOMPARE(run(scene + QStringList{"--out", path("whole.png")}).error, QByteArray());
+        QVERIFY(pixelsOf(path("part.png")) == pixelsOf(path("named.png")));
+        QVERIFY(pixelsOf(path("part.png")) != pixelsOf(path("whole.png")));
+    }
+
     void viewsOfPings()
     {
         QFile file(path("pings.json"));

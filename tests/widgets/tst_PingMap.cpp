@@ -116,6 +116,8 @@ private slots:
         QVERIFY(!marks.boxAt({1200.0, 90.0}));
         QVERIFY(!marks.boxAt({1240.0, 0.0}));
         QVERIFY(pingMarks(analysis, {}, {}, 2).boxes.empty());
+        analysis.settings.decide.inhibits = false; // then nothing is kept from the detector
+        QVERIFY(pingMarks(analysis, {}, {}, 5).boxes.empty());
     }
 
     void truthIsThereWhileItFillsACell()

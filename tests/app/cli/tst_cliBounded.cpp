@@ -70,6 +70,7 @@ void tst_cliBounded::smallFiles_data()
                                                << "\x93NUMPY\x01" + QByteArray(1, '\0') + "\x76" + QByteArray(1, '\0')
             + QByteArray("{'descr': '<f8', 'fortran_order': False, 'shape': (2000000, 1000), }").leftJustified(0x76);
     QTest::newRow("a provenance of many words") << QStringList{"replay", "@"} << QByteArray();
+    QTest::newRow("a provenance of many options") << QStringList{"replay", "@"} << QByteArray();
 }
 
 void tst_cliBounded::smallFiles()
@@ -79,8 +80,9 @@ void tst_cliBounded::smallFiles()
     QVERIFY(text.size() < 1'000'000);
     writeArray(pathOf("frames.npy"), {3, 4}, std::vector<float>(12, 1.0f));
     if (arguments.contains("replay"))
-        writeBytes(pathOf("small.provenance.json"), R"({"faintline": "0", "folder": ".", "inputs": [], "arguments": ["detect", )"
-                       + list("\"small\"", 40000) + R"(], "outputs": [)" + list("\"small\"", 40000) + "]}");
+        writeBytes(pathOf("small.provenance.json"), R"({"faintline": "0", "folder": ".", "inputs": [], "arguments": [)"
+                       + (QByteArray(QTest::currentDataTag()).contains("options") ? list("\"--a\"", 110000) : "\"detect\", " + list("\"small\"", 40000))
+                       + R"(], "outputs": [)" + list("\"small\"", 40000) + "]}");
     arguments.replaceInStrings("@", "small");
     const QString name = arguments.filter("small").constFirst();
     writeBytes(path(name).toStdString(), text);

@@ -29,6 +29,8 @@ private slots:
     void findsTheLine();
     void statisticHasTheFramesShape();
     void threadsChangeNoByte();
+    void saysWhatItFoundWhereNothingIsWritten();
+    void theBandMayHaveOneEdge();
     void keptCalibrationsChangeNoByte();
     void isTheLibrary();
     void explainsItsTerms();
@@ -95,6 +97,25 @@ void tst_cliDetect::statisticHasTheFramesShape()
     const NumPyArray array = readNumPy(pathOf("D.npy"));
     QCOMPARE(array.shape, (std::vector<Index>{119, 501}));
     QVERIFY(std::ranges::all_of(array.values, [](float value) { return std::isfinite(value); }));
+}
+
+void tst_cliDetect::saysWhatItFoundWhereNothingIsWritten()
+{
+    const Outcome asked = run(QStringList{"detect", "line.wav", "--summary"} + lineSettings);
+    const Outcome alone = run(QStringList{"detect", "line.wav"} + lineSettings);
+    QCOMPARE(alone.code, 0);
+    QVERIFY(alone.out.contains("\n1 event(s)\n"));
+    QCOMPARE(alone.out, asked.out);
+    QCOMPARE(run(QStringList{"detect", "line.wav", "--events", "quiet.csv"} + lineSettings).out, QByteArray());
+}
+
+void tst_cliDetect::theBandMayHaveOneEdge()
+{
+    const Outcome above = run(QStringList{"detect", "line.wav", "--low", "150"} + lineSettings);
+    QVERIFY2(above.out.startsWith("119 frames of 351 cells"), (above.out + above.err).data()); // 150 … 500 Hz
+    const Outcome below = run(QStringList{"detect", "line.wav", "--high", "150"} + lineSettings);
+    QVERIFY2(below.out.startsWith("119 frames of 151 cells"), (below.out + below.err).data());
+    QVERIFY(run(QStringList{"detect", "line.wav", "--low", "100", "--high", "300"} + lineSettings).out.startsWith("119 frames of 201 cells"));
 }
 
 void tst_cliDetect::threadsChangeNoByte()

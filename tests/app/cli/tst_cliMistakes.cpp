@@ -36,7 +36,8 @@ void tst_cliMistakes::mistakes_data()
         QTest::newRow(name) << arguments << QString::fromUtf8(message);
     };
     row("nothing asked", {}, "command line: A subcommand is required");
-    row("no such command", {"dtect"}, "command line: ");
+    row("no such command", {"dtect"}, "dtect: is no command; faintline-cli --help lists them");
+    row("no such command after an option", {"--threads", "2", "dtect", "line.wav"}, "dtect: is no command");
     row("no such option", {"detect", "line.wav", "--summery"}, "command line: The following argument was not expected: --summery");
     row("no number", {"detect", "line.wav", "--summary", "--from", "soon"}, "command line: Could not convert: --from = soon");
     row("no threads", {"--threads", "0", "describe"}, "command line: --threads");
@@ -60,7 +61,6 @@ void tst_cliMistakes::mistakes_data()
         "model.lowestSlope = 3: must not exceed");
     row("slopes too steep", {"detect", "line.wav", "--summary", "--set", "model.slopeUnit=hzPerSecond", "--set", "model.highestSlope=1e8"},
         "model.highestSlope = ");
-    row("no output", {"detect", "line.wav"}, "detect: says nothing without at least one of --events");
     row("comparison without a recording", {"compare"}, "command line: FILE is required");
     row("comparison in another format", {"compare", "line.wav", "--events", "e.txt"},
         "e.txt: the kind of file is told by its extension: .csv");
