@@ -49,6 +49,7 @@ NoiseCheck::NoiseCheck(const Document &document, AnalysisController &controller,
     m_result->setObjectName(QStringLiteral("surrogateResult"));
     m_button->setObjectName(QStringLiteral("countOnSurrogates"));
     m_correct->setObjectName(QStringLiteral("correctThreshold"));
+    m_correct->setAccessibleName(tr("Correct the threshold"));
     m_button->setToolTip(tr("Makes noise of this recording's length, colour, levels and gaps without any signal, analyses it as "
                             "this recording was, and counts the events: how many false alarms come for one ordered"));
     m_progress->setRange(0, 1000);

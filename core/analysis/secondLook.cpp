@@ -40,7 +40,8 @@ namespace {
     struct Stretch {
         Index from; ///< frames of the piece's strip
         Index to;   ///< one behind the last
-        double gain;
+        double gain;     ///< of the found path's statistic, nat
+        double evidence; ///< of the mean path, nat
     };
 
     /// Least-squares slope of so many points from `first` on, cells a frame.
@@ -55,6 +56,13 @@ namespace {
             square += t * t;
         }
         return square > 0.0 ? cross / square : 0.0;
+    }
+
+    /// The point of a frame, or the nearest one.
+    const TrackPoint &pointAt(const Track &track, Index frame)
+    {
+        const Index first = track.points.front().frame;
+        return track.points[static_cast<std::size_t>(std::clamp(frame, first, track.points.back().frame) - first)];
     }
 
     class SecondLook
@@ -260,14 +268,20 @@ namespace {
                 if (present[i] <= least)
                     continue;
                 if (stretches.empty() || at - stretches.back().to > largestGapFrames)
-                    stretches.push_back({at, at, 0.0});
+                    stretches.push_back({at, at, 0.0, 0.0});
                 stretches.back().to = at + 1;
-                stretches.back().gain += seen.gains[i];
+                stretches.back().evidence += seen.gains[i];
             }
+            const auto statistic = [&](Index at) { // of the path up to there
+                const Index frame = piece.strip.firstFrame + at;
+                return frame < points.front().frame ? 0.0 : pointAt(*piece.track, frame).statistic;
+            };
+            for (Stretch &stretch : stretches)
+                stretch.gain = statistic(stretch.to - 1) - statistic(stretch.from - 1);
             const auto best = std::max_element(stretches.begin(), stretches.end(), [](const Stretch &a, const Stretch &b) { return a.gain < b.gain; });
             std::vector<Stretch> kept;
             for (auto stretch = stretches.begin(); stretch != stretches.end(); ++stretch)
-                if (stretch == best || stretch->gain >= m_analysis.threshold)
+                if (stretch == best || stretch->evidence >= m_analysis.threshold)
                     kept.push_back(*stretch);
             return kept;
         }
@@ -287,8 +301,7 @@ namespace {
                 const auto i = static_cast<std::size_t>(at);
                 TrackPoint point;
                 point.frame = strip.firstFrame + at;
-                const Index known = std::clamp(point.frame, found.points.front().frame, found.points.back().frame);
-                const TrackPoint &before = found.points[static_cast<std::size_t>(known - found.points.front().frame)];
+                const TrackPoint &before = pointAt(found, point.frame);
                 point.plane = before.plane;
                 point.statistic = before.statistic;
                 point.position = std::clamp(seen.positions[i], 0.0, static_cast<double>(m_cells - 1));

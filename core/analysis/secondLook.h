@@ -16,8 +16,8 @@ bool looksTwice(const Analysis &analysis);
 ///
 ///   1. y is divided by the floor that stronger tracks raise (explanation.h);
 ///   2. a track that the detector would not have found over that floor was theirs: it goes;
-///   3. the stretches where the signal is present stay, joined over up to 24 frames: the one with the largest evidence, and every other
-///      that reaches the threshold by itself;
+///   3. the stretches where the signal is present stay, joined over up to 24 frames: the one in which the path's statistic gained most, and
+///      every other whose own evidence reaches the threshold;
 ///   4. what stays is explained: it raises the floor for weaker ones.
 ///
 /// `found`: by detection, as is the answer, numbered anew. Reads all frames once; memory goes with the tracks' length. Deterministic.

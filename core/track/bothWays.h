@@ -23,7 +23,7 @@ struct BothWays {
     Presence presence;
     std::vector<double> positions; ///< below a cell
     std::vector<double> levels;    ///< signal power over the noise's, mean along the path over ±12 frames
-    std::vector<double> gains;     ///< evidence of the path by the detector's own account, nat
+    std::vector<double> gains;     ///< what the detector's account says of the mean path in each frame: λ + ln K + ln h(0), nat
 };
 
 /// Half-width of a strip that this look needs, in bins.

@@ -73,7 +73,7 @@ private slots:
         QVERIFY(row >= 0);
         const QRect cell = panel.table()->visualItemRect(panel.table()->item(row, 1));
         QTest::mouseClick(panel.table()->viewport(), Qt::LeftButton, {}, cell.center());
-        QVERIFY(std::abs(window.document().viewport().cursor()->hz - 90.0) < 4.0);
+        QVERIFY2(std::abs(window.document().viewport().cursor()->hz - 90.0) < 4.0, qPrintable(QString::number(window.document().viewport().cursor()->hz)));
 
         panel.swapButton()->click();
         settle(window, settled);

@@ -41,6 +41,7 @@ private slots:
     void everyOrientationShowsTheSameCell();
     void contextMenuOffersAndAsks();
     void samePixelsTwice();
+    void theSelectedTrackShowsItsBand();
 
 private:
     void wheel(const QPointF &position, int notches, Qt::KeyboardModifiers modifiers = {});
@@ -88,6 +89,37 @@ void tst_WaterfallView::drag(const QPoint &from, const QPoint &to, Qt::KeyboardM
         QCoreApplication::sendEvent(canvas, &move);
     }
     QTest::mouseRelease(canvas, Qt::LeftButton, modifiers, to);
+}
+
+// A track that was looked at from both ends: the ribbon lies between 5 and 95 % of its position, round the selected one only.
+void tst_WaterfallView::theSelectedTrackShowsItsBand()
+{
+    Track track;
+    track.id = 3;
+    for (Index frame = 20; frame < 60; ++frame) {
+        TrackPoint point;
+        point.frame = frame;
+        point.cell = 100;
+        point.position = 100.3;
+        point.low = 80.0f;
+        point.high = 120.0f;
+        track.points.push_back(point);
+    }
+    track.onsetFrame = 20;
+    track.endFrame = 59;
+    const Axis &time = m_view->picture()->time();
+    const Axis hz = test::hzAxis(200);
+    m_view->setLayer(WaterfallView::TrackLayer, true);
+    m_view->setTracks({track}, time);
+    const QPoint inside = pixel(time.value(40.0), hz.value(90.0));
+    const QPoint outside = pixel(time.value(40.0), hz.value(70.0));
+    const QImage before = m_view->canvas()->grab().toImage();
+    m_view->setSelectedEvent(3);
+    const QImage after = m_view->canvas()->grab().toImage();
+    if (const QByteArray file = qgetenv("FAINTLINE_LOOK"); !file.isEmpty())
+        after.save(QString::fromLocal8Bit(file));
+    QVERIFY(after.pixelColor(inside) != before.pixelColor(inside));
+    QCOMPARE(after.pixelColor(outside), before.pixelColor(outside));
 }
 
 void tst_WaterfallView::wheelScrollsAndZooms()

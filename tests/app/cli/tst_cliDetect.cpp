@@ -81,7 +81,7 @@ void tst_cliDetect::findsTheLine()
     QVERIFY2(std::abs(event[4] - (210.0 + 0.2 * (event[2] - 8.0))) < 2.5, csv.data());
 
     const QByteArray tracksCsv = content("tracks.csv");
-    QVERIFY(tracksCsv.startsWith("track,t,f,statistic\n"));
+    QVERIFY(tracksCsv.startsWith("track,t,f,statistic,f_low,f_high,presence,snr_db\n"));
     const auto rows = numbersOf(tracksCsv);
     QCOMPARE(rows.front()[1], event[1]); // from onset …
     QCOMPARE(rows.back()[1], event[3]);  // … to end, a row per frame
