@@ -1,6 +1,7 @@
 #include "app/Document.h"
 
 #include "analysis/slopeUnit.h"
+
 #include <QElapsedTimer>
 #include <QUndoCommand>
 

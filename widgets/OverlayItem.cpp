@@ -117,17 +117,15 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<Track> &fo
     for (const Track &track : followed) {
         Line line{track.id, {}};
         line.points.reserve(static_cast<qsizetype>(track.points.size()));
-        for (const TrackPoint &point : track.points)
-            line.points << QPointF(time.value(static_cast<double>(point.frame)), frequency.value(lastPosition(point, frequency)));
-        if (!track.points.empty() && std::isfinite(track.points.front().low)) {
-            const auto at = [&](const TrackPoint &point, float cell) {
-                return QPointF(time.value(static_cast<double>(point.frame)), frequency.value(static_cast<double>(cell)));
-            };
-            for (const TrackPoint &point : track.points)
-                line.band << at(point, point.low);
-            for (auto point = track.points.rbegin(); point != track.points.rend(); ++point)
-                line.band << at(*point, point->high);
-        }
+        const auto at = [&](std::size_t i, double cell) {
+            return QPointF(time.value(static_cast<double>(track.points[i].frame)), frequency.value(cell));
+        };
+        for (std::size_t i = 0; i < track.points.size(); ++i)
+            line.points << at(i, track.lastPosition(i, frequency));
+        for (std::size_t i = 0; i < track.smoothed.size(); ++i)
+            line.band << at(i, static_cast<double>(track.smoothed[i].low));
+        for (std::size_t i = track.smoothed.size(); i-- > 0;)
+            line.band << at(i, static_cast<double>(track.smoothed[i].high));
         lines.push_back(std::move(line));
     }
     return lines;

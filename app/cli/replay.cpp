@@ -153,7 +153,6 @@ namespace {
         return name.ends_with(".png") || name.ends_with(".svg") || name.ends_with(".pdf") || name.ends_with(".html");
     }
 
-    /// Every file that the provenance names among what went in, before anything is made of it.
     /// Both files of a recording. Annotations of that name have no samples.
     void checkSigmf(const std::string &file, const ReadableFolders &readable)
     {
@@ -169,6 +168,7 @@ namespace {
         readable.check(samples);
     }
 
+    /// Every file that the provenance names among what went in, before anything is made of it.
     void checkInputs(const Provenance &provenance, const std::string &result, const ReadableFolders &readable)
     {
         for (const auto &[file, hash] : provenance.inputs) {

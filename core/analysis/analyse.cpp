@@ -159,10 +159,11 @@ namespace {
         Checkpoints<DetectionChain::Snapshot> checkpoints(checkpointInterval(analysis), memoryShares::checkpoints);
         std::vector<float> scores;
         FrameStream stream(frames, context.threads > 1);
+        const RunContext detecting = context.part(0.0, 0.9);
         for (std::vector<float> block = stream.next(); !block.empty(); block = stream.next()) {
             const Index count = std::ssize(block) / cells;
             const Index first = stream.position() - count;
-            context.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), "detecting");
+            detecting.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), "detecting");
             scores.resize(block.size());
             for (Index i = 0; i < count; ++i) {
                 const auto offset = static_cast<std::size_t>(i * cells);
@@ -199,7 +200,7 @@ namespace {
                 analysis.inputAlong = alongEachAxis(*analysis.input, frames.grid());
             analysis.statisticAlong = alongEachAxis(*statistic, frames.grid());
         }
-        analysis.tracks = looksTwice(analysis) ? lookTwice(analysis, chain->takeJoinedTracks(), context) : chain->takeJoinedTracks();
+        analysis.tracks = looksTwice(analysis) ? lookTwice(analysis, chain->takeJoinedTracks(), context.part(0.9, 1.0)) : chain->takeJoinedTracks();
         analysis.conventional = conventional.tracks();
     }
 
@@ -215,11 +216,12 @@ namespace {
         double sumTT = 0.0;
         double sumTF = 0.0;
         double before = 0.0;
-        for (const TrackPoint &point : track.points) {
+        const bool isLast = along + 1 == grid.axes.size();
+        for (std::size_t i = 0; i < track.points.size(); ++i) {
+            const TrackPoint &point = track.points[i];
             const double t = static_cast<double>(point.frame - track.points.front().frame) * time.step;
-            const bool isLast = along + 1 == grid.axes.size();
-            double f = axis.value(isLast ? lastPosition(point, axis) : static_cast<double>(point.cell / grid.stride(along) % axis.count));
-            if (axis.cyclic && &point != &track.points.front()) {
+            double f = axis.value(isLast ? track.lastPosition(i, axis) : static_cast<double>(point.cell / grid.stride(along) % axis.count));
+            if (axis.cyclic && i > 0) {
                 const double turn = axis.step * static_cast<double>(axis.count);
                 f += turn * std::round((before - f) / turn);
             }
@@ -238,7 +240,7 @@ namespace {
         const auto count = static_cast<double>(track.points.size());
         double level = 0.0;
         double band = 0.0;
-        for (const TrackPoint &point : track.points) {
+        for (const SmoothedPoint &point : track.smoothed) {
             level += static_cast<double>(point.level) / count;
             band += static_cast<double>(point.high - point.low) / count;
         }
@@ -273,8 +275,8 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
         event.endSeconds = time.value(static_cast<double>(track.endFrame));
         const auto at = std::find_if(track.points.begin(), track.points.end(),
                                      [&](const TrackPoint &point) { return point.frame >= track.detectFrame; });
-        const TrackPoint &point = at == track.points.end() ? track.points.back() : *at;
-        event.position = positionOf(point, grid);
+        const auto detection = static_cast<std::size_t>(std::min(at, track.points.end() - 1) - track.points.begin());
+        event.position = track.positionOf(detection, grid);
         for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
             event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
         event.driftPerSecond = event.ratesPerSecond.back();
@@ -282,7 +284,7 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
         event.statistic = statisticOf(track, analysis);
         event.isConfirmed = track.isConfirmed;
         event.isOpen = track.isOpen;
-        if (track.points.front().position == track.points.front().position)
+        if (!track.smoothed.empty())
             describe(event, track, analysis);
         result.push_back(std::move(event));
     }

@@ -14,17 +14,17 @@ namespace faintline {
 
 namespace {
 
+    constexpr std::string_view following = "following tracks both ways";
     constexpr Index extraFrames = 16;      ///< before and behind a path that presence is looked for in
     constexpr Index slopeFrames = 24;      ///< at either end of it, for where it may go on
     constexpr Index largestGapFrames = 24; ///< between two stretches of one signal
     constexpr double levelCells = 0.75;    ///< where a signal's own maximum lies, on either side
     constexpr Index skirtBins = 96;        ///< on either side of strong tracks
     constexpr double strongGrowth = 2.0;   ///< nats a frame
-    constexpr std::size_t blockBytes = std::size_t(4) << 20;
-
-    constexpr Index longestPiece = 16384;  ///< frames of a track that are looked at together
+    constexpr std::size_t blockBytes = std::size_t(1) << 20;
+    constexpr Index longestPiece = 4096;   ///< frames of a track that are looked at together
     constexpr Index pieceOverlap = 64;     ///< frames of the neighbouring pieces that are looked at too
-    constexpr std::size_t stripBytes = std::size_t(48) << 20; ///< that are read at a time
+    constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< that are read at a time
 
     /// A track as it was found, or of a long one some thousand frames.
     struct Piece {
@@ -38,10 +38,18 @@ namespace {
     };
 
     struct Stretch {
-        Index from; ///< frames of the piece's strip
-        Index to;   ///< one behind the last
+        Index from;      ///< frames of the piece's strip
+        Index to;        ///< one behind the last
         double gain;     ///< of the found path's statistic, nat
         double evidence; ///< of the mean path, nat
+    };
+
+    /// What becomes of a stretch, or of several that the cuts between pieces had parted.
+    struct Candidate {
+        Track track;
+        std::vector<ExplainedSignal> signals;
+        double gain;
+        double evidence;
     };
 
     /// Least-squares slope of so many points from `first` on, cells a frame.
@@ -93,10 +101,12 @@ namespace {
                     bytes += sizeof(float) * static_cast<std::size_t>(strip.frameCount() * strip.width());
                 }
                 const std::span<Piece> some = std::span(pieces).subspan(first, end - first);
-                readStrips(some, m_context.part(static_cast<double>(first) / static_cast<double>(pieces.size()),
-                                                static_cast<double>(end) / static_cast<double>(pieces.size())));
-                for (Piece &piece : some)
+                const auto done = [&](std::size_t piece) { return static_cast<double>(piece) / static_cast<double>(pieces.size()); };
+                readStrips(some, m_context.part(done(first), 0.5 * (done(first) + done(end))));
+                for (Piece &piece : some) {
+                    m_context.checkpoint(done(end), following);
                     lookAt(piece);
+                }
                 first = end;
             }
             std::stable_sort(m_tracks.begin(), m_tracks.end(), [](const Track &a, const Track &b) {
@@ -163,7 +173,7 @@ namespace {
             std::size_t next = 0;
             std::vector<float> values;
             for (Index first = 0; first < frameCount && (next < strips.size() || !open.empty()); first += block) {
-                context.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), "following tracks both ways");
+                context.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), following);
                 const Index count = std::min(block, frameCount - first);
                 for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
                     PathStrip &strip = *strips[next];
@@ -224,34 +234,54 @@ namespace {
 
         void lookAt(Piece &piece)
         {
-            if (piece.isFirst()) // of another track: what came before may now raise the floor
-                for (ExplainedSignal &signal : std::exchange(m_explained, {}))
-                    m_explanations.add(std::move(signal));
             PathStrip &strip = piece.strip;
             m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame, m_analysis.lnK.begin() + strip.firstFrame + strip.frameCount());
             if (takeFloorOff(*piece.track, strip)) {
                 const BothWays seen = lookBothWays(strip, m_model);
-                for (const Stretch &stretch : stretchesOf(piece, seen)) {
-                    m_explained.push_back(explain(strip, seen, stretch));
-                    accept(piece, seen, stretch);
-                }
+                for (const Stretch &stretch : stretchesOf(piece, seen))
+                    propose(piece, seen, stretch);
             }
             strip = {};
+            if (piece.isLast())
+                accept();
         }
 
-        void accept(const Piece &piece, const BothWays &seen, const Stretch &stretch)
+        void propose(const Piece &piece, const BothWays &seen, const Stretch &stretch)
         {
             Track track = trackOf(piece, seen, stretch);
-            const bool goesOn = !piece.isFirst() && m_lastOf == piece.track && m_tracks.back().endFrame + 1 == track.onsetFrame;
-            m_lastOf = piece.track;
-            if (!goesOn) {
-                m_tracks.push_back(std::move(track));
+            ExplainedSignal signal = explain(piece.strip, seen, stretch);
+            if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
+                if (!piece.isLast()) { // it is going to be long: no room beyond that
+                    track.points.reserve(piece.track->points.size() - piece.from + 2 * static_cast<std::size_t>(extraFrames));
+                    track.smoothed.reserve(track.points.capacity());
+                }
+                m_candidates.push_back({std::move(track), {std::move(signal)}, stretch.gain, stretch.evidence});
                 return;
             }
-            Track &before = m_tracks.back();
-            before.endFrame = track.endFrame;
-            before.isOpen = track.isOpen;
-            before.points.insert(before.points.end(), track.points.begin(), track.points.end());
+            Candidate &before = m_candidates.back();
+            before.track.endFrame = track.endFrame;
+            before.track.isOpen = track.isOpen;
+            before.track.points.insert(before.track.points.end(), track.points.begin(), track.points.end());
+            before.track.smoothed.insert(before.track.smoothed.end(), track.smoothed.begin(), track.smoothed.end());
+            before.signals.push_back(std::move(signal));
+            before.gain += stretch.gain;
+            before.evidence += stretch.evidence;
+        }
+
+        /// Of a track's stretches the one whose gain is largest, and every other with enough evidence of its own.
+        void accept()
+        {
+            const auto best = std::max_element(m_candidates.begin(), m_candidates.end(), [](const Candidate &a, const Candidate &b) { return a.gain < b.gain; });
+            for (auto candidate = m_candidates.begin(); candidate != m_candidates.end(); ++candidate) {
+                if (candidate != best && candidate->evidence < m_analysis.threshold)
+                    continue;
+                if (candidate != best)
+                    candidate->track.peakStatistic = candidate->evidence;
+                m_tracks.push_back(std::move(candidate->track));
+                for (ExplainedSignal &signal : candidate->signals)
+                    m_explanations.add(std::move(signal));
+            }
+            m_candidates.clear();
         }
 
         /// The stretches of a piece, without what its neighbours will tell.
@@ -278,12 +308,7 @@ namespace {
             };
             for (Stretch &stretch : stretches)
                 stretch.gain = statistic(stretch.to - 1) - statistic(stretch.from - 1);
-            const auto best = std::max_element(stretches.begin(), stretches.end(), [](const Stretch &a, const Stretch &b) { return a.gain < b.gain; });
-            std::vector<Stretch> kept;
-            for (auto stretch = stretches.begin(); stretch != stretches.end(); ++stretch)
-                if (stretch == best || stretch->evidence >= m_analysis.threshold)
-                    kept.push_back(*stretch);
-            return kept;
+            return stretches;
         }
 
         Track trackOf(const Piece &piece, const BothWays &seen, const Stretch &stretch) const
@@ -299,18 +324,10 @@ namespace {
                 track.confirmFrame = std::max(found.confirmFrame, track.detectFrame);
             for (Index at = stretch.from; at < stretch.to; ++at) {
                 const auto i = static_cast<std::size_t>(at);
-                TrackPoint point;
-                point.frame = strip.firstFrame + at;
-                const TrackPoint &before = pointAt(found, point.frame);
-                point.plane = before.plane;
-                point.statistic = before.statistic;
-                point.position = std::clamp(seen.positions[i], 0.0, static_cast<double>(m_cells - 1));
-                point.cell = static_cast<Index>(std::lround(point.position));
-                point.low = seen.presence.low[i];
-                point.high = seen.presence.high[i];
-                point.presence = seen.presence.present[i];
-                point.level = static_cast<float>(seen.levels[i]);
-                track.points.push_back(point);
+                const double position = std::clamp(seen.positions[i], 0.0, static_cast<double>(m_cells - 1));
+                const TrackPoint &before = pointAt(found, strip.firstFrame + at);
+                track.points.push_back({strip.firstFrame + at, static_cast<Index>(std::lround(position)), before.plane, before.statistic});
+                track.smoothed.push_back({position, seen.presence.low[i], seen.presence.high[i], seen.presence.present[i], static_cast<float>(seen.levels[i])});
             }
             return track;
         }
@@ -372,10 +389,9 @@ namespace {
         Index m_cells;
         const Spectrogram &m_spectrogram;
         Explanations m_explanations;
-        std::vector<ExplainedSignal> m_explained; ///< by the pieces of one track
         BothWaysModel m_model;
+        std::vector<Candidate> m_candidates; ///< of the track that is being looked at
         std::vector<Track> m_tracks;
-        const Track *m_lastOf = nullptr; ///< what the last of them was found as
     };
 
 } // namespace
@@ -384,6 +400,7 @@ bool looksTwice(const Analysis &analysis)
 {
     return analysis.settings.track.bothWays && analysis.grid().axes.size() == 1 && analysis.bank.empty()
         && std::holds_alternative<SmdSettings>(analysis.settings.detector)
+        && analysis.settings.model.likelihood != LikelihoodKind::Linear
         && dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr;
 }
 

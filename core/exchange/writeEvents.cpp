@@ -39,10 +39,11 @@ namespace {
         return joined(words);
     }
 
+    const std::vector<std::string> smoothedColumns{"f_low", "f_high", "presence", "snr_db"};
+
     /// 5 and 95 % of a point's position, probability that the signal is there, and its SNR in one frame.
-    std::vector<double> sightOf(const Grid &grid, const TrackPoint &point)
+    std::vector<double> numbersOf(const SmoothedPoint &point, const Axis &axis)
     {
-        const Axis &axis = grid.axes.back();
         return {axis.value(static_cast<double>(point.low)), axis.value(static_cast<double>(point.high)), static_cast<double>(point.presence),
                 dbFromRatio(static_cast<double>(point.level))};
     }
@@ -58,8 +59,8 @@ namespace {
     }
 
     /// What is known of tracks that were looked at from both ends.
-    const std::vector<std::string> sightNames{"snr_db", "band_hz", "noise_probability"};
-    std::vector<double> sightOf(const Event &e)
+    const std::vector<std::string> smoothedNames{"snr_db", "band_hz", "noise_probability"};
+    std::vector<double> smoothedOf(const Event &e)
     {
         return {e.snrDb, e.bandWidth, e.noiseProbability};
     }
@@ -72,13 +73,13 @@ namespace {
         names.insert(names.end(), rates.begin(), rates.end());
         const bool isSeenTwice = looksTwice(analysis);
         if (isSeenTwice)
-            names.insert(names.end(), sightNames.begin(), sightNames.end());
+            names.insert(names.end(), smoothedNames.begin(), smoothedNames.end());
         std::string text = joined(names) + "\n";
         for (const Event &e : events(analysis)) {
             const std::vector<std::string> cells{std::to_string(e.id), formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
                                                  formatNumber(e.endSeconds), joined(e.position), formatNumber(e.driftPerSecond),
                                                  formatNumber(e.statistic), e.isConfirmed ? "1" : "0", e.isOpen ? "1" : "0"};
-            text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond)) + (isSeenTwice ? "," + joined(sightOf(e)) : "") + "\n";
+            text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond)) + (isSeenTwice ? "," + joined(smoothedOf(e)) : "") + "\n";
         }
         return text;
     }
@@ -100,8 +101,8 @@ namespace {
         json["statistic"] = e.statistic;
         json["confirmed"] = e.isConfirmed;
         json["open"] = e.isOpen;
-        for (std::size_t i = 0; i < sightNames.size() && !std::isnan(e.snrDb); ++i)
-            json[sightNames[i]] = sightOf(e)[i];
+        for (std::size_t i = 0; i < smoothedNames.size() && !std::isnan(e.snrDb); ++i)
+            json[smoothedNames[i]] = smoothedOf(e)[i];
         return json;
     }
 
@@ -152,8 +153,9 @@ namespace {
             const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [&](const Track &t) { return t.id == e.id; });
             double low = e.position.back();
             double high = low;
-            for (const TrackPoint &point : track->points) {
-                const double hz = analysis.grid().axes.back().value(lastPosition(point, analysis.grid().axes.back()));
+            const Axis &frequency = analysis.grid().axes.back();
+            for (std::size_t i = 0; i < track->points.size(); ++i) {
+                const double hz = frequency.value(track->lastPosition(i, frequency));
                 low = std::min(low, hz);
                 high = std::max(high, hz);
             }
@@ -176,13 +178,14 @@ namespace {
     {
         const bool isSeenTwice = looksTwice(analysis);
         std::string text = joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
-            + (isSeenTwice ? ",f_low,f_high,presence,snr_db\n" : "\n");
+            + (isSeenTwice ? "," + joined(smoothedColumns) : "") + "\n";
         for (const Track &track : analysis.tracks)
-            for (const TrackPoint &point : track.points) {
+            for (std::size_t i = 0; i < track.points.size(); ++i) {
+                const TrackPoint &point = track.points[i];
                 text += std::to_string(track.id) + "," + formatNumber(analysis.time().value(static_cast<double>(point.frame))) + ","
-                    + joined(positionOf(point, analysis.grid())) + "," + formatNumber(point.statistic);
+                    + joined(track.positionOf(i, analysis.grid())) + "," + formatNumber(point.statistic);
                 if (isSeenTwice)
-                    text += "," + joined(sightOf(analysis.grid(), point));
+                    text += "," + joined(numbersOf(track.smoothed[i], analysis.grid().axes.back()));
                 text += "\n";
             }
         return text;
@@ -199,19 +202,17 @@ namespace {
             for (const std::string &name : names)
                 one[name] = Json::array();
             one["statistic"] = Json::array();
-            const bool isSeenTwice = looksTwice(analysis);
-            const char *const sight[] = {"f_low", "f_high", "presence", "snr_db"};
-            for (const char *name : sight)
-                if (isSeenTwice)
-                    one[name] = Json::array();
-            for (const TrackPoint &point : track.points) {
-                one["t"].push_back(analysis.time().value(static_cast<double>(point.frame)));
-                const std::vector<double> position = positionOf(point, analysis.grid());
+            for (std::size_t i = 0; i < track.points.size(); ++i) {
+                one["t"].push_back(analysis.time().value(static_cast<double>(track.points[i].frame)));
+                const std::vector<double> position = track.positionOf(i, analysis.grid());
                 for (std::size_t axis = 0; axis < names.size(); ++axis)
                     one[names[axis]].push_back(position[axis]);
-                one["statistic"].push_back(point.statistic);
-                for (std::size_t i = 0; i < std::size(sight) && isSeenTwice; ++i)
-                    one[sight[i]].push_back(sightOf(analysis.grid(), point)[i]);
+                one["statistic"].push_back(track.points[i].statistic);
+            }
+            for (std::size_t column = 0; column < smoothedColumns.size() && looksTwice(analysis); ++column) {
+                Json &values = one[smoothedColumns[column]] = Json::array();
+                for (const SmoothedPoint &point : track.smoothed)
+                    values.push_back(numbersOf(point, analysis.grid().axes.back())[column]);
             }
             json.push_back(std::move(one));
         }

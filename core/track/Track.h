@@ -2,7 +2,6 @@
 
 #include "base/Grid.h"
 
-#include <limits>
 #include <vector>
 
 namespace faintline {
@@ -13,32 +12,16 @@ struct TrackPoint {
     Index cell = 0;         ///< flat index on the frames' grid
     Index plane = 0;        ///< combination of rates, as in StateSpace
     double statistic = 0.0; ///< score of the path up to here, nat above background
-
-    // Known of tracks that were looked at from both ends (secondLook.h), along the last axis:
-    double position = std::numeric_limits<double>::quiet_NaN(); ///< in cells, below one
-    float low = std::numeric_limits<float>::quiet_NaN();        ///< 5 % of the posterior, cells
-    float high = std::numeric_limits<float>::quiet_NaN();       ///< 95 %
-    float presence = std::numeric_limits<float>::quiet_NaN();   ///< probability that the signal is there
-    float level = std::numeric_limits<float>::quiet_NaN();      ///< its mean power over the noise's along the path
 };
 
-/// Where a point is along the last axis, in cells, as exactly as is known.
-inline double lastPosition(const TrackPoint &point, const Axis &axis)
-{
-    return point.position == point.position ? point.position
-                                            : static_cast<double>(axis.count > 0 ? point.cell % axis.count : point.cell);
-}
-
-/// The same on all axes, in their units.
-inline std::vector<double> positionOf(const TrackPoint &point, const Grid &grid)
-{
-    std::vector<double> position;
-    const std::vector<Index> coordinates = grid.coordinates(point.cell);
-    for (std::size_t axis = 0; axis + 1 < coordinates.size(); ++axis)
-        position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
-    position.push_back(grid.axes.back().value(lastPosition(point, grid.axes.back())));
-    return position;
-}
+/// What the look from both ends knows of a point (analysis/secondLook.h), along the last axis.
+struct SmoothedPoint {
+    double position = 0.0; ///< in cells, below one
+    float low = 0.0f;      ///< 5 % of the posterior, cells
+    float high = 0.0f;     ///< 95 %
+    float presence = 0.0f; ///< probability that the signal is there
+    float level = 0.0f;    ///< its mean power over the noise's along the path
+};
 
 /// One signal from its onset to its end, and the decision that started it.
 struct Track {
@@ -53,8 +36,27 @@ struct Track {
     Index confirmFrame = -1; ///< where it was confirmed, -1: never
     std::size_t model = 0;   ///< which of a bank's models found it and follows it
     double detectStatistic = 0.0; ///< the detector's, in its own unit, where it was detected
+    std::vector<SmoothedPoint> smoothed{}; ///< one a point; none where nobody looked twice
 
-    /// All but the points, without copying them first.
+    /// Where a point is along the last axis, in cells, as exactly as is known.
+    double lastPosition(std::size_t point, const Axis &axis) const
+    {
+        const Index cell = points[point].cell;
+        return !smoothed.empty() ? smoothed[point].position : static_cast<double>(axis.count > 0 ? cell % axis.count : cell);
+    }
+
+    /// The same on all axes, in their units.
+    std::vector<double> positionOf(std::size_t point, const Grid &grid) const
+    {
+        std::vector<double> position;
+        const std::vector<Index> coordinates = grid.coordinates(points[point].cell);
+        for (std::size_t axis = 0; axis + 1 < coordinates.size(); ++axis)
+            position.push_back(grid.axes[axis].value(static_cast<double>(coordinates[axis])));
+        position.push_back(grid.axes.back().value(lastPosition(point, grid.axes.back())));
+        return position;
+    }
+
+    /// All but what there is for each frame, without copying them first.
     Track withoutPoints() const
     {
         return {id, onsetFrame, detectFrame, endFrame, peakStatistic, isConfirmed, isOpen, {}, confirmFrame, model, detectStatistic};

@@ -1,5 +1,7 @@
 #include "track/bothWays.h"
 
+#include "spectrum/medians.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,7 @@ namespace {
 
     constexpr double corridorCells = 3.0; ///< resolution cells on either side of the path
     constexpr Index levelFrames = 12; ///< either way
+    constexpr double leastChange = 2.0; ///< nat, that an interruption costs however low the threshold is
     constexpr double leastLevel = 0.5;
     constexpr double largestLevel = 4.0;
     constexpr double levelOfOneFrame = 10.0; ///< from that SNR on, a frame's neighbours are enough for its position
@@ -26,30 +29,6 @@ namespace {
         return static_cast<Index>(std::lround(position));
     }
 
-    /// Means over a window of frames that slides along.
-    class SlidingMean
-    {
-    public:
-        void add(double sum, double count)
-        {
-            m_sums.push_back(m_sums.back() + sum);
-            m_counts.push_back(m_counts.back() + count);
-        }
-        double count(Index at, Index either) const { return over(m_counts, at, either); }
-        double mean(Index at, Index either) const { return over(m_sums, at, either) / std::max(1.0, count(at, either)); }
-
-    private:
-        static double over(const std::vector<double> &sums, Index at, Index either)
-        {
-            const auto from = static_cast<std::size_t>(std::max<Index>(0, at - either));
-            const auto to = static_cast<std::size_t>(std::min(std::ssize(sums) - 1, at + either + 1));
-            return sums[to] - sums[from];
-        }
-
-        std::vector<double> m_sums{0.0};
-        std::vector<double> m_counts{0.0};
-    };
-
     class Look
     {
     public:
@@ -60,7 +39,7 @@ namespace {
             BothWays seen = alongCentres();
             for (int round = 0; round < 2; ++round) {
                 seen.levels = levels(seen);
-                seen.presence = presenceIn(corridor(seen, false), *m_model.axis, -0.5 * m_model.threshold, m_strip.firstFrame);
+                seen.presence = presenceIn(corridor(seen, false), *m_model.axis, -std::max(0.5 * m_model.threshold, leastChange), m_strip.firstFrame);
                 seen.positions = seen.presence.mean;
             }
             seen.levels = levels(seen);
@@ -82,14 +61,17 @@ namespace {
 
         std::vector<double> levels(const BothWays &seen) const
         {
-            SlidingMean along;
+            std::vector<double> values;
+            std::vector<double> weights;
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
                 const float y = m_strip.valueAt(at, nearest(seen.positions[static_cast<std::size_t>(at)]));
-                along.add(std::isnan(y) ? 0.0 : static_cast<double>(y), std::isnan(y) ? 0.0 : 1.0);
+                weights.push_back(std::isnan(y) ? 0.0 : 1.0);
+                values.push_back(std::isnan(y) ? 0.0 : static_cast<double>(y));
             }
-            std::vector<double> result;
-            for (Index at = 0; at < m_strip.frameCount(); ++at)
-                result.push_back(std::max(0.0, along.mean(at, levelFrames) - 1.0));
+            std::vector<double> result(values.size());
+            runningMean(values, weights, levelFrames, result);
+            for (double &level : result)
+                level = std::max(0.0, level - 1.0);
             return result;
         }
 

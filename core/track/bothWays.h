@@ -33,6 +33,7 @@ Index bothWaysHalfWidth(double binsPerCell);
 /// one's mean.
 ///
 ///   r(t) = mean of y along the path over ±12 frames, less 1; λ is the likelihood's at SNR clamp(r, ½, 4), in half octaves
+///   an onset or an end costs max(T/2, 2) nat, T the threshold
 ///   f(t) = maximum of the power averaged along the mean path over ±clamp(10/r, 1, 8) frames, by a parabola through its logarithm, at most
 ///          one bin from the mean
 ///

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace faintline {
 
@@ -28,13 +29,20 @@ double Explanations::leakageAt(double distance) const
     return static_cast<double>(at < m_leakage.size() ? m_leakage[at] : m_leakage.back());
 }
 
-/// Cells over which a signal of that level adds what is not negligible.
-double Explanations::reach(double level) const
+std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std::size_t at) const
 {
-    const double least = negligible / (margin * std::max(1e-3, level));
+    if (signal.skirts.empty())
+        return {};
+    return signal.skirts[std::min(at / static_cast<std::size_t>(ExplainedSignal::skirtFrames), signal.skirts.size() - 1)];
+}
+
+/// Cells on either side over which a signal adds what is not negligible.
+double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) const
+{
+    const double least = negligible / (margin * std::max(1e-3, static_cast<double>(signal.levels[at])));
     const auto end = std::partition_point(m_leakage.begin(), m_leakage.end(),
                                           [least](float share) { return static_cast<double>(share) > least; });
-    return static_cast<double>(end - m_leakage.begin()) / perCell;
+    return std::max(static_cast<double>(end - m_leakage.begin()) / perCell, static_cast<double>(skirtAt(signal, at).size()));
 }
 
 void Explanations::add(ExplainedSignal signal)
@@ -42,8 +50,18 @@ void Explanations::add(ExplainedSignal signal)
     const auto last = static_cast<std::size_t>(signal.endFrame() / piece); // with the frame behind it
     if (m_byTime.size() <= last)
         m_byTime.resize(last + 1);
-    for (auto i = static_cast<std::size_t>(std::max<Index>(0, signal.firstFrame - 1) / piece); i <= last; ++i)
-        m_byTime[i].push_back(m_signals.size());
+    for (auto i = static_cast<std::size_t>(std::max<Index>(0, signal.firstFrame - 1) / piece); i <= last; ++i) {
+        const Index begin = static_cast<Index>(i) * piece - signal.firstFrame;
+        const Index end = std::ssize(signal.positions) - 1;
+        Entry entry{m_signals.size(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+        for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + piece - 1, 0, end); ++at) {
+            const auto number = static_cast<std::size_t>(at);
+            const double reach = reachAt(signal, number);
+            entry.lowest = std::min(entry.lowest, signal.positions[number] - reach);
+            entry.highest = std::max(entry.highest, signal.positions[number] + reach);
+        }
+        m_byTime[i].push_back(entry);
+    }
     m_signals.push_back(std::move(signal));
 }
 
@@ -53,18 +71,17 @@ void Explanations::read(Index frame, Index firstCell, std::span<float> floor) co
     const auto number = static_cast<std::size_t>(frame / piece);
     if (number >= m_byTime.size())
         return;
-    for (const std::size_t i : m_byTime[number]) {
-        const ExplainedSignal &signal = m_signals[i];
-        if (frame < signal.firstFrame - 1 || frame > signal.endFrame())
+    for (const Entry &entry : m_byTime[number]) {
+        const ExplainedSignal &signal = m_signals[entry.signal];
+        const bool isBeside = entry.highest < static_cast<double>(firstCell) || entry.lowest > static_cast<double>(firstCell + std::ssize(floor));
+        if (isBeside || frame < signal.firstFrame - 1 || frame > signal.endFrame())
             continue;
         const auto at = static_cast<std::size_t>(
             std::clamp<Index>(frame - signal.firstFrame, 0, std::ssize(signal.positions) - 1));
         const double position = signal.positions[at] - static_cast<double>(firstCell);
         const auto level = static_cast<double>(signal.levels[at]);
-        std::span<const float> skirt;
-        if (!signal.skirts.empty())
-            skirt = signal.skirts[std::min(at / static_cast<std::size_t>(ExplainedSignal::skirtFrames), signal.skirts.size() - 1)];
-        const double end = std::max(static_cast<double>(skirt.size()), reach(level));
+        const std::span<const float> skirt = skirtAt(signal, at);
+        const double end = reachAt(signal, at);
         const auto size = static_cast<double>(floor.size());
         const auto first = static_cast<Index>(std::clamp(std::floor(position - end), 0.0, size));
         const auto last = static_cast<Index>(std::clamp(std::ceil(position + end) + 1.0, 0.0, size));

@@ -39,11 +39,20 @@ public:
     void read(Index frame, Index firstCell, std::span<float> floor) const;
 
 private:
+
+    /// A signal in a piece of time, with all cells that it may raise there.
+    struct Entry {
+        std::size_t signal;
+        double lowest;
+        double highest;
+    };
+
     double leakageAt(double distance) const;
-    double reach(double level) const;
+    double reachAt(const ExplainedSignal &signal, std::size_t at) const;
+    std::span<const float> skirtAt(const ExplainedSignal &signal, std::size_t at) const;
 
     std::vector<ExplainedSignal> m_signals;
-    std::vector<std::vector<std::size_t>> m_byTime; ///< signals of each piece of 64 frames
+    std::vector<std::vector<Entry>> m_byTime; ///< of each piece of 64 frames
     std::vector<float> m_leakage; ///< at multiples of 1/16 cell
 };
 

@@ -58,6 +58,10 @@ private slots:
     void aStrongLineIsOneTrack();
     void aLongTrackIsOne();
     void withoutItTheChainsTracksStay();
+    void aLineInTwoPartsHasTheEvidenceOfEach();
+    void anyThresholdWillDo_data();
+    void anyThresholdWillDo();
+    void notUnderTheLinearLikelihood();
 };
 
 void tst_secondLook::placeAndBand_data()
@@ -83,8 +87,9 @@ void tst_secondLook::placeAndBand()
         const double hz = 60.3 + 7.77 * seed;
         const auto analysis = analysisOf({line(hz, snrDb, 0.0, 100.0, drift)}, 100.0, seed);
         for (const Track &track : analysis->tracks)
-            for (const TrackPoint &point : track.points) {
-                const double truth = hz + drift * secondsOf(*analysis, point.frame);
+            for (std::size_t i = 0; i < track.points.size(); ++i) {
+                const SmoothedPoint &point = track.smoothed[i];
+                const double truth = hz + drift * secondsOf(*analysis, track.points[i].frame);
                 const Axis &axis = analysis->grid().axes.front();
                 if (std::abs(axis.value(point.position) - truth) > 3.0 * cellHz)
                     continue; // none of this line
@@ -111,9 +116,9 @@ void tst_secondLook::beginsAndEndsWithTheLine()
         const Track &track = analysis->tracks.front();
         near += std::abs(secondsOf(*analysis, track.onsetFrame) - 30.0) < 5.0 * frame ? 1 : 0;
         near += std::abs(secondsOf(*analysis, track.endFrame) - 70.0) < 5.0 * frame ? 1 : 0;
-        for (const TrackPoint &point : track.points)
-            if (const double t = secondsOf(*analysis, point.frame); t > 31.0 && t < 69.0)
-                QVERIFY(point.presence > 0.9f);
+        for (std::size_t i = 0; i < track.points.size(); ++i)
+            if (const double t = secondsOf(*analysis, track.points[i].frame); t > 31.0 && t < 69.0)
+                QVERIFY(track.smoothed[i].presence > 0.9f);
     }
     QVERIFY2(near >= 9, qPrintable(QString::number(near)));
 }
@@ -157,8 +162,70 @@ void tst_secondLook::withoutItTheChainsTracksStay()
 {
     const auto analysis = analysisOf({line(91.3, 6.0, 30.0, 40.0)}, 100.0, 1, false);
     QVERIFY(!analysis->tracks.empty());
-    for (const TrackPoint &point : analysis->tracks.front().points)
-        QVERIFY(std::isnan(point.position));
+    for (const Track &track : analysis->tracks)
+        QVERIFY(track.smoothed.empty());
+}
+
+void tst_secondLook::aLineInTwoPartsHasTheEvidenceOfEach()
+{
+    // A gap of 30 frames, in which the chain follows the line on.
+    const auto analysis = analysisOf({line(91.3, 10.0, 10.0, 40.0), line(91.3, 10.0, 53.75, 40.0)}, 100.0, 1);
+    QCOMPARE(std::ssize(analysis->tracks), 2);
+    const Track &first = analysis->tracks.front();
+    const Track &second = analysis->tracks.back();
+    QVERIFY(secondsOf(*analysis, first.endFrame) < 52.0);
+    QVERIFY(secondsOf(*analysis, second.onsetFrame) > 52.0);
+    for (const Track *track : {&first, &second})
+        QVERIFY(track->onsetFrame <= track->detectFrame && track->detectFrame <= track->endFrame);
+    for (const Event &event : events(*analysis)) {
+        QVERIFY(event.statistic >= analysis->threshold);
+        QVERIFY(event.noiseProbability >= 0.0 && event.noiseProbability < 1e-6);
+    }
+}
+
+void tst_secondLook::anyThresholdWillDo_data()
+{
+    QTest::addColumn<double>("nats");
+    for (const double nats : {-5.0, 0.0, 1e-3, 40.0})
+        QTest::addRow("%g nat", nats) << nats;
+}
+
+// Chances of beginning and ending are probabilities, however low the threshold.
+void tst_secondLook::anyThresholdWillDo()
+{
+    QFETCH(double, nats);
+    LineScene scene;
+    scene.sampleRateHz = rateHz;
+    scene.durationSeconds = 20.0;
+    scene.lines = {line(91.3, 10.0, 5.0, 10.0)};
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = windowSeconds;
+    settings.decide.by = DecideSettings::By::Nats;
+    settings.decide.thresholdNats = nats;
+    const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
+    QVERIFY(!analysis->tracks.empty());
+    for (const Track &track : analysis->tracks) {
+        QCOMPARE(track.smoothed.size(), track.points.size());
+        for (const SmoothedPoint &point : track.smoothed) {
+            QVERIFY(point.presence >= 0.0f && point.presence <= 1.0f);
+            QVERIFY(point.low <= point.high);
+        }
+    }
+}
+
+void tst_secondLook::notUnderTheLinearLikelihood()
+{
+    LineScene scene;
+    scene.sampleRateHz = rateHz;
+    scene.durationSeconds = 60.0;
+    scene.lines = {line(91.3, 10.0, 5.0, 50.0)};
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = windowSeconds;
+    settings.model.likelihood = LikelihoodKind::Linear;
+    const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
+    QVERIFY(!analysis->tracks.empty());
+    for (const Track &track : analysis->tracks)
+        QVERIFY(track.smoothed.empty());
 }
 
 QTEST_APPLESS_MAIN(tst_secondLook)

@@ -97,13 +97,8 @@ void tst_WaterfallView::theSelectedTrackShowsItsBand()
     Track track;
     track.id = 3;
     for (Index frame = 20; frame < 60; ++frame) {
-        TrackPoint point;
-        point.frame = frame;
-        point.cell = 100;
-        point.position = 100.3;
-        point.low = 80.0f;
-        point.high = 120.0f;
-        track.points.push_back(point);
+        track.points.push_back({frame, 100, 0, 0.0});
+        track.smoothed.push_back({100.3, 80.0f, 120.0f, 1.0f, 2.0f});
     }
     track.onsetFrame = 20;
     track.endFrame = 59;
