@@ -121,9 +121,14 @@ AnalysisSettings Document::analysedSettings() const
     return m_opened.recording ? withSlopesInBins(m_settings, m_opened.recording->info()) : m_settings;
 }
 
+AnalysisSettings Document::usedSettings() const
+{
+    return isCurrent() ? m_analysis->settings : analysedSettings();
+}
+
 bool Document::isCurrent() const
 {
-    return m_analysis && m_analysis->settings == analysedSettings() && m_analysis->recording == m_opened.recording
+    return m_analysis && m_analysis->answers(analysedSettings()) && m_analysis->recording == m_opened.recording
         && (!m_opened.frames || m_analysis->frames == m_opened.frames);
 }
 

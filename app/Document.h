@@ -44,6 +44,8 @@ public:
     const AnalysisSettings &settings() const { return m_settings; }
     /// As an analysis takes them: slopes in bins a frame of what is open.
     AnalysisSettings analysedSettings() const;
+    /// The same with the window and law that the analysis chose, where it is of these settings.
+    AnalysisSettings usedSettings() const;
     QUndoStack &undoStack() { return m_undoStack; }
 
     /// One undoable step to what is open with a line added, its settings as they are.

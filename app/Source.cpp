@@ -1,5 +1,6 @@
 #include "app/Source.h"
 
+#include "analysis/chooseWindow.h"
 #include "analysis/slopeUnit.h"
 #include "app/filePath.h"
 #include "base/json.h"
@@ -107,8 +108,8 @@ std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const Analys
                                         const Analysis *previous, const PictureSink &pictures)
 {
     return opened.frames ? analyse(opened.frames, settings, context, previous)
-                         : analyse(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
-                                   previous, {}, pictures);
+                         : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
+                                                 previous, pictures);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)

@@ -2,6 +2,7 @@
 #include "app/cli/provenance.h"
 
 #include "analysis/analyse.h"
+#include "analysis/chooseWindow.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/oneLine.h"
@@ -93,7 +94,7 @@ namespace {
         const NormalisedFramesPointer frames = openPings(options.common.file);
         const RecordingPointer recording = frames ? nullptr : options.common.recording();
         const auto analysed = [&](const AnalysisSettings &settings, const RunContext &part, const Analysis *previous) {
-            return frames ? analyse(frames, settings, part, previous) : analyse(recording, settings, part, previous);
+            return frames ? analyse(frames, settings, part, previous) : analyseInChosenWindow(recording, settings, part, previous);
         };
         const auto a = analysed(settingsA, context.part(0.0, 0.5), nullptr);
         const auto b = analysed(settingsB, context.part(0.5, 1.0), a.get());

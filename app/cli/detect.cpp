@@ -3,6 +3,7 @@
 
 #include "analysis/falseAlarmWords.h"
 #include "analysis/analyse.h"
+#include "analysis/chooseWindow.h"
 #include "analysis/explain.h"
 #include "analysis/judgeByBoxes.h"
 #include "analysis/noiseLaw.h"
@@ -62,6 +63,8 @@ namespace {
         const Axis &time = analysis.time();
         const std::vector<Event> found = events(analysis);
         std::printf("%td frames of %td cells, %s s a frame\n", time.count, analysis.grid().size(), formatNumber(time.step).c_str());
+        if (analysis.choice)
+            std::printf("%s\n", windowChoiceWords(*analysis.choice).c_str());
         const DetectorSettings &detector = analysis.settings.detector;
         const std::string unit(statisticUnit(detector));
         std::printf("ln K %.4f (%.1f %% of noise states continued%s), threshold %.2f %s", analysis.calibration->lnK,
@@ -176,7 +179,7 @@ namespace {
                 throw Error("detect", "needs a recording, or --frames with ready-made frames");
             recording = options.analysis.recording();
         }
-        const AnalysisSettings settings = options.analysis.settings();
+        AnalysisSettings settings = options.analysis.settings();
         std::vector<Annotation> annotations;
         if (!options.annotations.empty()) {
             if (!recording && frames->grid().axes.size() != 1)
@@ -186,14 +189,21 @@ namespace {
         StatisticSink sink;
         if (!options.statistic.empty()) {
             if (recording) {
+                if (leavesWindowToRecording(settings))
+                    settings = analyseInChosenWindow(recording, settings, context)->settings;
                 const Spectrogram geometry(recording, settings.spectrogram, settings.selection);
                 shape = {geometry.time().count, geometry.frequency().count};
             }
             writer.emplace(options.statistic, shape);
             sink = [&writer](Index, std::span<const float> values) { writer->write(values); };
         }
-        const auto analysis = frames ? detectInFrames(options, context, sink, frames)
-                                     : analyse(recording, settings, context, nullptr, sink);
+        std::shared_ptr<const Analysis> analysis;
+        if (frames)
+            analysis = detectInFrames(options, context, sink, frames);
+        else if (sink)
+            analysis = analyse(recording, settings, context, nullptr, sink);
+        else
+            analysis = analyseInChosenWindow(recording, settings, context);
         context.checkpoint(1.0, "done");
         std::vector<std::string> inputs = options.analysis.inputs();
         inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});
@@ -434,7 +444,7 @@ void addExplain(CLI::App &app, Common &common)
         }
         const AnalysisSettings settings = options->analysis.settings();
         const auto analysis = frames ? analyse(frames, settings, context.part(0.0, 0.5))
-                                     : analyse(options->analysis.recording(), settings, context.part(0.0, 0.5));
+                                     : analyseInChosenWindow(options->analysis.recording(), settings, context.part(0.0, 0.5));
         printExplanation(explain(*analysis, options->seconds, position, context.part(0.5, 1.0)), *analysis, options->json);
     });
 }

@@ -2,6 +2,7 @@
 
 #include "analysis/Review.h"
 #include "analysis/analyse.h"
+#include "analysis/chooseWindow.h"
 #include "analysis/slopeUnit.h"
 #include "base/fileName.h"
 #include "base/readingJson.h"
@@ -80,7 +81,7 @@ namespace {
         const Opened opened = open(provenance.at("recording"), result, recording);
         const AnalysisSettings settings = settingsFromJson(provenance.at("settings").dump(), "settings");
         const auto analysis = opened.frames ? analyse(opened.frames, settings, context)
-                                            : analyse(opened.recording, withSlopesInBins(settings, opened.recording->info()), context);
+                                            : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context);
         const Annotations annotations =
             provenance.contains("annotations") ? annotationsFromJson(provenance["annotations"], "annotations") : Annotations();
         std::vector<Event> shown = events(*analysis);

@@ -137,12 +137,13 @@ namespace {
     }
 
     /// Streams the frames through the chain and fills in the rest of the analysis.
-    void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink, Showing &showing)
+    void run(Analysis &analysis, const RunContext &context, const StatisticSink &sink, Showing &showing, AnalysisDepth depth = AnalysisDepth::Whole)
     {
         const NormalisedFrames &frames = *analysis.frames;
         const Index cells = frames.grid().size();
         const Index frameCount = frames.time().count;
         const bool hasSeveralAxes = frames.grid().axes.size() > 1;
+        const bool isWhole = depth == AnalysisDepth::Whole;
         ConventionalTracker conventional(frames.grid(), analysis.settings.conventional);
         std::unique_ptr<Detector> detector = makeDetector(analysis);
         detector->useThreads(context.threads);
@@ -151,10 +152,11 @@ namespace {
         const std::size_t pictureBytes =
             memoryShares::inTheEnd(memoryShares::picture, static_cast<std::size_t>(frameCount), static_cast<std::size_t>(cells));
         std::shared_ptr<PeakPyramid> input;
-        if (!analysis.input)
+        std::shared_ptr<PeakPyramid> statistic;
+        if (isWhole && !analysis.input)
             input = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::PowerDb), pictureBytes);
-        const auto statistic =
-            std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
+        if (isWhole)
+            statistic = std::make_shared<PeakPyramid>(frames.time(), cells, ByteScale(ByteScale::Kind::ScoreNats), pictureBytes);
         analysis.statisticCounts.assign(256, 0.0);
         Checkpoints<DetectionChain::Snapshot> checkpoints(checkpointInterval(analysis), memoryShares::checkpoints);
         std::vector<float> scores;
@@ -167,7 +169,7 @@ namespace {
             scores.resize(block.size());
             for (Index i = 0; i < count; ++i) {
                 const auto offset = static_cast<std::size_t>(i * cells);
-                if (checkpoints.lacks(first + i))
+                if (isWhole && checkpoints.lacks(first + i))
                     if (auto state = chain->snapshot())
                         checkpoints.keep(first + i, state, DetectionChain::bytesOf(*state));
                 chain->update(first + i, std::span(block).subspan(offset, static_cast<std::size_t>(cells)),
@@ -182,8 +184,10 @@ namespace {
             countValues(scores, analysis.statisticCounts);
             if (input)
                 input->append(block);
-            statistic->append(scores);
-            showing.show(input, *statistic);
+            if (statistic) {
+                statistic->append(scores);
+                showing.show(input, *statistic);
+            }
             if (sink)
                 sink(first, scores);
         }
@@ -193,9 +197,11 @@ namespace {
             input->finish();
             analysis.input = input;
         }
-        statistic->finish();
-        analysis.statistic = statistic;
-        if (hasSeveralAxes) {
+        if (statistic) {
+            statistic->finish();
+            analysis.statistic = statistic;
+        }
+        if (isWhole && hasSeveralAxes) {
             if (analysis.inputAlong.empty())
                 analysis.inputAlong = alongEachAxis(*analysis.input, frames.grid());
             analysis.statisticAlong = alongEachAxis(*statistic, frames.grid());
@@ -294,8 +300,8 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
     return result;
 }
 
-std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
-                                        const Analysis *previous, const StatisticSink &sink, const PictureSink &pictures)
+std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
+                                  const Analysis *previous, const StatisticSink &sink, const PictureSink &pictures, AnalysisDepth depth)
 {
     checkSettings(settings);
     auto analysis = std::make_shared<Analysis>();
@@ -321,7 +327,7 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
     analysis->calibration = calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5));
     analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
     analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
-    run(*analysis, context.part(0.5, 1.0), sink, showing);
+    run(*analysis, context.part(0.5, 1.0), sink, showing, depth);
     return analysis;
 }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/AnalysisSettings.h"
 #include "analysis/Calibration.h"
+#include "analysis/WindowChoice.h"
 #include "base/RunContext.h"
 #include "detect/NoiseBand.h"
 #include "recording/Recording.h"
@@ -13,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,8 +60,13 @@ struct Analysis {
 
     std::vector<ChainCheckpoint> checkpoints; ///< evenly spaced, ≤ 32 MiB whatever is tracked; none of detectors that cannot tell their state
 
+    std::optional<WindowChoice> choice; ///< where the window was left to the recording (chooseWindow.h)
+
     const Axis &time() const { return frames->time(); }
     const Grid &grid() const { return frames->grid(); }
+
+    /// Whether it is what these settings ask for.
+    bool answers(const AnalysisSettings &wanted) const { return settings == wanted || (choice && choice->asked == wanted); }
 };
 
 /// One detected signal, in physical units; a view of a track.
@@ -106,13 +113,16 @@ struct PicturesSoFar {
 /// Called by the thread that computes, a few times a second, if the recording is long or not calibrated yet. Changes no byte.
 using PictureSink = std::function<void(const PicturesSoFar &)>;
 
+/// What an analysis is made for: everything, or its tracks without pictures and checkpoints.
+enum class AnalysisDepth { Whole, Tracks };
+
 /// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.
 ///
 /// Every caller, window, command line and library, comes through here. `previous`, if given, lends what is still valid.
 /// Streams: memory is bounded whatever the recording's length. Throws Error, Cancelled.
-std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
-                                        const RunContext &context = {}, const Analysis *previous = nullptr,
-                                        const StatisticSink &sink = {}, const PictureSink &pictures = {});
+std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context = {},
+                                  const Analysis *previous = nullptr, const StatisticSink &sink = {}, const PictureSink &pictures = {},
+                                  AnalysisDepth depth = AnalysisDepth::Whole);
 
 /// The same from ready-made frames on any grid, with the settings' own model or bank of models (`previous` lends its picture of the
 /// input and the band of ln K) …

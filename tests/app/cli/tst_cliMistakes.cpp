@@ -122,8 +122,9 @@ void tst_cliMistakes::interruptLeavesNothing_data()
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<int>("signal");
     QTest::newRow("simulate") << QStringList{"simulate", "endless.json", "--out", "endless.w64"} << SIGINT;
-    QTest::newRow("detect") << QStringList{"detect", "endless.json", "--statistic", "endless.npy", "--events", "endless.csv"} << SIGINT;
-    QTest::newRow("terminated") << QStringList{"detect", "endless.json", "--statistic", "endless.npy"} << SIGTERM;
+    QTest::newRow("detect") << QStringList{"detect", "endless.json", "--set", "spectrogram.windowSeconds=1", "--statistic", "endless.npy", "--events", "endless.csv"}
+                            << SIGINT;
+    QTest::newRow("terminated") << QStringList{"detect", "endless.json", "--set", "spectrogram.windowSeconds=1", "--statistic", "endless.npy"} << SIGTERM;
 }
 
 void tst_cliMistakes::interruptLeavesNothing()

@@ -1,0 +1,192 @@
+#include "analysis/chooseWindow.h"
+
+#include "track/energyKept.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double factor = 4.0;       ///< from one window to the next
+    constexpr double tooFast = 1.0 / 3.0; ///< below it the longer window loses what moves
+    constexpr double asGood = 0.85;       ///< from there on it loses next to nothing
+    constexpr double fewestCells = 24.0;
+    constexpr double fewestFrames = 16.0;
+    constexpr std::size_t mostTrials = 5;
+    constexpr double sureNats = 3.3;     ///< above the threshold: ln 100 over the slope of the tail
+
+    ModelSettings withLaw(ModelSettings model, const ModelSettings &law)
+    {
+        model.lowestSlope = law.lowestSlope;
+        model.highestSlope = law.highestSlope;
+        model.slopesPerBin = law.slopesPerBin;
+        model.slopeChange = law.slopeChange;
+        return model;
+    }
+
+    TracksOnAxes tracksOf(const Analysis &analysis)
+    {
+        const Spectrogram &spectrogram = dynamic_cast<const NormalisedSpectrogram &>(*analysis.frames).spectrogram();
+        return {analysis.tracks, analysis.time(), analysis.grid().axes.back(),
+                spectrogram.recording().info().sampleRateHz / spectrogram.windowSamples()};
+    }
+
+    double windowSecondsOf(const Analysis &analysis)
+    {
+        return 1.0 / tracksOf(analysis).cellHz;
+    }
+
+    class WindowSearch
+    {
+    public:
+        WindowSearch(RecordingPointer recording, const AnalysisSettings &asked, RunContext context)
+            : m_recording(std::move(recording)), m_asked(asked), m_context(std::move(context))
+        {
+        }
+
+        /// Of the window chosen; of another than T0 without pictures. Leaves the rest to `choice`.
+        std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
+        {
+            const std::shared_ptr<Analysis> automatic = analyse(m_recording, m_asked, nextPart(), previous, {}, pictures);
+            m_windowSeconds = windowSecondsOf(*automatic);
+            m_cells = static_cast<double>(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
+            m_frames = static_cast<double>(automatic->time().count);
+            note(m_asked, *automatic);
+            const std::shared_ptr<Analysis> best = shorter(automatic);
+            return best == automatic ? longer(automatic) : best;
+        }
+
+        WindowChoice choice(const Analysis &chosen) const
+        {
+            return {m_asked, m_trials, numberOf(m_windowSeconds), numberOf(windowSecondsOf(chosen))};
+        }
+
+    private:
+        std::size_t numberOf(double windowSeconds) const
+        {
+            return static_cast<std::size_t>(std::count_if(m_trials.begin(), m_trials.end(),
+                                                          [&](const WindowTrial &trial) { return trial.windowSeconds < windowSeconds; }));
+        }
+
+        /// A trial may be the last one: each takes half of what is left.
+        RunContext nextPart()
+        {
+            const double from = std::exchange(m_done, m_done + 0.5 * (1.0 - m_done));
+            return m_context.part(from, m_done);
+        }
+
+        /// The shortest window that keeps its share of what the next shorter one follows, if there is one.
+        std::shared_ptr<Analysis> shorter(const std::shared_ptr<Analysis> &automatic)
+        {
+            std::shared_ptr<Analysis> best = automatic;
+            for (double step = 1.0 / factor; m_cells * step >= fewestCells && m_trials.size() < mostTrials; step /= factor) {
+                auto trial = tried(step, laws::glide());
+                const double kept = shareKept(*trial, *best);
+                m_trials.front().kept = kept;
+                if (!(kept < tooFast)) // nothing to compare, or a window that does
+                    return std::isnan(kept) ? automatic : best;
+                best = std::move(trial);
+            }
+            return automatic;
+        }
+
+        std::shared_ptr<Analysis> longer(std::shared_ptr<Analysis> best)
+        {
+            for (double step = factor; m_frames / step >= fewestFrames && m_trials.size() < mostTrials && isSure(*best); step *= factor) {
+                auto trial = tried(step, m_asked.model);
+                const double kept = shareKept(*best, *trial);
+                (m_trials.end() - 2)->kept = kept;
+                if (!(kept >= asGood))
+                    break;
+                best = std::move(trial);
+            }
+            return best;
+        }
+
+        std::shared_ptr<Analysis> tried(double step, const ModelSettings &law)
+        {
+            AnalysisSettings settings = m_asked;
+            settings.spectrogram.windowSeconds = step * m_windowSeconds;
+            settings.model = withLaw(m_asked.model, law);
+            auto analysis = analyse(m_recording, settings, nextPart(), nullptr, {}, {}, AnalysisDepth::Tracks);
+            note(settings, *analysis);
+            return analysis;
+        }
+
+        void note(const AnalysisSettings &settings, const Analysis &analysis)
+        {
+            const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks), std::numeric_limits<double>::quiet_NaN()};
+            m_trials.insert(m_trials.begin() + static_cast<Index>(numberOf(trial.windowSeconds)), trial);
+        }
+
+        static double leastStatistic(const Analysis &analysis) { return analysis.threshold + sureNats; }
+
+        static bool isSure(const Analysis &analysis)
+        {
+            return std::any_of(analysis.tracks.begin(), analysis.tracks.end(),
+                               [&](const Track &track) { return track.peakStatistic >= leastStatistic(analysis); });
+        }
+
+        static double shareKept(const Analysis &shorter, const Analysis &longer)
+        {
+            return energyKept(tracksOf(shorter), tracksOf(longer), leastStatistic(shorter));
+        }
+
+        RecordingPointer m_recording;
+        const AnalysisSettings &m_asked;
+        RunContext m_context;
+        double m_done = 0.0;
+        double m_windowSeconds = 0.0; ///< T0
+        double m_cells = 0.0;         ///< at T0
+        double m_frames = 0.0;
+        std::vector<WindowTrial> m_trials;
+    };
+
+    /// Whether nothing has changed that a window is chosen by.
+    bool asksForTheSame(const AnalysisSettings &a, const AnalysisSettings &b)
+    {
+        return a.selection == b.selection && a.spectrogram == b.spectrogram && a.noise == b.noise && a.model == b.model && a.detector == b.detector;
+    }
+
+} // namespace
+
+bool leavesWindowToRecording(const AnalysisSettings &settings)
+{
+    const ModelSettings &model = settings.model;
+    return settings.spectrogram.windowSeconds == 0.0 && std::holds_alternative<SmdSettings>(settings.detector) && settings.track.bothWays
+        && model.motion == Motion::Slopes && model.likelihood != LikelihoodKind::Linear && model == withLaw(model, ModelSettings());
+}
+
+std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
+                                                      const Analysis *previous, const PictureSink &pictures)
+{
+    if (!leavesWindowToRecording(settings))
+        return analyse(recording, settings, context, previous, {}, pictures);
+    const bool isChosen = previous && previous->recording == recording && previous->choice && asksForTheSame(previous->choice->asked, settings);
+    WindowChoice choice;
+    std::shared_ptr<Analysis> found;
+    if (isChosen) {
+        choice = *previous->choice;
+        choice.asked = settings;
+    } else {
+        WindowSearch search(recording, settings, context.part(0.0, 0.7));
+        found = search.run(previous, pictures);
+        choice = search.choice(*found);
+    }
+    if (isChosen || !found->statistic) {
+        AnalysisSettings used = choice.trials[choice.chosen].settings;
+        used.decide = settings.decide;
+        used.track = settings.track;
+        used.conventional = settings.conventional;
+        const RunContext rest = isChosen ? context : context.part(0.7, 1.0);
+        found = analyse(recording, used, rest, isChosen ? previous : found.get(), {}, pictures);
+    }
+    found->choice = std::move(choice);
+    return found;
+}
+
+} // namespace faintline
