@@ -97,11 +97,14 @@ EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments,
 void EvaluatePanel::followDocument()
 {
     double windowSeconds = 0.0;
+    double recordingSeconds = 0.0;
     if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
-        if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()))
+        if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get())) {
             windowSeconds =
                 static_cast<double>(frames->spectrogram().windowSamples()) / analysis->recording->info().sampleRateHz;
-    m_form->setCurrent(m_document.analysedSettings(), windowSeconds);
+            recordingSeconds = static_cast<double>(frames->time().count) * frames->time().step;
+        }
+    m_form->setCurrent(m_document.usedSettings(), windowSeconds, recordingSeconds);
 }
 
 void EvaluatePanel::followForm()

@@ -137,18 +137,28 @@ ExperimentForm::ExperimentForm(QWidget *parent)
         connect(box, &QDoubleSpinBox::valueChanged, this, &ExperimentForm::changed);
     for (QSpinBox *box : {m_runs, m_seed})
         connect(box, &QSpinBox::valueChanged, this, &ExperimentForm::changed);
+    connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::fitDuration);
     connect(this, &ExperimentForm::changed, this, &ExperimentForm::showMeaning);
     showMeaning();
 }
 
-void ExperimentForm::setCurrent(const AnalysisSettings &settings, double windowSeconds)
+void ExperimentForm::setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds)
 {
     m_settings = settings;
     m_windowSeconds = windowSeconds;
+    m_recordingSeconds = recordingSeconds;
     if (windowSeconds <= 0.0)
         m_noise->setCurrentIndex(0);
     m_noise->setEnabled(windowSeconds > 0.0);
+    fitDuration();
     emit changed();
+}
+
+/// In a recording a line has to fit, with noise on either side.
+void ExperimentForm::fitDuration()
+{
+    if (isInRecording() && m_duration->value() * m_windowSeconds > 0.5 * m_recordingSeconds)
+        m_duration->setValue(std::floor(0.5 * m_recordingSeconds / m_windowSeconds));
 }
 
 bool ExperimentForm::isInRecording() const

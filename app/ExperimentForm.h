@@ -28,8 +28,9 @@ class ExperimentForm : public QWidget
 public:
     explicit ExperimentForm(QWidget *parent = nullptr);
 
-    /// The current detector competes with these settings; `windowSeconds`: T_FT of what is open, 0 where nothing is.
-    void setCurrent(const AnalysisSettings &settings, double windowSeconds);
+    /// The current detector competes with these settings; `windowSeconds`: T_FT of what is open, 0 where nothing is; `recordingSeconds`: of it
+    /// as much as is analysed.
+    void setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds);
 
     bool isInRecording() const;
     void setInRecording(bool isInRecording);
@@ -47,12 +48,14 @@ signals:
     void changed();
 
 private:
+    void fitDuration();
     std::vector<Contestant> chosen() const;
     std::vector<double> snrDb() const;
     void showMeaning();
 
     AnalysisSettings m_settings;
     double m_windowSeconds = 0.0;
+    double m_recordingSeconds = 0.0;
     QComboBox *m_noise;
     std::vector<QCheckBox *> m_detectors; ///< the current one, then the peers
     QDoubleSpinBox *m_lowestDb;

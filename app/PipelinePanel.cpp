@@ -1,6 +1,7 @@
 #include "app/PipelinePanel.h"
 
 #include "app/AnalysisController.h"
+#include "analysis/chooseWindow.h"
 #include "analysis/slopeUnit.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/SettingsForm.h"
@@ -51,11 +52,19 @@ namespace {
         return spectrogram.windowSamples() / spectrogram.recording().info().sampleRateHz;
     }
 
+    /// Settings with the window and the law of motion of a trial.
+    AnalysisSettings inThatWindow(AnalysisSettings settings, const WindowTrial &trial)
+    {
+        settings.spectrogram.windowSeconds = trial.windowSeconds;
+        settings.model = trial.settings.model;
+        return settings;
+    }
+
 } // namespace
 
 PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller, QWidget *parent)
     : QWidget(parent), m_document(document), m_controller(controller), m_recording(new QLabel), m_preset(new QComboBox),
-      m_form(new SettingsForm)
+      m_window(new QComboBox), m_top(new QFormLayout), m_form(new SettingsForm)
 {
     m_recording->setWordWrap(true);
     m_recording->setTextFormat(Qt::RichText);
@@ -67,25 +76,33 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
     m_preset->setAccessibleName(tr("Preset"));
     m_preset->setToolTip(tr("A starting point for a kind of recording"));
 
-    auto *top = new QFormLayout;
-    top->setContentsMargins(10, 8, 10, 6);
-    top->setHorizontalSpacing(10);
-    top->addRow(m_recording);
-    top->addRow(tr("&Preset"), m_preset);
+    m_window->setObjectName(QStringLiteral("windowChoice"));
+    m_window->setAccessibleName(tr("Window"));
+    m_window->setToolTip(tr("Windows that were tried on this recording, with the number of tracks each one found"));
+
+    m_top->setContentsMargins(10, 5, 10, 3);
+    m_top->setHorizontalSpacing(10);
+    m_top->addRow(m_recording);
+    m_top->addRow(tr("&Preset"), m_preset);
+    m_top->addRow(tr("&Window"), m_window);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addLayout(top);
+    layout->addLayout(m_top);
     layout->addWidget(m_form, 1);
 
     connect(m_preset, &QComboBox::activated, this, &PipelinePanel::applyPreset);
+    connect(m_window, &QComboBox::activated, this, &PipelinePanel::applyWindow);
     connect(m_form, &SettingsForm::settingEdited, this, [this](const QString &name, const FieldValue &value) {
         m_controller.edit(name, value, tr("Change “%1”").arg(settingLabel(name)));
     });
     connect(m_form, &SettingsForm::resetRequested, this,
             [this] { m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings")); });
     connect(&document, &Document::opened, this, &PipelinePanel::showRecording);
-    connect(&document, &Document::opened, this, &PipelinePanel::showSettings);
+    connect(&document, &Document::opened, this, [this] {
+        m_choice.reset();
+        showSettings();
+    });
     connect(&document, &Document::settingsChanged, this, &PipelinePanel::showSettings);
     connect(&document, &Document::analysisChanged, this, &PipelinePanel::showNotes);
     connect(&controller, &AnalysisController::failed, this, &PipelinePanel::showError);
@@ -115,15 +132,45 @@ void PipelinePanel::showSettings()
     };
     const auto taken = std::find_if(presets().begin(), presets().end(), isTaken);
     m_preset->setCurrentIndex(taken == presets().end() ? 0 : static_cast<int>(taken - presets().begin()) + 1);
+    showWindows();
+}
+
+void PipelinePanel::showWindows()
+{
+    m_window->clear();
+    if (m_choice && m_choice->trials.size() > 1) {
+        const auto seconds = [&](std::size_t trial) { return QString::number(m_choice->trials[trial].windowSeconds, 'g', 4); };
+        m_window->addItem(tr("From the recording: %1 s").arg(seconds(m_choice->chosen)));
+        for (std::size_t i = 0; i < m_choice->trials.size(); ++i)
+            m_window->addItem(tr("%1 s, %n track(s)", nullptr, static_cast<int>(m_choice->trials[i].tracks)).arg(seconds(i)));
+        const auto taken = std::find_if(m_choice->trials.begin(), m_choice->trials.end(), [this](const WindowTrial &trial) {
+            return inThatWindow(m_document.settings(), trial) == m_document.settings();
+        });
+        if (leavesWindowToRecording(m_document.analysedSettings()))
+            m_window->setCurrentIndex(0);
+        else
+            m_window->setCurrentIndex(taken == m_choice->trials.end() ? -1 : static_cast<int>(taken - m_choice->trials.begin()) + 1);
+    }
+    m_window->setVisible(m_window->count() > 0);
+    m_top->labelForField(m_window)->setVisible(m_window->count() > 0);
 }
 
 void PipelinePanel::showNotes()
 {
     const Analysis &analysis = *m_document.analysis();
     m_form->clearErrors();
+    if (analysis.choice)
+        m_choice = analysis.choice;
+    showWindows();
     if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()))
         m_form->setNote(QStringLiteral("spectrogram.windowSeconds"),
-                        tr("%1 s").arg(windowSeconds(frames->spectrogram()), 0, 'g', 4));
+                        analysis.choice ? QString::fromStdString(windowChoiceWords(*analysis.choice))
+                                        : tr("%1 s").arg(windowSeconds(frames->spectrogram()), 0, 'g', 4));
+    const ModelSettings &used = analysis.settings.model;
+    if (!analysis.choice || used == m_document.analysedSettings().model)
+        return;
+    m_form->setNote(QStringLiteral("model.lowestSlope"), tr("%1 bins/frame in this window").arg(used.lowestSlope));
+    m_form->setNote(QStringLiteral("model.highestSlope"), tr("%1 bins/frame in this window").arg(used.highestSlope));
 }
 
 void PipelinePanel::showError(const Error &error)
@@ -140,6 +187,15 @@ void PipelinePanel::applyPreset(int index)
         return showSettings();
     m_controller.setSettings(withSelection(presets()[static_cast<std::size_t>(index - 1)].settings),
                              tr("Take preset “%1”").arg(m_preset->itemText(index)));
+}
+
+void PipelinePanel::applyWindow(int index)
+{
+    const WindowTrial &trial = m_choice->trials[index == 0 ? m_choice->automatic : static_cast<std::size_t>(index - 1)];
+    AnalysisSettings settings = inThatWindow(m_document.settings(), trial);
+    if (index == 0)
+        settings.spectrogram.windowSeconds = 0.0;
+    m_controller.setSettings(settings, tr("Take window “%1”").arg(m_window->itemText(index)));
 }
 
 AnalysisSettings PipelinePanel::withSelection(AnalysisSettings settings) const

@@ -1,10 +1,13 @@
 #pragma once
 
-#include "analysis/AnalysisSettings.h"
+#include "analysis/WindowChoice.h"
 
 #include <QWidget>
 
+#include <optional>
+
 class QComboBox;
+class QFormLayout;
 class QLabel;
 
 namespace faintline {
@@ -30,7 +33,9 @@ private:
     void showSettings();
     void showNotes();
     void showError(const Error &error);
+    void showWindows();
     void applyPreset(int index);
+    void applyWindow(int index);
     /// A preset says nothing about which part of the recording is looked at.
     AnalysisSettings withSelection(AnalysisSettings settings) const;
 
@@ -38,7 +43,10 @@ private:
     AnalysisController &m_controller;
     QLabel *m_recording;
     QComboBox *m_preset;
+    QComboBox *m_window;
+    QFormLayout *m_top;
     SettingsForm *m_form;
+    std::optional<WindowChoice> m_choice; ///< the last one made for what is open
 };
 
 } // namespace faintline

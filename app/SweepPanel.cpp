@@ -60,7 +60,7 @@ void SweepPanel::followDocument()
     if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
         if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()))
             windowSeconds = frames->spectrogram().windowSamples() / analysis->recording->info().sampleRateHz;
-    m_form->setCurrent(m_document.analysedSettings(), m_document.recording() ? m_document.source().path : QString(), windowSeconds);
+    m_form->setCurrent(m_document.usedSettings(), m_document.recording() ? m_document.source().path : QString(), windowSeconds);
 }
 
 void SweepPanel::start()
