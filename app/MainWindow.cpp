@@ -10,6 +10,7 @@
 #include "app/HandLinePanel.h"
 #include "app/InfoPanel.h"
 #include "app/InjectDialog.h"
+#include "app/LearnMotionDialog.h"
 #include "app/KeysOverlay.h"
 #include "app/LatencyPanel.h"
 #include "app/Lesson.h"
@@ -520,6 +521,15 @@ void MainWindow::injectLine()
     InjectDialog dialog(info, at.seconds, at.hz, window, this);
     if (dialog.exec() == QDialog::Accepted)
         m_controller.inject(dialog.line());
+}
+
+void MainWindow::learnMotion()
+{
+    if (!m_document.analysis())
+        return;
+    auto *dialog = new LearnMotionDialog(m_document.analysis(), m_controller, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
 }
 
 void MainWindow::reproduce(const Reproducible &reproducible, bool quick)

@@ -112,6 +112,7 @@ public:
     void showStates();
     void showLatency();
     void showHandLine();
+    void learnMotion();
     void showCompare();
     void showSweep();
 

@@ -209,6 +209,7 @@ void MainWindow::buildDetectMenu()
     menu->addSeparator();
     addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
     addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
+    addViewAction(*menu, tr("Learn &motion from tracks…"), {}, [this] { learnMotion(); });
     menu->addSeparator();
     addViewAction(*menu, tr("&Keep as A"), QKeySequence(Qt::CTRL | Qt::Key_B), [this] {
         showCompare();

@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 
+#include "analysis/chooseWindow.h"
 #include "analysis/Calibration.h"
 #include "analysis/surrogates.h"
 #include "base/json.h"
@@ -30,8 +31,10 @@ void addCalibrate(CLI::App &app, Common &common)
         ->check(CLI::Range(1, 10000));
     command->add_flag("--json", options->json, "As JSON");
     command->callback([options, &common] {
-        const AnalysisSettings settings = options->analysis.settings();
+        AnalysisSettings settings = options->analysis.settings();
         std::shared_ptr<const Spectrogram> spectrogram;
+        if (!options->analysis.file.empty() && leavesWindowToRecording(settings))
+            settings = analyseInChosenWindow(options->analysis.recording(), settings, common.context())->settings;
         if (!options->analysis.file.empty())
             spectrogram = std::make_shared<Spectrogram>(options->analysis.recording(), settings.spectrogram, settings.selection);
         const auto calibration = spectrogram ? calibrateBand(settings, spectrogram->frequency().count, common.context())

@@ -1,6 +1,6 @@
 #include "analysis/secondLook.h"
 
-#include "analysis/chain.h"
+#include "analysis/pathStrips.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Window.h"
 #include "track/bothWays.h"
@@ -21,7 +21,6 @@ namespace {
     constexpr double levelCells = 0.75;    ///< where a signal's own maximum lies, on either side
     constexpr Index skirtBins = 96;        ///< on either side of strong tracks
     constexpr double strongGrowth = 2.0;   ///< nats a frame
-    constexpr std::size_t blockBytes = std::size_t(1) << 20;
     constexpr Index longestPiece = 4096;   ///< frames of a track that are looked at together
     constexpr Index pieceOverlap = 64;     ///< frames of the neighbouring pieces that are looked at too
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< that are read at a time
@@ -102,7 +101,10 @@ namespace {
                 }
                 const std::span<Piece> some = std::span(pieces).subspan(first, end - first);
                 const auto done = [&](std::size_t piece) { return static_cast<double>(piece) / static_cast<double>(pieces.size()); };
-                readStrips(some, m_context.part(done(first), 0.5 * (done(first) + done(end))));
+                std::vector<PathStrip *> strips;
+                for (Piece &piece : some)
+                    strips.push_back(&piece.strip);
+                readStrips(m_analysis, std::move(strips), m_context.part(done(first), 0.5 * (done(first) + done(end))), following);
                 for (Piece &piece : some) {
                     m_context.checkpoint(done(end), following);
                     lookAt(piece);
@@ -157,53 +159,6 @@ namespace {
             const bool isStrong = piece.track->peakStatistic > strongGrowth * static_cast<double>(points.size());
             strip.halfWidth = std::max(bothWaysHalfWidth(m_model.binsPerCell), isStrong ? skirtBins : 0);
             return strip;
-        }
-
-        /// Fills in the strips of some pieces.
-        void readStrips(std::span<Piece> pieces, const RunContext &context) const
-        {
-            std::vector<PathStrip *> strips;
-            for (Piece &piece : pieces)
-                strips.push_back(&piece.strip);
-            std::stable_sort(strips.begin(), strips.end(), [](const PathStrip *a, const PathStrip *b) { return a->firstFrame < b->firstFrame; });
-            const Index frameCount = m_frames.time().count;
-            const Index block = std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / m_cells);
-            const std::vector<CellBox> blind = blindBoxes(m_analysis);
-            std::vector<PathStrip *> open;
-            std::size_t next = 0;
-            std::vector<float> values;
-            for (Index first = 0; first < frameCount && (next < strips.size() || !open.empty()); first += block) {
-                context.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), following);
-                const Index count = std::min(block, frameCount - first);
-                for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
-                    PathStrip &strip = *strips[next];
-                    strip.y.assign(static_cast<std::size_t>(strip.frameCount() * strip.width()), std::numeric_limits<float>::quiet_NaN());
-                    open.push_back(&strip);
-                }
-                std::erase_if(open, [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
-                if (open.empty())
-                    continue;
-                values.resize(static_cast<std::size_t>(count * m_cells));
-                m_frames.read(first, count, values);
-                for (Index i = 0; i < count; ++i) {
-                    const std::span<float> y = std::span(values).subspan(static_cast<std::size_t>(i * m_cells), static_cast<std::size_t>(m_cells));
-                    for (const CellBox &box : blind)
-                        box.forEachCell(m_frames.grid(), [&](Index cell) { y[static_cast<std::size_t>(cell)] = 0.0f; });
-                    for (PathStrip *strip : open)
-                        copyFrame(y, first + i - strip->firstFrame, *strip);
-                }
-            }
-        }
-
-        void copyFrame(std::span<const float> y, Index at, PathStrip &strip) const
-        {
-            if (at < 0 || at >= strip.frameCount())
-                return;
-            const Index first = strip.firstCell(at);
-            const Index from = std::clamp<Index>(first, 0, m_cells);
-            const Index to = std::clamp<Index>(first + strip.width(), 0, m_cells);
-            if (from < to)
-                std::copy(y.begin() + from, y.begin() + to, strip.row(at) + (from - first));
         }
 
         /// Answers whether stronger tracks raise it at all.

@@ -58,7 +58,7 @@ const std::vector<Field<SpectrogramSettings>> &SpectrogramSettings::fields()
     using S = SpectrogramSettings;
     static const std::vector<Field<S>> table{
         field(&S::windowSeconds, "windowSeconds", "s", 0.0, 1e6,
-              "Length T_FT of the sliding Fourier window; 0 chooses it from the recording's length and rate."),
+              "Length T_FT of the sliding Fourier window; 0 chooses it from the recording: from its length and rate, and then, with the default slopes, from what is found."),
         field(&S::stepsPerWindow, "stepsPerWindow", "", 1.0, 64.0, "Frames per window, k_t: 2 overlaps by half."),
         field(&S::binsPerCell, "binsPerCell", "", 1.0, 32.0,
               "Frequency bins per resolution cell 1/T_FT, k_f: above 1 the window is padded with zeros."),

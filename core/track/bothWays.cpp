@@ -39,13 +39,18 @@ namespace {
             BothWays seen = alongCentres();
             for (int round = 0; round < 2; ++round) {
                 seen.levels = levels(seen);
-                seen.presence = presenceIn(corridor(seen, false), *m_model.axis, -std::max(0.5 * m_model.threshold, leastChange), m_strip.firstFrame);
+                seen.presence = presenceIn(corridor(seen, false), *m_model.axis, lnChange(), m_strip.firstFrame);
                 seen.positions = seen.presence.mean;
             }
             seen.levels = levels(seen);
             seen.gains = gains(seen);
             seen.positions = refined(seen);
             return seen;
+        }
+
+        std::vector<double> slopeChanges()
+        {
+            return expectedSlopeChanges(corridor(run(), false), *m_model.axis, lnChange(), m_strip.firstFrame);
         }
 
         double strongest() { return strongestPath(corridor(alongCentres(), true), *m_model.axis, m_model.lnK, m_strip.firstFrame); }
@@ -58,6 +63,8 @@ namespace {
                 seen.positions.push_back(static_cast<double>(centre));
             return seen;
         }
+
+        double lnChange() const { return -std::max(0.5 * m_model.threshold, leastChange); }
 
         std::vector<double> levels(const BothWays &seen) const
         {
@@ -166,6 +173,11 @@ Index bothWaysHalfWidth(double binsPerCell)
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model)
 {
     return Look(strip, model).run();
+}
+
+std::vector<double> slopeChangesOf(const PathStrip &strip, const BothWaysModel &model)
+{
+    return Look(strip, model).slopeChanges();
 }
 
 double strongestIn(const PathStrip &strip, const BothWaysModel &model)

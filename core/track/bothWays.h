@@ -40,6 +40,9 @@ Index bothWaysHalfWidth(double binsPerCell);
 /// A line that stops is given up sooner the stronger it is; up to SNR 4, so that a keyed one stays one.
 BothWays lookBothWays(const PathStrip &strip, const BothWaysModel &model);
 
+/// How often the track's slope changed by 0, 1, … steps (expectedSlopeChanges), at its own level.
+std::vector<double> slopeChangesOf(const PathStrip &strip, const BothWaysModel &model);
+
 /// The detector's own score of the strongest path in the corridor, nat.
 double strongestIn(const PathStrip &strip, const BothWaysModel &model);
 

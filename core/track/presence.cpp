@@ -125,12 +125,37 @@ namespace {
             result.high[at] = static_cast<float>(first + quantile(cells, highQuantile * on));
         }
 
+        /// Adds the probabilities that the slope changed by 0, 1, … steps on the way into that frame.
+        void addChangesTo(std::vector<double> &changes, const Weights &before, Weights next, Index frame) const
+        {
+            applyEvidence(frame, next);
+            double on = 0.0;
+            double arrivals = 0.0;
+            for (std::size_t s = 0; s + 1 < next.size(); ++s) {
+                on += before[s];
+                arrivals += next[s];
+            }
+            double all = before.back() * ((1.0 - m_change) * next.back() + m_birth * arrivals) + on * m_change * next.back();
+            std::vector<double> found(changes.size());
+            forEachWay(m_corridor, stepsInto(frame), frame, [&](Index from, Index to, const Step &step) {
+                const double weight = before[static_cast<std::size_t>(from)] * step.probability * next[static_cast<std::size_t>(to)];
+                found[static_cast<std::size_t>(std::abs(step.to - step.from) / m_width)] += weight;
+                all += weight;
+            });
+            for (std::size_t i = 0; i < changes.size() && all > 0.0; ++i)
+                changes[i] += found[i] / all;
+        }
+
     private:
+        const std::vector<Step> &stepsInto(Index frame) const
+        {
+            return m_steps[static_cast<std::size_t>((m_firstStep + frame) % static_cast<Index>(m_steps.size()))];
+        }
+
         template <class Take>
         void forEachMove(Index frame, Take take) const
         {
-            forEachWay(m_corridor, m_steps[static_cast<std::size_t>((m_firstStep + frame) % static_cast<Index>(m_steps.size()))], frame,
-                       [&](Index from, Index to, const Step &step) { take(from, to, step.probability); });
+            forEachWay(m_corridor, stepsInto(frame), frame, [&](Index from, Index to, const Step &step) { take(from, to, step.probability); });
         }
 
         void applyEvidence(Index frame, Weights &weights) const
@@ -179,40 +204,57 @@ namespace {
         std::vector<std::vector<Step>> m_steps; ///< of each phase
     };
 
+    /// Calls take(frame, α of the frame before, α, β) for every frame, the last one first.
+    template <class Take>
+    void forwardBackward(const Chain &chain, Index frames, Take take)
+    {
+        // α at the beginning of each chunk; within one it is made again on the way back.
+        const auto chunk = std::max<Index>(16, static_cast<Index>(std::sqrt(static_cast<double>(frames))));
+        std::vector<Weights> starts;
+        Weights alpha = chain.start();
+        for (Index frame = 0; frame < frames; ++frame) {
+            if (frame % chunk == 0)
+                starts.push_back(alpha);
+            alpha = chain.forward(alpha, frame);
+        }
+        Weights beta(alpha.size(), 1.0);
+        for (Index first = (std::ssize(starts) - 1) * chunk; first >= 0; first -= chunk) {
+            const Index end = std::min(frames, first + chunk);
+            std::vector<Weights> alphas{starts[static_cast<std::size_t>(first / chunk)]};
+            for (Index frame = first; frame < end; ++frame)
+                alphas.push_back(chain.forward(alphas.back(), frame));
+            for (Index frame = end; frame-- > first;) {
+                const auto at = static_cast<std::size_t>(frame - first);
+                take(frame, alphas[at], alphas[at + 1], beta);
+                if (frame > 0)
+                    beta = chain.backward(std::move(beta), frame);
+            }
+        }
+    }
+
 } // namespace
 
 Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep)
 {
     const Chain chain(corridor, axis, lnChange, firstStep);
-    const Index frames = corridor.frameCount();
-    const auto count = static_cast<std::size_t>(frames);
+    const auto count = static_cast<std::size_t>(corridor.frameCount());
     Presence result{std::vector<float>(count), std::vector<double>(count), std::vector<float>(count),
                     std::vector<float>(count)};
-    if (frames == 0)
-        return result;
-    // α at the beginning of each chunk; within one it is made again on the way back.
-    const auto chunk = std::max<Index>(16, static_cast<Index>(std::sqrt(static_cast<double>(frames))));
-    std::vector<Weights> starts;
-    Weights alpha = chain.start();
-    for (Index frame = 0; frame < frames; ++frame) {
-        if (frame % chunk == 0)
-            starts.push_back(alpha);
-        alpha = chain.forward(alpha, frame);
-    }
-    Weights beta(alpha.size(), 1.0);
-    for (Index first = (std::ssize(starts) - 1) * chunk; first >= 0; first -= chunk) {
-        const Index end = std::min(frames, first + chunk);
-        std::vector<Weights> alphas;
-        alphas.push_back(chain.forward(starts[static_cast<std::size_t>(first / chunk)], first));
-        for (Index frame = first + 1; frame < end; ++frame)
-            alphas.push_back(chain.forward(alphas.back(), frame));
-        for (Index frame = end; frame-- > first;) {
-            chain.addTo(result, alphas[static_cast<std::size_t>(frame - first)], beta, frame);
-            if (frame > 0)
-                beta = chain.backward(std::move(beta), frame);
-        }
-    }
+    forwardBackward(chain, corridor.frameCount(), [&](Index frame, const Weights &, const Weights &alpha, const Weights &beta) {
+        chain.addTo(result, alpha, beta, frame);
+    });
     return result;
+}
+
+std::vector<double> expectedSlopeChanges(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep)
+{
+    const Chain chain(corridor, axis, lnChange, firstStep);
+    std::vector<double> changes(axis.rateChange.size());
+    forwardBackward(chain, corridor.frameCount(), [&](Index frame, const Weights &before, const Weights &, const Weights &beta) {
+        if (frame > 0)
+            chain.addChangesTo(changes, before, beta, frame);
+    });
+    return changes;
 }
 
 double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const std::vector<double> &lnK, Index firstStep)

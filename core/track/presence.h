@@ -32,6 +32,10 @@ struct Presence {
 /// Source: Baum and others 1970. Oracle: enumeration of all sequences. Cost: frames × moves × width, three times; memory: √frames.
 Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep);
 
+/// How often a signal in the corridor changed its slope by 0, 1, … steps of the slope set from one frame to the next: expected numbers, given
+/// all of the corridor and that it was there in both frames (Baum's ξ, summed over cells and directions). As many numbers as the law has.
+std::vector<double> expectedSlopeChanges(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep);
+
 /// The largest score of a path in the corridor, by the detector's own recursion:
 ///
 ///   u_t(s) = λ_t(s) + max(0, ln K_t + max_m [ln P(s|m) + u_{t-1}(m)])

@@ -99,6 +99,8 @@ class tst_presence : public QObject
 private slots:
     void isTheSumOverAllSequences_data();
     void isTheSumOverAllSequences();
+    void slopeChangesAreTheSumOverAllSequences_data() { isTheSumOverAllSequences_data(); }
+    void slopeChangesAreTheSumOverAllSequences();
     void strongestPathIsTheBestOfAll();
     void chunksChangeNothing();
     void aLineIsThereWhileItIs();
@@ -136,6 +138,26 @@ void tst_presence::isTheSumOverAllSequences()
         if (cells[2] > 0.05 * on)
             QVERIFY(std::abs(static_cast<double>(found.high[at]) - (first + 2.5 - 0.05 * on / cells[2])) < 1e-5);
     }
+}
+
+void tst_presence::slopeChangesAreTheSumOverAllSequences()
+{
+    QFETCH(int, firstStep);
+    const KinematicAxis axis = halfBins(12);
+    const Corridor corridor = smallCorridor(5);
+    const double lnChange = std::log(0.07);
+    std::vector<double> expected(2);
+    double all = 0.0;
+    enumerate(axis, corridor, std::exp(lnChange), firstStep, [&](const std::vector<State> &sequence, double weight) {
+        all += weight;
+        for (std::size_t frame = 1; frame < sequence.size(); ++frame)
+            if (sequence[frame - 1].rate >= 0 && sequence[frame].rate >= 0)
+                expected[static_cast<std::size_t>(std::abs(sequence[frame].rate - sequence[frame - 1].rate))] += weight;
+    });
+    const std::vector<double> found = expectedSlopeChanges(corridor, axis, lnChange, firstStep);
+    QCOMPARE(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        QVERIFY(std::abs(found[i] - expected[i] / all) < 1e-9);
 }
 
 void tst_presence::strongestPathIsTheBestOfAll()

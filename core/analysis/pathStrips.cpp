@@ -1,0 +1,61 @@
+#include "analysis/pathStrips.h"
+
+#include "analysis/chain.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t blockBytes = std::size_t(1) << 20;
+
+    void copyFrame(std::span<const float> y, Index at, PathStrip &strip)
+    {
+        if (at < 0 || at >= strip.frameCount())
+            return;
+        const Index first = strip.firstCell(at);
+        const Index from = std::clamp<Index>(first, 0, std::ssize(y));
+        const Index to = std::clamp<Index>(first + strip.width(), 0, std::ssize(y));
+        if (from < to)
+            std::copy(y.begin() + from, y.begin() + to, strip.row(at) + (from - first));
+    }
+
+} // namespace
+
+void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const RunContext &context, std::string_view what)
+{
+    std::stable_sort(strips.begin(), strips.end(), [](const PathStrip *a, const PathStrip *b) { return a->firstFrame < b->firstFrame; });
+    const NormalisedFrames &frames = *analysis.frames;
+    const Index cells = frames.grid().size();
+    const Index frameCount = frames.time().count;
+    const Index block = std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / cells);
+    const std::vector<CellBox> blind = blindBoxes(analysis);
+    std::vector<PathStrip *> open;
+    std::size_t next = 0;
+    std::vector<float> values;
+    for (Index first = 0; first < frameCount && (next < strips.size() || !open.empty()); first += block) {
+        context.checkpoint(static_cast<double>(first) / static_cast<double>(frameCount), what);
+        const Index count = std::min(block, frameCount - first);
+        for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
+            PathStrip &strip = *strips[next];
+            strip.y.assign(static_cast<std::size_t>(strip.frameCount() * strip.width()), std::numeric_limits<float>::quiet_NaN());
+            open.push_back(&strip);
+        }
+        std::erase_if(open, [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
+        if (open.empty())
+            continue;
+        values.resize(static_cast<std::size_t>(count * cells));
+        frames.read(first, count, values);
+        for (Index i = 0; i < count; ++i) {
+            const std::span<float> y = std::span(values).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>(cells));
+            for (const CellBox &box : blind)
+                box.forEachCell(frames.grid(), [&](Index cell) { y[static_cast<std::size_t>(cell)] = 0.0f; });
+            for (PathStrip *strip : open)
+                copyFrame(y, first + i - strip->firstFrame, *strip);
+        }
+    }
+}
+
+} // namespace faintline
