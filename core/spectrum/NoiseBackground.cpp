@@ -250,16 +250,16 @@ namespace {
     }
 
     /// ln of the mean of which a mean of so many cells is an estimate: what the logarithm of one that scatters falls short by is added.
-    float lnMean(float mean, std::ptrdiff_t cells)
+    float lnMean(float mean, std::ptrdiff_t cells, double likeness)
     {
-        const double scatter = meanScatter(static_cast<double>(cells));
+        const double scatter = meanScatter(static_cast<double>(cells), likeness);
         return std::log(mean) + static_cast<float>(0.5 * scatter * scatter);
     }
 
     /// ln of each frame's level over its block's background, frames × (bands + 1): per sub-band the mean of its cells of noise, then the whole
     /// band's common one, from the sub-bands that agree with the median sub-band. `notKnown` in digital silence. Sub-bands that are mostly
     /// lines or empty have no say in what is common, and go with it where nothing of them is noise.
-    std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground &block, Index bands)
+    std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground &block, Index bands, double likeness)
     {
         std::vector<float> levels;
         if (bands == 0)
@@ -294,7 +294,7 @@ namespace {
                 const float median = medianOf(sample);
                 if (!(median > 0.0f))
                     continue;
-                own[band] = lnMean(truncatedMean(sample, median / std::numbers::ln2_v<float>), count);
+                own[band] = lnMean(truncatedMean(sample, median / std::numbers::ln2_v<float>), count, likeness);
                 known.push_back(band);
                 const auto firm = std::count(block.isFirm.begin() + firstCell(band, bands, cells), block.isFirm.begin() + endCell(band, bands, cells), true);
                 if (2 * firm >= endCell(band, bands, cells) - firstCell(band, bands, cells)) {
@@ -319,7 +319,7 @@ namespace {
                 if (telling.size() < 3 || std::abs(own[band] - middle) < agreeing)
                     collect(band, isFirm ? block.isFirm : block.isNoise);
             const float mean = truncatedMean(sample, std::exp(middle));
-            own[bands] = mean > 0.0f && !sample.empty() ? lnMean(mean, std::ssize(sample)) : notKnown;
+            own[bands] = mean > 0.0f && !sample.empty() ? lnMean(mean, std::ssize(sample), likeness) : notKnown;
             std::replace(own, own + bands, notKnown, own[bands]);
         }
         return levels;
@@ -484,7 +484,7 @@ namespace {
 
     /// From the levels measured to those that count, per sub-band: what the common level does beyond its errors, then what a sub-band
     /// does besides.
-    std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, double overlap)
+    std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, double overlap, double likeness)
     {
         const auto bands = static_cast<std::size_t>(background.bandCount);
         const auto count = static_cast<std::size_t>(background.levelTime.count);
@@ -499,12 +499,12 @@ namespace {
             bridgeSilence(series);
             return series;
         };
-        const std::vector<float> common = beyondScatter(column(bands), overlap * meanScatter(cells));
+        const std::vector<float> common = beyondScatter(column(bands), overlap * meanScatter(cells, likeness));
         for (std::size_t band = 0; band < bands; ++band) {
             std::vector<float> own = column(band);
             for (std::size_t i = 0; i < count; ++i)
                 own[i] -= common[i];
-            own = beyondScatter(own, overlap * meanScatter(cells / static_cast<double>(bands)));
+            own = beyondScatter(own, overlap * meanScatter(cells / static_cast<double>(bands), likeness));
             for (std::size_t i = 0; i < count; ++i)
                 result[i * bands + band] = common[i] + own[i];
         }
@@ -593,13 +593,7 @@ namespace {
         double variance() const { return freedom > 0.0 ? sum / freedom : 0.0; }
         double varianceOfMeans() const { return freedom > 0.0 ? sumOfMeans / freedom : 0.0; }
         /// That of steady noise, whose neighbouring cells are alike by the window.
-        static double ofNoise(const std::vector<float> &window)
-        {
-            double fourth = 0.0;
-            for (const float w : window)
-                fourth += std::pow(static_cast<double>(w), 4.0);
-            return fourth * static_cast<double>(window.size()) / static_cast<double>(tileFrames * tileCells);
-        }
+        static double ofNoise(double likeness) { return likeness / static_cast<double>(tileFrames * tileCells); }
 
         static constexpr Index tileFrames = 8;
         static constexpr Index tileCells = 24;
@@ -691,13 +685,13 @@ namespace {
     };
 
     /// Where a stretch's noise is a sum of sources, adds them to the background and replaces its levels by those over them.
-    void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, std::vector<float> &levels)
+    void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, double likeness, std::vector<float> &levels)
     {
         constexpr Index cellsForThree = 144;
         constexpr double better = 1.1;
         constexpr double explained = 1.3;
         const Index cells = background.frequency.count;
-        const double expected = Unevenness::ofNoise(sampleWindow(stretchFrames.windows.settings().window, stretchFrames.windows.windowSamples()));
+        const double expected = Unevenness::ofNoise(likeness);
         std::vector<float> frames = stretchFrames.read(0, cells);
         const float strongest = *std::max_element(frames.begin(), frames.end());
         const Between t = between(background.time, background.levelTime.value(static_cast<double>((stretchFrames.first + stretchFrames.count / 2) * stretchFrames.steps)));
@@ -759,7 +753,7 @@ namespace {
                     divide(frameOf(frames, frame), stretch.lnPower);
                 divideByNoise(frames, shift);
             }
-            const std::vector<float> own = levelsOf(frames, rest, background.bandCount);
+            const std::vector<float> own = levelsOf(frames, rest, background.bandCount, likeness);
             if (shift == 0)
                 offsets = mediansOf(own, columns);
             for (Index i = 0; i < std::ssize(own); ++i) {
@@ -872,6 +866,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         wide.highHz += margin;
     }
     const Spectrogram frames(spectrogram.recordingPointer(), coarse, wide);
+    const double likeness = cellLikeness(sampleWindow(coarse.window, frames.windowSamples()));
 
     const Index frameCount = frames.time().count;
     const Index cells = frames.frequency().count;
@@ -924,7 +919,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         rows.isNoise.insert(rows.isNoise.end(), own.isNoise.begin(), own.isNoise.end());
         if (background->bandCount == 0)
             continue;
-        const std::vector<float> measured = levelsOf(block, own, background->bandCount);
+        const std::vector<float> measured = levelsOf(block, own, background->bandCount, likeness);
         offsets.emplace_back(measured, columns);
         if (stride == 1)
             changes.push_back(changesOf(block, own, measured, background->bandCount));
@@ -943,7 +938,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
                 continue;
             const auto values = std::span(block).first(static_cast<std::size_t>(there * cells));
             other.read(first, there, values);
-            const std::vector<float> more = levelsOf(values, own, background->bandCount);
+            const std::vector<float> more = levelsOf(values, own, background->bandCount, likeness);
             for (Index i = 0; i < there; ++i)
                 put(more, i, (first + i) * steps + shift, 0.0f);
         }
@@ -954,12 +949,12 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         moveToBackground(levels, rows, *background, blockOfLevel);
     }
     const double overlap = overlapFactor(frames, steps);
-    background->lnLevel = finishLevels(levels, *background, overlap);
+    background->lnLevel = finishLevels(levels, *background, overlap, likeness);
     if (background->bandCount == 0 || stride > 1)
         return background;
     constexpr Index stretchBlocks = 13;
     constexpr double noticeable = 1.5;
-    const double expected = Unevenness::ofNoise(sampleWindow(coarse.window, frames.windowSamples()));
+    const double expected = Unevenness::ofNoise(likeness);
     const Index together = std::clamp<Index>(static_cast<Index>(static_cast<double>(valuesPerBlock / cells) / blockFrames), 1, stretchBlocks);
     for (Index b = 0; b < blockCount; b += together) {
         const auto first = static_cast<Index>(std::floor(static_cast<double>(b) * blockFrames));
@@ -970,10 +965,10 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
             change.freedom += changes[static_cast<std::size_t>(each)].freedom;
         }
         if (change.variance() > noticeable * expected)
-            addStretch(*background, {first, end - first, steps, frames, shifted}, settings.halfWidthCells, levels);
+            addStretch(*background, {first, end - first, steps, frames, shifted}, settings.halfWidthCells, likeness, levels);
     }
     if (!background->stretches.empty())
-        background->lnLevel = finishLevels(levels, *background, overlap);
+        background->lnLevel = finishLevels(levels, *background, overlap, likeness);
     return background;
 }
 
