@@ -42,8 +42,50 @@ namespace {
     constexpr double leastExpected = 300.0; ///< maxima at 2·10⁻⁵, of which a line takes a third; in small volumes the rates are higher
     constexpr double leastEvents = 20.0;
 
+    /// What a calibration may cost.
+    struct Effort {
+        double cellFrames = 0.0; ///< noise in which events are counted
+        SplittingSettings splitting{};
+        int pieceWindowSamples = 32; ///< of the band that splitting goes on in
+        bool isFirstEstimate = false;
+    };
+
+    Effort effortOf(CalibrationDepth depth)
+    {
+        if (depth == CalibrationDepth::Refined)
+            return {8e7};
+        SplittingSettings fewer;
+        fewer.entries = 1000;
+        fewer.pilots = 60;
+        fewer.leastLnRate = -21.0;
+        return {1.6e7, fewer, 16, true};
+    }
+
     /// Noise to calibrate on, in segments that can be made independently of each other.
     using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;
+
+    /// Of so many segments, those that a rough look is taken at first.
+    int roughCountOf(int segmentCount)
+    {
+        return std::max(2, segmentCount / 10);
+    }
+
+    /// The same segments, of which those of the rough look, gone through again and again, are made once.
+    NoiseSegment remembered(NoiseSegment segment, int segmentCount)
+    {
+        struct Made {
+            std::once_flag once;
+            NormalisedFramesPointer frames;
+        };
+        const auto made = std::make_shared<std::vector<Made>>(static_cast<std::size_t>(roughCountOf(segmentCount)));
+        return [segment = std::move(segment), made](int number) {
+            if (number >= std::ssize(*made))
+                return segment(number);
+            Made &own = (*made)[static_cast<std::size_t>(number)];
+            std::call_once(own.once, [&] { own.frames = segment(number); });
+            return own.frames;
+        };
+    }
 
     /// Levels at which a statistic's exceedance is counted.
     struct Levels {
@@ -329,9 +371,8 @@ namespace {
 
     /// How rare excursions of noise of known level are, on a small band that closes on itself, along which all cells are alike.
     RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, const AnalysisSettings &settings,
-                         const Calibration &calibration, const RunContext &context)
+                         const Calibration &calibration, const Effort &effort, const RunContext &context)
     {
-        constexpr int pieceWindowSamples = 32;
         constexpr Index pieceCells = 64;
         if (model.space.axes().size() > 1 || !model.space.axes().front().transition.empty())
             return {};
@@ -339,7 +380,7 @@ namespace {
         const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(&frames) != nullptr;
         const Index independentCells = std::max<Index>(pieceCells, 8 * axis.largestDisplacement() + 1);
         const std::function<std::unique_ptr<NoiseStream>()> makeNoise = [&] {
-            return isSpectral ? spectralNoise(settings.spectrogram, pieceWindowSamples)
+            return isSpectral ? spectralNoise(settings.spectrogram, effort.pieceWindowSamples)
                               : independentNoise(independentCells);
         };
         axis.cells = makeNoise()->cells();
@@ -354,7 +395,7 @@ namespace {
                                 isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{},
                                 smd ? resetRule(*smd, calibration.lnK) : ResetRule{});
         };
-        return measureRareRates(make, makeNoise, {}, context);
+        return measureRareRates(make, makeNoise, effort.splitting, context);
     }
 
     /// The first cells of another stream: a band whose ends paths run off.
@@ -381,7 +422,8 @@ namespace {
     };
 
     /// As `followTail`, in so many bins with two ends, or in a band that closes on itself.
-    RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic, const RunContext &context)
+    RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic, const SplittingSettings &splitting,
+                         const RunContext &context)
     {
         constexpr int least = 32;
         int samples = least;
@@ -401,7 +443,7 @@ namespace {
         const auto make = [&] {
             return makeDetector(bare.detector, model, grid, frameGeometry(bare.spectrogram), smd ? resetRule(*smd, lnK) : ResetRule{});
         };
-        return measureRareRates(make, makeNoise, {}, context);
+        return measureRareRates(make, makeNoise, splitting, context);
     }
 
     /// Where a narrow band's rate is known, that of one in which its ends take away a `share` of that.
@@ -482,13 +524,14 @@ namespace {
     }
 
     std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
-                                                   const AnalysisSettings &settings, const RunContext &context)
+                                                   const AnalysisSettings &settings, const Effort &effort, const RunContext &context)
     {
         // The analysis whose chain will be asked, with thresholds to be found.
         Analysis trial;
         trial.settings = settings;
         trial.model = model;
         auto result = std::make_shared<Calibration>();
+        result->isFirstEstimate = effort.isFirstEstimate;
         trial.calibration = result;
         context.checkpoint(0.0, "calibrating K on noise");
         const NormalisedFramesPointer firstSegment = segment(0);
@@ -501,7 +544,7 @@ namespace {
         trial.frames = firstSegment;
         const Levels levels = levelsOf(*first, *makeDetector(trial));
 
-        const int roughCount = std::max(2, segmentCount / 10);
+        const int roughCount = roughCountOf(segmentCount);
         Tail rough;
         inRounds(
             roughCount, context.part(0.1, 0.2), [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
@@ -509,7 +552,9 @@ namespace {
         fillExceedance(rough.counts, levels, *result);
         const double cells = static_cast<double>(first->grid().size());
         const double columns = std::max(1.0, std::floor(cells / static_cast<double>(blockCells)));
-        const RareRates rare = followTail(*firstSegment, model, settings, *result, context.part(0.2, 0.4));
+        const RareRates rare = followTail(*firstSegment, model, settings, *result, effort, context.part(0.2, 0.4));
+        if (effort.isFirstEstimate && rare.isEmpty())
+            return nullptr; // a line through a fifth of the counts tells too little
         const std::vector<double> thresholds =
             thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(blockFrames) * cells / columns,
                                 rough.cellFrames / roughCount * segmentCount, rare.isEmpty());
@@ -522,7 +567,7 @@ namespace {
                 std::vector<std::unique_ptr<DetectionChain>> chains;
                 for (const double threshold : thresholds) {
                     own.threshold = threshold;
-                    const bool isLeftOut = !rare.isEmpty() && chains.empty() && number % crowdedEvery != 0;
+                    const bool isLeftOut = !rare.isEmpty() && chains.empty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
                     chains.push_back(isLeftOut ? nullptr : makeChain(own, makeDetector(own), false));
                 }
                 return countEvents(*own.frames, chains);
@@ -590,9 +635,9 @@ namespace {
         return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, bare.noise), bare.noise);
     }
 
-    std::string keyOf(const AnalysisSettings &bare, double cellFrames)
+    std::string keyOf(const AnalysisSettings &bare, CalibrationDepth depth)
     {
-        return settingsToJson(bare) + formatNumber(cellFrames);
+        return settingsToJson(bare) + formatNumber(effortOf(depth).cellFrames);
     }
 
     /// Null only where `make` answers that.
@@ -691,43 +736,48 @@ double Calibration::levelExceededBy(double probability) const
     return levels[std::min(static_cast<std::size_t>(first - exceedance.begin()), levels.size() - 1)];
 }
 
-std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context, double cellFrames)
+std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context, CalibrationDepth depth)
 {
     const AnalysisSettings bare = dimensionless(settings);
-    return kept(keyOf(bare, cellFrames), [&] {
+    if (depth == CalibrationDepth::FirstEstimate && !isScoreOfPaths(settings.detector))
+        return calibrate(settings, context);
+    const Effort effort = effortOf(depth);
+    const auto result = kept(keyOf(bare, depth), [&] {
         const double perSegment = static_cast<double>(segmentWindows) * bare.spectrogram.stepsPerWindow
             * static_cast<double>(Fft::fastLength(windowSamples * bare.spectrogram.binsPerCell));
-        const int segments = std::max(4, static_cast<int>(std::ceil(cellFrames / perSegment)));
-        const MarkovModel model = makeModel(bare.model, noiseSegment(bare, 0)->grid());
-        return calibrateOn([&](int number) { return noiseSegment(bare, number); }, segments, model, bare, context);
+        const int segments = std::max(4, static_cast<int>(std::ceil(effort.cellFrames / perSegment)));
+        const NoiseSegment segment = remembered([&](int number) { return noiseSegment(bare, number); }, segments);
+        return calibrateOn(segment, segments, makeModel(bare.model, segment(0)->grid()), bare, effort, context);
     });
+    return result ? result : calibrate(settings, context);
 }
 
-std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins, const RunContext &context)
+std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins, const RunContext &context, CalibrationDepth depth)
 {
     constexpr Index wideEnough = 256;   // less than a twentieth of the false alarms is lost at the ends
     constexpr Index endsDoNotMeet = 64; // from here on the ends take away as much, whatever lies between them
     const bool isMoving = settings.model.motion == Motion::Slopes
                           && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
     if (bins >= wideEnough || !isMoving)
-        return calibrate(settings, context);
-    const auto wide = calibrate(settings, context.part(0.0, 0.6));
+        return calibrate(settings, context, depth);
+    const auto wide = calibrate(settings, context.part(0.0, 0.6), depth);
     if (wide->rates.isEmpty())
         return wide;
     const AnalysisSettings bare = dimensionless(settings);
     const Index simulated = std::min(bins, endsDoNotMeet);
-    const auto narrow = kept("band of " + std::to_string(simulated) + " " + settingsToJson(bare), [&]() -> std::shared_ptr<const Calibration> {
-        const RareRates closed = followBand(bare, wide->lnK, 0, true, context.part(0.6, 0.8));
-        const RareRates band = closed.isEmpty() ? closed : followBand(bare, wide->lnK, simulated, false, context.part(0.8, 1.0));
+    const SplittingSettings splitting = effortOf(depth).splitting;
+    const auto narrow = kept("band of " + std::to_string(simulated) + " " + keyOf(bare, depth), [&]() -> std::shared_ptr<const Calibration> {
+        const RareRates closed = followBand(bare, wide->lnK, 0, true, splitting, context.part(0.6, 0.8));
+        const RareRates band = closed.isEmpty() ? closed : followBand(bare, wide->lnK, simulated, false, splitting, context.part(0.8, 1.0));
         return band.isEmpty() ? wide : narrowed(*wide, band, closed);
     });
     return bins == simulated ? narrow
                              : withShareOfEnds(*wide, *narrow, static_cast<double>(simulated) / static_cast<double>(bins));
 }
 
-std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings, double cellFrames)
+std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings)
 {
-    return kept(keyOf(dimensionless(settings), cellFrames), [] { return nullptr; });
+    return kept(keyOf(dimensionless(settings), CalibrationDepth::Refined), [] { return nullptr; });
 }
 
 MarkovModel handyPiece(const MarkovModel &model)
@@ -777,7 +827,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     bare.decide = withoutThreshold(bare.decide);
     bare.track.bothWays = TrackSettings{}.bothWays;
     return kept(nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
-                [&] { return calibrateOn(segment, segments, model, settings, context); });
+                [&] { return calibrateOn(segment, segments, model, settings, {cellFrames}, context); });
 }
 
 double thresholdNats(const DecideSettings &decide, const Calibration &calibration, double cellFramesPerHour)

@@ -295,7 +295,8 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
 }
 
 std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
-                                        const Analysis *previous, const StatisticSink &sink, const PictureSink &pictures)
+                                        const Analysis *previous, const StatisticSink &sink, const PictureSink &pictures,
+                                        CalibrationDepth depth)
 {
     checkSettings(settings);
     auto analysis = std::make_shared<Analysis>();
@@ -318,7 +319,7 @@ std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const Analys
         analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
     }
     analysis->model = makeModel(settings.model, analysis->grid());
-    analysis->calibration = calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5));
+    analysis->calibration = calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5), depth);
     analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
     analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
     run(*analysis, context.part(0.5, 1.0), sink, showing);

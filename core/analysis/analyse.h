@@ -110,9 +110,11 @@ using PictureSink = std::function<void(const PicturesSoFar &)>;
 ///
 /// Every caller, window, command line and library, comes through here. `previous`, if given, lends what is still valid.
 /// Streams: memory is bounded whatever the recording's length. Throws Error, Cancelled.
+/// A first estimate of the threshold is there sooner and is not the last word; nothing else of the run differs.
 std::shared_ptr<const Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
                                         const RunContext &context = {}, const Analysis *previous = nullptr,
-                                        const StatisticSink &sink = {}, const PictureSink &pictures = {});
+                                        const StatisticSink &sink = {}, const PictureSink &pictures = {},
+                                        CalibrationDepth depth = CalibrationDepth::Refined);
 
 /// The same from ready-made frames on any grid, with the settings' own model or bank of models (`previous` lends its picture of the
 /// input and the band of ln K) …
