@@ -154,6 +154,7 @@ void AnalysisController::run()
 
 void AnalysisController::startAnalysis()
 {
+    m_firstEstimate.reset();
     // Of pings one is looked at: that of the cursor.
     const auto &cursor = m_document.viewport().cursor();
     const Span visible = m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
@@ -181,12 +182,25 @@ void AnalysisController::startAnalysis()
             pictures = [this](const PicturesSoFar &sofar) {
                 m_runner.deliver([this, sofar] { emit m_document.picturesGrew(sofar); });
             };
-        auto analysis = analyse(opened, settings, context, previous.get(), pictures);
+        const bool isNew = opened.recording && !knownCalibration(settings);
+        auto analysis = analyse(opened, settings, context.part(0.0, isNew ? 0.3 : 1.0), previous.get(), pictures,
+                                isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined);
+        if (analysis->calibration->isFirstEstimate) {
+            m_runner.deliver([this, analysis, found = events(*analysis)] { showFirstEstimate(analysis, found); });
+            analysis = analyse(opened, settings, context.part(0.3, 1.0), analysis.get());
+        }
         std::vector<Event> found = events(*analysis);
         return [this, analysis = std::move(analysis), found = std::move(found)] {
             m_document.setAnalysis(analysis, found);
         };
     });
+}
+
+void AnalysisController::showFirstEstimate(std::shared_ptr<const Analysis> analysis, std::vector<Event> found)
+{
+    m_firstEstimate = analysis->threshold;
+    m_document.setAnalysis(std::move(analysis), std::move(found));
+    restoreView();
 }
 
 void AnalysisController::showPreview(const AnalysisSettings &settings, const StatisticPreview &preview,
@@ -281,9 +295,16 @@ void AnalysisController::end()
         return startAnalysis();
     m_document.setProvisional(nullptr); // of settings that could not be analysed
     emit busyChanged(false);
+    restoreView();
+    if (const auto first = std::exchange(m_firstEstimate, {}); first && !m_document.analysis()->calibration->isFirstEstimate)
+        emit refined(*first);
+    emit settled();
+}
+
+void AnalysisController::restoreView()
+{
     if (m_pendingView && m_document.analysis())
         emit viewRestored(*std::exchange(m_pendingView, {}));
-    emit settled();
 }
 
 } // namespace faintline

@@ -18,6 +18,7 @@ namespace faintline {
 /// results there are (`previewThreshold`); let go (`commitThreshold`), it becomes a setting and the chain runs again.
 /// A changed detector or model is seen at once as well: its statistic of the visible frames comes first, provisionally, beside the
 /// threshold there was; calibration, decisions and the rest of the recording follow.
+/// Settings that a recording was never calibrated for get a first estimate of their threshold, and the analysis again once it is refined.
 class AnalysisController : public QObject
 {
     Q_OBJECT
@@ -62,6 +63,8 @@ signals:
     void viewRestored(const faintline::ViewState &view); ///< of a session, once there is something to see
     void warned(const QString &where, const QString &why);
     void failed(const faintline::Error &error);
+    /// The analysis now has its refined threshold; it had a first estimate of it.
+    void refined(double firstEstimate);
     /// Nothing is left to do: the analysis belongs to the settings, or there was a failure.
     void settled();
 
@@ -78,12 +81,15 @@ private:
     void open(const QString &path, const OpenOptions &options, const Adjust &adjust, const Annotations &annotations);
     void deliver(const Opening &opening);
     void startAnalysis();
+    void showFirstEstimate(std::shared_ptr<const Analysis> analysis, std::vector<Event> found);
+    void restoreView();
     void showPreview(const AnalysisSettings &settings, const StatisticPreview &preview, std::shared_ptr<const KeptFrames> kept);
     void dropPartialPreview();
     void end();
 
     Document &m_document;
     std::optional<ViewState> m_pendingView;
+    std::optional<double> m_firstEstimate; ///< threshold of the analysis that is being refined
     std::shared_ptr<const KeptFrames> m_kept; ///< of the last preview
     bool m_isOpening = false;
     JobRunner m_runner; ///< last, so that its jobs end first

@@ -2,6 +2,7 @@
 
 #include "analysis/judgeByBoxes.h"
 #include "app/filePath.h"
+#include "app/thresholdWords.h"
 #include "base/oneLine.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeReviewed.h"
@@ -206,6 +207,8 @@ void EventReviews::exportTo(const QString &path)
 {
     if (!m_document.analysis())
         return;
+    if (m_document.analysis()->calibration->isFirstEstimate)
+        return emit failed(firstEstimateError());
     writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), pathBytes(path));
     // Only a threshold that is being dragged is not that of the settings.
     const bool isDragged = m_document.shownThreshold() != m_document.analysis()->threshold;

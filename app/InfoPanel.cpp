@@ -1,8 +1,10 @@
 #include "app/InfoPanel.h"
 
+#include "app/AnalysisController.h"
 #include "app/Document.h"
 #include "app/NoiseCheck.h"
 #include "app/statisticUnit.h"
+#include "app/thresholdWords.h"
 #include "base/utc.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/labelText.h"
@@ -101,7 +103,7 @@ namespace {
         rows.row(tr("Bins"), tr("%1, every %2 Hz").arg(frequency.count).arg(frequency.step, 0, 'g', 4));
     }
 
-    void describeCalibration(Rows &rows, const Analysis &analysis)
+    void describeCalibration(Rows &rows, const Analysis &analysis, bool isBusy)
     {
         const Calibration &calibration = *analysis.calibration;
         const double eventRate = calibration.eventRateAt(analysis.threshold);
@@ -113,6 +115,8 @@ namespace {
                                       .arg(unit));
         rows.row(tr("False alarms"), QString::fromStdString(falseAlarmWords(eventRate * analysis.cellFramesPerHour,
                                                                             calibration.rateUncertaintyAt(analysis.threshold))));
+        if (calibration.isFirstEstimate)
+            rows.note(firstEstimateSentence(analysis, isBusy));
         rows.row(tr("Pfa per cell"), powerText(calibration.exceedanceAt(analysis.threshold)));
         rows.row(tr("ln K"), withUnit(calibration.lnK, 3, "nat"));
         rows.row(tr("Paths continued"), withUnit(100.0 * calibration.continuedFraction, 1, "%"));
@@ -123,7 +127,7 @@ namespace {
 } // namespace
 
 InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, QWidget *parent)
-    : QWidget(parent), m_document(document), m_label(new QLabel), m_check(new NoiseCheck(document, controller))
+    : QWidget(parent), m_document(document), m_controller(controller), m_label(new QLabel), m_check(new NoiseCheck(document, controller))
 {
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     m_label->setAlignment(Qt::AlignTop | Qt::AlignLeft);
@@ -145,6 +149,7 @@ InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, Q
 
     connect(&document, &Document::opened, this, &InfoPanel::refresh);
     connect(&document, &Document::analysisChanged, this, &InfoPanel::refresh);
+    connect(&controller, &AnalysisController::busyChanged, this, &InfoPanel::refresh);
     refresh();
 }
 
@@ -159,7 +164,7 @@ void InfoPanel::refresh()
         rows.note(tr("Some samples are not finite numbers. They are read as 0."));
     if (m_document.analysis()) {
         describeFrames(rows, *m_document.analysis());
-        describeCalibration(rows, *m_document.analysis());
+        describeCalibration(rows, *m_document.analysis(), m_controller.isBusy());
     }
     m_label->setText(rows.html());
 }

@@ -26,6 +26,7 @@ private:
     void refresh();
 
     const Document &m_document;
+    const AnalysisController &m_controller;
     QLabel *m_label;
     NoiseCheck *m_check;
 };

@@ -28,6 +28,7 @@
 #include "app/Workbench.h"
 #include "app/filePath.h"
 #include "app/scanScenario.h"
+#include "app/thresholdWords.h"
 #include "widgets/EventTable.h"
 #include "widgets/ExceedancePlot.h"
 #include "widgets/OverviewStrip.h"
@@ -36,6 +37,7 @@
 
 #include <QDockWidget>
 #include <QFileInfo>
+#include <QLabel>
 #include <QStackedWidget>
 
 namespace faintline {
@@ -107,6 +109,8 @@ void MainWindow::connectController()
     connect(&m_controller, &AnalysisController::warned, this, [this](const QString &where, const QString &why) {
         m_messages->showMessage(MessageBar::Kind::Notice, where, why);
     });
+    connect(&m_controller, &AnalysisController::refined, this,
+            [this](double firstEstimate) { m_hint->setText(refinedSentence(*m_document.analysis(), firstEstimate)); });
     connect(&m_controller, &AnalysisController::viewRestored, this, [this](const ViewState &view) { bench().restore(view); });
     m_saver = new SessionSaver(
         m_document, [this] { return bench().viewState(); }, this);

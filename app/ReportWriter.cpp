@@ -4,6 +4,7 @@
 #include "app/Provenance.h"
 #include "app/WindowViews.h"
 #include "app/filePath.h"
+#include "app/thresholdWords.h"
 #include "base/AtomicFile.h"
 
 #include <QBuffer>
@@ -79,6 +80,8 @@ void ReportWriter::write(const QString &path)
     const Document &document = m_window.document();
     if (!document.analysis())
         return;
+    if (document.analysis()->calibration->isFirstEstimate)
+        return emit failed(firstEstimateError());
     ReportMaterial material;
     material.title = document.source().name().toStdString();
     material.version = FAINTLINE_VERSION;

@@ -105,11 +105,11 @@ AnalysisSettings firstSettings(const OpenedSource &opened)
 }
 
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context,
-                                        const Analysis *previous, const PictureSink &pictures)
+                                        const Analysis *previous, const PictureSink &pictures, CalibrationDepth depth)
 {
     return opened.frames ? analyse(opened.frames, settings, context, previous)
                          : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
-                                                 previous, pictures);
+                                                 previous, pictures, depth);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)

@@ -63,7 +63,8 @@ AnalysisSettings firstSettings(const OpenedSource &opened);
 
 /// The pipeline on whatever was opened.
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context = {},
-                                        const Analysis *previous = nullptr, const PictureSink &pictures = {});
+                                        const Analysis *previous = nullptr, const PictureSink &pictures = {},
+                                        CalibrationDepth depth = CalibrationDepth::Refined);
 
 /// What is open with one more line in it. Throws Error.
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection);

@@ -1,6 +1,7 @@
 #include "app/hint.h"
 
 #include "app/Document.h"
+#include "app/thresholdWords.h"
 
 #include <QCoreApplication>
 
@@ -17,6 +18,8 @@ QString hint(const Document &document, bool isBusy)
         return tr("Reading the recording and listening to its noise.");
     if (document.provisional())
         return tr("Provisional: the new statistic of what is visible, beside the old threshold and events. Calibrating …");
+    if (document.analysis()->calibration->isFirstEstimate)
+        return firstEstimateSentence(*document.analysis(), isBusy);
     if (document.hasPings() && !document.shownEvents().empty())
         return tr("J and L step from ping to ping, Space plays, P looks from above; N goes to the next track.");
     if (document.shownEvents().empty())

@@ -28,6 +28,7 @@ namespace faintline {
 /// The background's own error is not added: a chance excursion raises the background that it is divided by, and reckoning that error in
 /// ordered twice as many as came.
 struct Calibration {
+    bool isFirstEstimate = false;   ///< made quickly, to be refined
     double lnK = 0.0;               ///< ln K in force; for other detectors, of the sequential Markov detector that guides their tracks
     double continuedFraction = 0.0; ///< realised, of all states
     double anchorNats = 0.0;        ///< u
@@ -56,11 +57,15 @@ struct Calibration {
     bool operator==(const Calibration &) const = default;
 };
 
+/// How closely to calibrate. A first estimate has the same ln K and P(D > level), and rates from a fifth of the noise and shorter splitting:
+/// to a factor of about 1.5, after 2 s instead of 7. Where that would not hold (no score of paths, nothing split) the answer is refined.
+enum class CalibrationDepth { FirstEstimate, Refined };
+
 /// Simulates white noise through spectrogram, normaliser and detector and measures the answer. Depends on nothing but the
 /// dimensionless part of the settings (windows, overlaps, model, detector), which is also the key under which results
-/// are kept, for the life of the program and in the `CalibrationStore`. `cellFrames`: cells × frames to simulate for the tail.
+/// are kept, for the life of the program and in the `CalibrationStore`.
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
-                                             double cellFrames = 8e7);
+                                             CalibrationDepth depth = CalibrationDepth::Refined);
 
 /// The same for a band of so many bins on one axis: paths run off its ends, and in a narrow band few of them last.
 ///
@@ -68,7 +73,8 @@ std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, c
 ///
 /// From 64 bins on the ends do not see each other: 1 - S_band/S_wide falls as 1/bins; from 256 on it is the wide band's calibration. So it
 /// is for lines that stay in their bin, and for detectors that are not followed by splitting.
-std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins, const RunContext &context = {});
+std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins, const RunContext &context = {},
+                                                 CalibrationDepth depth = CalibrationDepth::Refined);
 
 /// The model on a piece of its grid large enough to learn its answer to noise: where it has more than 20 000 cells, the longest
 /// bounded axis is cut to about 5000 cells in all and made cyclic, so that no path runs off the piece. A sonar's bounded range

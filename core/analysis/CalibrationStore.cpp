@@ -30,6 +30,7 @@ namespace {
     Json toJson(const Calibration &c)
     {
         return {
+            {"isFirstEstimate", c.isFirstEstimate},
             {"lnK", c.lnK},
             {"continuedFraction", c.continuedFraction},
             {"anchorNats", c.anchorNats},
@@ -47,6 +48,7 @@ namespace {
     Calibration fromJson(const Json &json)
     {
         Calibration c;
+        json.at("isFirstEstimate").get_to(c.isFirstEstimate);
         json.at("lnK").get_to(c.lnK);
         json.at("continuedFraction").get_to(c.continuedFraction);
         json.at("anchorNats").get_to(c.anchorNats);

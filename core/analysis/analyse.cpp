@@ -301,7 +301,8 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
 }
 
 std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
-                                  const Analysis *previous, const StatisticSink &sink, const PictureSink &pictures, AnalysisDepth depth)
+                                  const Analysis *previous, const StatisticSink &sink, const PictureSink &pictures,
+                                  CalibrationDepth calibrationDepth, AnalysisDepth depth)
 {
     checkSettings(settings);
     auto analysis = std::make_shared<Analysis>();
@@ -324,7 +325,7 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
         analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
     }
     analysis->model = makeModel(settings.model, analysis->grid());
-    analysis->calibration = calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5));
+    analysis->calibration = calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5), calibrationDepth);
     analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
     analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
     run(*analysis, context.part(0.5, 1.0), sink, showing, depth);

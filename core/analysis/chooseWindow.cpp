@@ -43,15 +43,15 @@ namespace {
     class WindowSearch
     {
     public:
-        WindowSearch(RecordingPointer recording, const AnalysisSettings &asked, RunContext context)
-            : m_recording(std::move(recording)), m_asked(asked), m_context(std::move(context))
+        WindowSearch(RecordingPointer recording, const AnalysisSettings &asked, CalibrationDepth calibrationDepth, RunContext context)
+            : m_recording(std::move(recording)), m_asked(asked), m_calibrationDepth(calibrationDepth), m_context(std::move(context))
         {
         }
 
         /// Of the window chosen; of another than T0 without pictures. Leaves the rest to `choice`.
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
-            const std::shared_ptr<Analysis> automatic = analyse(m_recording, m_asked, nextPart(), previous, {}, pictures);
+            const std::shared_ptr<Analysis> automatic = analyse(m_recording, m_asked, nextPart(), previous, {}, pictures, m_calibrationDepth);
             m_windowSeconds = windowSecondsOf(*automatic);
             m_cells = static_cast<double>(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = static_cast<double>(automatic->time().count);
@@ -112,7 +112,7 @@ namespace {
             AnalysisSettings settings = m_asked;
             settings.spectrogram.windowSeconds = step * m_windowSeconds;
             settings.model = withLaw(m_asked.model, law);
-            auto analysis = analyse(m_recording, settings, nextPart(), nullptr, {}, {}, AnalysisDepth::Tracks);
+            auto analysis = analyse(m_recording, settings, nextPart(), nullptr, {}, {}, m_calibrationDepth, AnalysisDepth::Tracks);
             note(settings, *analysis);
             return analysis;
         }
@@ -138,6 +138,7 @@ namespace {
 
         RecordingPointer m_recording;
         const AnalysisSettings &m_asked;
+        CalibrationDepth m_calibrationDepth;
         RunContext m_context;
         double m_done = 0.0;
         double m_windowSeconds = 0.0; ///< T0
@@ -162,18 +163,19 @@ bool leavesWindowToRecording(const AnalysisSettings &settings)
 }
 
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
-                                                      const Analysis *previous, const PictureSink &pictures)
+                                                      const Analysis *previous, const PictureSink &pictures, CalibrationDepth calibrationDepth)
 {
     if (!leavesWindowToRecording(settings))
-        return analyse(recording, settings, context, previous, {}, pictures);
-    const bool isChosen = previous && previous->recording == recording && previous->choice && asksForTheSame(previous->choice->asked, settings);
+        return analyse(recording, settings, context, previous, {}, pictures, calibrationDepth);
+    const bool isChosen = previous && previous->recording == recording && previous->choice && !previous->calibration->isFirstEstimate
+        && asksForTheSame(previous->choice->asked, settings);
     WindowChoice choice;
     std::shared_ptr<Analysis> found;
     if (isChosen) {
         choice = *previous->choice;
         choice.asked = settings;
     } else {
-        WindowSearch search(recording, settings, context.part(0.0, 0.7));
+        WindowSearch search(recording, settings, calibrationDepth, context.part(0.0, 0.7));
         found = search.run(previous, pictures);
         choice = search.choice(*found);
     }
@@ -183,7 +185,7 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         used.track = settings.track;
         used.conventional = settings.conventional;
         const RunContext rest = isChosen ? context : context.part(0.7, 1.0);
-        found = analyse(recording, used, rest, isChosen ? previous : found.get(), {}, pictures);
+        found = analyse(recording, used, rest, isChosen ? previous : found.get(), {}, pictures, calibrationDepth);
     }
     found->choice = std::move(choice);
     return found;

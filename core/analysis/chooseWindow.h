@@ -20,8 +20,9 @@ bool leavesWindowToRecording(const AnalysisSettings &settings);
 ///
 /// Windows have at least 24 cells in the band and 16 frames. On noise nothing is sure enough to judge by, and T0 stays; at most five windows
 /// are tried. The answer's `choice` tells what was tried, its `settings` the window and law used.
-/// A change of the threshold or the tracks' settings alone keeps the choice of `previous`.
+/// A change of the threshold or the tracks' settings alone keeps the choice of `previous`, unless that was made by a first estimate.
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context = {},
-                                                      const Analysis *previous = nullptr, const PictureSink &pictures = {});
+                                                      const Analysis *previous = nullptr, const PictureSink &pictures = {},
+                                                      CalibrationDepth calibrationDepth = CalibrationDepth::Refined);
 
 } // namespace faintline

@@ -4,7 +4,8 @@
 
 namespace faintline {
 
-/// What `calibrate` has kept for these settings, in memory or on disk, or null: for whoever would rather do something else first than wait.
-std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings, double cellFrames = 8e7);
+/// The refined calibration that `calibrate` has kept for these settings, in memory or on disk, or null: for whoever would rather do
+/// something else first than wait.
+std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings);
 
 } // namespace faintline

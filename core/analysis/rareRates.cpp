@@ -19,7 +19,6 @@ namespace {
     constexpr int quantileFrames = 2000; ///< of each stream, for the base and the first level
     constexpr double baseQuantile = 0.8;
     constexpr double firstQuantile = 0.96;
-    constexpr int pilotTrials = 200;
     constexpr double pilotFraction = 0.2; ///< of them reach the next level
     constexpr int longestTrial = 3000;    ///< frames; K so large that paths do not end has no rare excursions
     constexpr int longestSearch = 20000;  ///< frames of a stream that the first level is entered in
@@ -278,8 +277,8 @@ namespace {
 
         double nextLevel(int number) const
         {
-            std::vector<double> highest(pilotTrials);
-            parallelFor(pilotTrials, m_context, "noise", [&] {
+            std::vector<double> highest(static_cast<std::size_t>(m_settings.pilots));
+            parallelFor(m_settings.pilots, m_context, "noise", [&] {
                 return [&, walker = m_makeWalker()](Index trial) {
                     Random random = randomOf(2000 + number, trial);
                     std::optional<Particle> ignored;

@@ -58,6 +58,7 @@ struct RareRates {
 
 struct SplittingSettings {
     int entries = 1000;         ///< trials a level, of all runs together
+    int pilots = 200;           ///< trials of each run that tell where the next level is to lie
     double leastLnRate = -25.0; ///< levels go on until cycles are as rare as this, per cell and frame
     std::uint64_t seed = 3000;
 };

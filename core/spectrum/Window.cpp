@@ -97,6 +97,14 @@ std::vector<float> sampleWindow(WindowShape shape, int length)
     return scaled;
 }
 
+double cellLikeness(const std::vector<float> &window)
+{
+    double fourth = 0.0;
+    for (const float w : window)
+        fourth += std::pow(static_cast<double>(w), 4.0);
+    return fourth * static_cast<double>(window.size());
+}
+
 double mainLobeHalfWidth(WindowShape shape)
 {
     return leakage(shape).halfWidthCells;

@@ -17,6 +17,10 @@ inline constexpr std::array<std::string_view, 6> windowShapeNames{"rectangular",
 /// unit variance in every bin. Kaiser takes β = 14 (first side lobe -105 dB).
 std::vector<float> sampleWindow(WindowShape shape, int length);
 
+/// How many neighbouring cells of white noise tell as much of its level as one that is like no other: N Σ w⁴ with Σ w² = 1, which is
+/// 1 for a rectangle and 35/18 for Hann's.
+double cellLikeness(const std::vector<float> &window);
+
 /// Half the width of the main lobe, from its peak to its first zero, in resolution cells 1/T_FT.
 double mainLobeHalfWidth(WindowShape shape);
 

@@ -89,10 +89,9 @@ double medianScatter(double cells)
     return 1.44 * std::sqrt(likeness / cells);
 }
 
-double meanScatter(double cells)
+double meanScatter(double cells, double likeness)
 {
-    constexpr double likenessOfMeans = 2.0; // neighbours share most of a main lobe
-    return std::sqrt(likenessOfMeans / cells);
+    return std::sqrt(likeness / cells);
 }
 
 float truncatedMean(std::span<const float> cells, float guess)

@@ -21,8 +21,8 @@ double lnMedianMean(std::ptrdiff_t n);
 /// Standard error of the logarithm of a median of cells.
 double medianScatter(double cells);
 
-/// Standard error of the logarithm of their `truncatedMean`.
-double meanScatter(double cells);
+/// Standard error of the logarithm of their `truncatedMean`, where so many neighbours tell as much as one (cellLikeness in Window.h).
+double meanScatter(double cells, double likeness);
 
 /// Mean of exponential cells, from those below five times that mean, found in two steps from a first guess. As exact as can be,
 /// and no line counts for more than five cells of noise.

@@ -1,6 +1,9 @@
 #include "app/Workbench.h"
 #include "app/openWindow.h"
 
+#include <QLabel>
+#include <QStatusBar>
+
 #include <qwt_text.h>
 
 using namespace faintline;
@@ -49,13 +52,46 @@ private slots:
         connect(&window.document(), &Document::analysisChanged, this, [&] { order << "analysis"; });
         window.controller().edit("model.snr", FieldValue(0.2718), "Change"); // never calibrated before
         QVERIFY(settled.wait(patience));
-        QCOMPARE(order, (QStringList{"provisional", "analysis"}));
+        QCOMPARE(order, (QStringList{"provisional", "analysis", "analysis"})); // a first estimate of the threshold, then the refined one
         QVERIFY(title.contains("provisional"));
         QVERIFY(shown->time().first >= 29.0 && shown->time().last() <= 61.0);
         QVERIFY(!window.document().provisional());
         QCOMPARE(window.workbench().output()->picture(), window.document().analysis()->statistic);
         QVERIFY(!window.workbench().output()->title().text().contains("provisional"));
         QVERIFY(window.document().isCurrent());
+    }
+
+    void aFirstEstimateIsSaidToBeOne()
+    {
+        const auto own = newWindow({1200, 800});
+        MainWindow &window = *own;
+        QSignalSpy settled(&window.controller(), &AnalysisController::settled);
+        QSignalSpy refined(&window.controller(), &AnalysisController::refined);
+        QStringList said;
+        QList<double> thresholds;
+        connect(&window.document(), &Document::shownEventsChanged, this, [&] {
+            said << window.statusBar()->findChild<QLabel *>()->text();
+            thresholds << window.document().analysis()->threshold;
+        });
+        window.open(scene(), {}, [](AnalysisSettings &settings) {
+            settings.spectrogram.windowSeconds = 0.5;
+            settings.model.snr = 0.3141; // never calibrated before
+        });
+        QVERIFY(settled.wait(patience));
+        QCOMPARE(said.size(), 2);
+        QVERIFY2(said[0].contains("first estimate") && said[0].contains("being refined"), qPrintable(said[0]));
+        QCOMPARE(refined.size(), 1);
+        QCOMPARE(refined.front().front().toDouble(), thresholds[0]);
+        const QString last = window.statusBar()->findChild<QLabel *>()->text();
+        QVERIFY2(last.contains("refined") && last.contains(QString::number(thresholds[0], 'f', 2)), qPrintable(last));
+        QVERIFY(!window.document().analysis()->calibration->isFirstEstimate);
+
+        // Known from now on.
+        settled.clear();
+        window.controller().run();
+        QVERIFY(settled.wait(patience));
+        QCOMPARE(said.size(), 3);
+        QCOMPARE(refined.size(), 1);
     }
 
     void lookingFartherDropsIt()

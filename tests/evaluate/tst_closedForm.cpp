@@ -12,7 +12,7 @@ namespace {
     /// The largest ratio, of logarithms' difference, between the closed form and the simulated calibration where that speaks for itself.
     double largestGap(const AnalysisSettings &settings)
     {
-        const auto calibration = calibrate(settings, {}, 4e6);
+        const auto calibration = calibrate(settings, {}, CalibrationDepth::FirstEstimate);
         double largest = 0.0;
         int compared = 0;
         for (const ExceedancePoint &point : closedFormExceedance(settings, *calibration)) {

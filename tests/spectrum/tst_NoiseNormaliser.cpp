@@ -19,6 +19,7 @@ class tst_NoiseNormaliser : public QObject
 private slots:
     void whiteNoiseHasMeanOne_data();
     void whiteNoiseHasMeanOne();
+    void noWindowShiftsTheMean();
     void levelDoesNotMatter();
     void steepSlope();
     void steadyLineKeepsItsLevel_data();
@@ -156,6 +157,17 @@ void tst_NoiseNormaliser::whiteNoiseHasMeanOne()
         QVERIFY2(std::abs(inBand - 1.0) < 6.0 * error, said("mean in a quarter of the band", inBand));
         const double inTime = n.mean(part * n.frameCount / 4, (part + 1) * n.frameCount / 4, 0, n.bins);
         QVERIFY2(std::abs(inTime - 1.0) < 6.0 * error, said("mean in a quarter of the time", inTime));
+    }
+}
+
+// Levels are means of logarithms, whose shortfall depends on how alike neighbouring cells are. That of Hann's window for all of them left
+// Billon's 0.3 % short, which at one false alarm an hour halves what comes of an order.
+void tst_NoiseNormaliser::noWindowShiftsTheMean()
+{
+    const std::vector<float> samples = gaussian(2000000, 2);
+    for (const WindowShape shape : {WindowShape::Rectangular, WindowShape::Hann, WindowShape::Blackman, WindowShape::BlackmanHarris}) {
+        const double mean = normalised(samples, {0.25, 2, 1, shape}, true).mean();
+        QVERIFY2(std::abs(mean - 1.0) < 0.002, said(windowShapeNames[static_cast<std::size_t>(shape)].data(), mean)); // 0.0003 by chance
     }
 }
 

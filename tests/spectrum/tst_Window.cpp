@@ -18,6 +18,7 @@ private slots:
     void unitEnergy();
     void symmetric_data() { shapes(); }
     void symmetric();
+    void cellsAlike();
     void mainLobe_data() { shapes(); }
     void mainLobe();
     void leakageIsBounded_data() { shapes(); }
@@ -91,6 +92,14 @@ void tst_Window::symmetric()
             QVERIFY(window[n] <= window[window.size() / 2] + 1e-7f);
         }
     }
+}
+
+void tst_Window::cellsAlike()
+{
+    // Σ |ρ|² over all distances between cells: 1, and of Hann 1 + 2·4/9 + 2/36.
+    QVERIFY(std::abs(cellLikeness(sampleWindow(WindowShape::Rectangular, 256)) - 1.0) < 1e-6);
+    QVERIFY(std::abs(cellLikeness(sampleWindow(WindowShape::Hann, 256)) - 35.0 / 18.0) < 1e-6);
+    QVERIFY(cellLikeness(sampleWindow(WindowShape::BlackmanHarris, 256)) > 2.5);
 }
 
 void tst_Window::mainLobe()

@@ -1,0 +1,69 @@
+#include "analysis/calibrateOn.h"
+#include "analysis/followTail.h"
+#include "analysis/keptCalibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    /// Where a narrow band's rate is known, that of one in which its ends take away a `share` of that.
+    std::shared_ptr<const Calibration> withShareOfEnds(const Calibration &wide, const Calibration &narrow, double share)
+    {
+        auto result = std::make_shared<Calibration>(narrow);
+        RareRates &rates = result->rates;
+        for (std::size_t i = 0; i < rates.levels.size(); ++i) {
+            const double left = std::exp(narrow.rates.lnRates[i] - wide.rates.lnRates[i]);
+            rates.lnRates[i] = wide.rates.lnRates[i] + std::log(1.0 - share * (1.0 - left));
+            rates.relativeErrors[i] =
+                wide.rates.relativeErrors[i] + share * (narrow.rates.relativeErrors[i] - wide.rates.relativeErrors[i]);
+        }
+        const std::size_t before = rates.levels.size() - std::min<std::size_t>(4, rates.levels.size());
+        result->eventRate = std::exp(rates.lnRateAt(result->anchorNats));
+        result->relativeError = rates.relativeErrorAt(result->anchorNats);
+        result->tailSlope = (rates.lnRates[before] - rates.lnRates.back()) / (rates.levels.back() - rates.levels[before]);
+        return result;
+    }
+
+    /// A wide band's calibration with what a narrow one's ends take away.
+    std::shared_ptr<const Calibration> narrowed(const Calibration &wide, const RareRates &band, const RareRates &closed)
+    {
+        Calibration narrow = wide;
+        RareRates &rates = narrow.rates;
+        for (std::size_t i = 0; i < rates.levels.size(); ++i) {
+            const double level = rates.levels[i];
+            rates.lnRates[i] += std::min(0.0, band.lnRateAt(level) - closed.lnRateAt(level));
+            rates.relativeErrors[i] =
+                std::hypot(rates.relativeErrors[i], std::hypot(band.relativeErrorAt(level), closed.relativeErrorAt(level)));
+        }
+        return withShareOfEnds(wide, narrow, 1.0);
+    }
+
+} // namespace
+
+std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins, const RunContext &context, CalibrationDepth depth)
+{
+    constexpr Index wideEnough = 256;   // less than a twentieth of the false alarms is lost at the ends
+    constexpr Index endsDoNotMeet = 64; // from here on the ends take away as much, whatever lies between them
+    const bool isMoving = settings.model.motion == Motion::Slopes
+                          && (settings.model.lowestSlope != 0.0 || settings.model.highestSlope != 0.0);
+    if (bins >= wideEnough || !isMoving)
+        return calibrate(settings, context, depth);
+    const auto wide = calibrate(settings, context.part(0.0, 0.6), depth);
+    if (wide->rates.isEmpty())
+        return wide;
+    const AnalysisSettings bare = dimensionless(settings);
+    const Index simulated = std::min(bins, endsDoNotMeet);
+    const SplittingSettings splitting = effortOf(depth).splitting;
+    const auto narrow = keptCalibration("band of " + std::to_string(simulated) + " " + calibrationKey(bare, depth), [&]() -> std::shared_ptr<const Calibration> {
+        const RareRates closed = followBand(bare, wide->lnK, 0, true, splitting, context.part(0.6, 0.8));
+        const RareRates band = closed.isEmpty() ? closed : followBand(bare, wide->lnK, simulated, false, splitting, context.part(0.8, 1.0));
+        return band.isEmpty() ? wide : narrowed(*wide, band, closed);
+    });
+    return bins == simulated ? narrow
+                             : withShareOfEnds(*wide, *narrow, static_cast<double>(simulated) / static_cast<double>(bins));
+}
+
+} // namespace faintline

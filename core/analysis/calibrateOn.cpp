@@ -1,0 +1,141 @@
+#include "analysis/calibrateOn.h"
+
+#include "analysis/chain.h"
+#include "analysis/eventTail.h"
+#include "analysis/followTail.h"
+#include "analysis/noiseCounts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <mutex>
+#include <numeric>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int regulationFrames = 1500;
+    constexpr int crowdedEvery = 10; ///< segments
+
+    /// Of so many segments, those that a rough look is taken at first.
+    int roughCountOf(int segmentCount)
+    {
+        return std::max(2, segmentCount / 10);
+    }
+
+    /// Calls work(number) for 0 … count-1, `threads` at a time, and take(result) in the order of the numbers.
+    template <class Work, class Take>
+    void inRounds(int count, const RunContext &context, Work work, Take take)
+    {
+        for (int done = 0; done < count;) {
+            context.checkpoint(static_cast<double>(done) / count, "calibrating the threshold on noise");
+            const int round = std::min(std::max(1, context.threads), count - done);
+            std::vector<std::future<decltype(work(0))>> futures;
+            for (int i = 0; i < round; ++i)
+                futures.push_back(std::async(round > 1 ? std::launch::async : std::launch::deferred,
+                                             [&work, number = done + i] { return work(number); }));
+            for (auto &future : futures)
+                take(future.get());
+            done += round;
+        }
+    }
+
+    void fillExceedance(const std::vector<double> &counts, const StatisticLevels &levels, Calibration &result)
+    {
+        const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
+        double above = total;
+        for (std::size_t i = 0; i < counts.size() && above > 0.0; ++i) {
+            result.levels.push_back(static_cast<double>(levels.lowest) + static_cast<double>(levels.step) * static_cast<double>(i));
+            result.exceedance.push_back(above / total);
+            above -= counts[i];
+        }
+    }
+
+} // namespace
+
+CalibrationEffort effortOf(CalibrationDepth depth)
+{
+    if (depth == CalibrationDepth::Refined)
+        return {8e7};
+    SplittingSettings fewer;
+    fewer.entries = 1000;
+    fewer.pilots = 60;
+    fewer.leastLnRate = -21.0;
+    return {1.6e7, fewer, 16, true};
+}
+
+NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount)
+{
+    struct Made {
+        std::once_flag once;
+        NormalisedFramesPointer frames;
+    };
+    const auto made = std::make_shared<std::vector<Made>>(static_cast<std::size_t>(roughCountOf(segmentCount)));
+    return [segment = std::move(segment), made](int number) {
+        if (number >= std::ssize(*made))
+            return segment(number);
+        Made &own = (*made)[static_cast<std::size_t>(number)];
+        std::call_once(own.once, [&] { own.frames = segment(number); });
+        return own.frames;
+    };
+}
+
+std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
+                                               const AnalysisSettings &settings, const CalibrationEffort &effort, const RunContext &context)
+{
+    // The analysis whose chain will be asked, with thresholds to be found.
+    Analysis trial;
+    trial.settings = settings;
+    trial.model = model;
+    auto result = std::make_shared<Calibration>();
+    result->isFirstEstimate = effort.isFirstEstimate;
+    trial.calibration = result;
+    context.checkpoint(0.0, "calibrating K on noise");
+    const NormalisedFramesPointer firstSegment = segment(0);
+    const auto first = beginningOf(*firstSegment, settlingFrames + regulationFrames);
+    const auto *chosen = std::get_if<SmdSettings>(&settings.detector);
+    const SmdSettings smd = chosen ? *chosen : SmdSettings{};
+    const ResetFit fit = fitReset({first}, model, smd);
+    result->lnK = fit.lnK;
+    result->continuedFraction = fit.continuedFraction;
+    trial.frames = firstSegment;
+    const StatisticLevels levels = statisticLevelsOf(*first, *makeDetector(trial));
+
+    const int roughCount = roughCountOf(segmentCount);
+    NoiseTail rough;
+    inRounds(
+        roughCount, context.part(0.1, 0.2), [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
+        [&](const NoiseTail &part) { add(part, rough); });
+    fillExceedance(rough.counts, levels, *result);
+    const double cells = static_cast<double>(first->grid().size());
+    const double columns = std::max(1.0, std::floor(cells / static_cast<double>(noiseBlockCells)));
+    const RareRates rare = followTail(*firstSegment, model, settings, *result, effort, context.part(0.2, 0.4));
+    if (effort.isFirstEstimate && rare.isEmpty())
+        return nullptr; // a line through a fifth of the counts tells too little
+    const std::vector<double> thresholds =
+        thresholdsForEvents(std::move(rough.blockMaxima), static_cast<double>(noiseBlockFrames) * cells / columns,
+                            rough.cellFrames / roughCount * segmentCount, rare.isEmpty());
+    EventCounts counts;
+    inRounds(
+        segmentCount, context.part(0.4, 1.0),
+        [&](int number) {
+            Analysis own = trial;
+            own.frames = segment(number);
+            std::vector<std::unique_ptr<DetectionChain>> chains;
+            for (const double threshold : thresholds) {
+                own.threshold = threshold;
+                const bool isLeftOut = !rare.isEmpty() && chains.empty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
+                chains.push_back(isLeftOut ? nullptr : makeChain(own, makeDetector(own), false));
+            }
+            return countEvents(*own.frames, chains);
+        },
+        [&](const EventCounts &part) { add(part, counts); });
+    if (rare.isEmpty())
+        fitEventRate(thresholds, counts.events, counts.cellFrames.front(), *result);
+    else
+        anchorTail(rare, thresholds, counts, *result);
+    return result;
+}
+
+} // namespace faintline

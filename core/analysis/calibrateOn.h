@@ -1,0 +1,33 @@
+#pragma once
+
+#include "analysis/Calibration.h"
+#include "base/RunContext.h"
+#include "model/MarkovModel.h"
+#include "spectrum/NormalisedFrames.h"
+
+#include <functional>
+#include <memory>
+
+namespace faintline {
+
+/// What a calibration may cost.
+struct CalibrationEffort {
+    double cellFrames = 0.0; ///< noise in which events are counted
+    SplittingSettings splitting{};
+    int pieceWindowSamples = 32; ///< of the band that splitting goes on in
+    bool isFirstEstimate = false;
+};
+
+CalibrationEffort effortOf(CalibrationDepth depth);
+
+/// Noise to calibrate on, in segments that can be made independently of each other.
+using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;
+
+/// The same segments, of which those of the rough look, gone through again and again, are made once.
+NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount);
+
+/// A calibration on noise: K, then the tail, roughly and by splitting, then events.
+std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
+                                               const AnalysisSettings &settings, const CalibrationEffort &effort, const RunContext &context);
+
+} // namespace faintline

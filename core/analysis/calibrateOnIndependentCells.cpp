@@ -1,0 +1,86 @@
+#include "analysis/calibrateOn.h"
+#include "analysis/keptCalibration.h"
+#include "base/Random.h"
+#include "base/Field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    /// All that a model's answer to noise depends on, as text.
+    std::string nameOf(const MarkovModel &model)
+    {
+        std::string name = "cells ";
+        const auto add = [&](const std::vector<double> &values) {
+            for (const double value : values)
+                name += formatNumber(value) + ",";
+            name += ";";
+        };
+        for (const KinematicAxis &axis : model.space.axes()) {
+            add({static_cast<double>(axis.cells), axis.cyclic ? 1.0 : 0.0, static_cast<double>(axis.firstRate),
+                 static_cast<double>(axis.rateCount), static_cast<double>(axis.ratesPerCell),
+                 static_cast<double>(axis.rounding), axis.renormalised ? 1.0 : 0.0});
+            add(axis.rateChange);
+            add(axis.step);
+            add(axis.transition);
+        }
+        add({static_cast<double>(model.likelihood.kind()), model.likelihood.snr(), model.transitionScale});
+        return name;
+    }
+
+} // namespace
+
+MarkovModel handyPiece(const MarkovModel &model)
+{
+    constexpr Index many = 20000;
+    constexpr Index handy = 5000;
+    if (model.space.cellCount() <= many)
+        return model;
+    std::vector<KinematicAxis> axes = model.space.axes();
+    KinematicAxis *longest = nullptr;
+    for (KinematicAxis &axis : axes)
+        if (!axis.cyclic && (!longest || axis.cells > longest->cells))
+            longest = &axis;
+    if (!longest)
+        return model;
+    const Index others = model.space.cellCount() / longest->cells;
+    longest->cells = std::clamp<Index>(handy / others, 4 * longest->largestDisplacement() + 1, longest->cells);
+    longest->cyclic = true;
+    return {StateSpace(std::move(axes)), model.likelihood, model.transitionScale};
+}
+
+std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &whole, const AnalysisSettings &settings,
+                                                               const RunContext &context, double cellFrames)
+{
+    const MarkovModel model = handyPiece(whole);
+    Grid grid;
+    for (const KinematicAxis &axis : model.space.axes())
+        grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
+    // Sonar's hundred rates a cell cost more than they teach: their paths overlap.
+    constexpr double mostStates = 1.2e8; ///< a segment
+    const double longest = std::min(4e6 / static_cast<double>(grid.size()), mostStates / static_cast<double>(model.space.stateCount()));
+    const auto frames = static_cast<Index>(std::clamp(longest, 600.0, 4000.0));
+    const auto segment = [&](int number) -> NormalisedFramesPointer {
+        Random random(1000, static_cast<std::uint64_t>(number));
+        std::vector<float> values(static_cast<std::size_t>(frames * grid.size()));
+        for (float &value : values)
+            value = static_cast<float>(random.exponential());
+        return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid, std::move(values));
+    };
+    const double wanted = std::min(cellFrames, 2.0 * mostStates / static_cast<double>(model.space.planeCount()));
+    const int segments = std::max(4, static_cast<int>(std::ceil(wanted / static_cast<double>(frames * grid.size()))));
+    AnalysisSettings bare = settings;
+    bare.selection = {};
+    bare.spectrogram = {};
+    bare.noise = {};
+    bare.conventional = {};
+    bare.decide = withoutThreshold(bare.decide);
+    bare.track.bothWays = TrackSettings{}.bothWays;
+    return keptCalibration(nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
+                [&] { return calibrateOn(segment, segments, model, settings, {cellFrames}, context); });
+}
+
+} // namespace faintline

@@ -1,0 +1,89 @@
+#include "analysis/followTail.h"
+
+#include "base/Random.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    /// The first cells of another stream: a band whose ends paths run off.
+    class BandNoise final : public NoiseStream
+    {
+    public:
+        BandNoise(std::unique_ptr<NoiseStream> wide, Index cells)
+            : m_wide(std::move(wide)), m_cells(cells), m_y(static_cast<std::size_t>(m_wide->cells()))
+        {
+        }
+        Index cells() const override { return m_cells; }
+        void next(Random &random, std::span<float> y) override
+        {
+            m_wide->next(random, m_y);
+            std::copy_n(m_y.begin(), m_cells, y.begin());
+        }
+        std::vector<float> state() const override { return m_wide->state(); }
+        void setState(std::span<const float> state) override { m_wide->setState(state); }
+
+    private:
+        std::unique_ptr<NoiseStream> m_wide;
+        Index m_cells;
+        std::vector<float> m_y;
+    };
+
+} // namespace
+
+RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, const AnalysisSettings &settings,
+                     const Calibration &calibration, const CalibrationEffort &effort, const RunContext &context)
+{
+    constexpr Index pieceCells = 64;
+    if (model.space.axes().size() > 1 || !model.space.axes().front().transition.empty())
+        return {};
+    KinematicAxis axis = model.space.axes().front();
+    const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(&frames) != nullptr;
+    const Index independentCells = std::max<Index>(pieceCells, 8 * axis.largestDisplacement() + 1);
+    const std::function<std::unique_ptr<NoiseStream>()> makeNoise = [&] {
+        return isSpectral ? spectralNoise(settings.spectrogram, effort.pieceWindowSamples)
+                          : independentNoise(independentCells);
+    };
+    axis.cells = makeNoise()->cells();
+    axis.cyclic = true;
+    if (axis.cells <= 4 * axis.largestDisplacement())
+        return {};
+    const MarkovModel piece{StateSpace({axis}), model.likelihood, model.transitionScale};
+    const Grid grid{{{axis.name, "", 0.0, 1.0, axis.cells, true}}};
+    const auto *smd = std::get_if<SmdSettings>(&settings.detector);
+    const auto make = [&] {
+        return makeDetector(settings.detector, piece, grid,
+                            isSpectral ? frameGeometry(settings.spectrogram) : FrameGeometry{},
+                            smd ? resetRule(*smd, calibration.lnK) : ResetRule{});
+    };
+    return measureRareRates(make, makeNoise, effort.splitting, context);
+}
+
+RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic, const SplittingSettings &splitting,
+                     const RunContext &context)
+{
+    constexpr int least = 32;
+    int samples = least;
+    while (!isCyclic && samples < bins) // twice as many bins and more, so that the ends do not meet
+        samples *= 2;
+    const auto makeNoise = [&]() -> std::unique_ptr<NoiseStream> {
+        auto wide = spectralNoise(bare.spectrogram, samples);
+        if (isCyclic)
+            return wide;
+        return std::make_unique<BandNoise>(std::move(wide), bins);
+    };
+    const Grid grid{{{"frequency", "Hz", 0.0, 1.0, makeNoise()->cells(), isCyclic}}};
+    const MarkovModel model = makeModel(bare.model, grid);
+    if (isCyclic && grid.size() <= 4 * model.space.axes().front().largestDisplacement())
+        return {};
+    const auto *smd = std::get_if<SmdSettings>(&bare.detector);
+    const auto make = [&] {
+        return makeDetector(bare.detector, model, grid, frameGeometry(bare.spectrogram), smd ? resetRule(*smd, lnK) : ResetRule{});
+    };
+    return measureRareRates(make, makeNoise, splitting, context);
+}
+
+} // namespace faintline

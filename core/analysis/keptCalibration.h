@@ -1,0 +1,26 @@
+#pragma once
+
+#include "analysis/Calibration.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace faintline {
+
+// Under which name a calibration is kept, and what was kept.
+
+inline constexpr int calibrationWindowSamples = 256; ///< of the simulated recording; its noise does not depend on it
+
+/// How the chain decides, at whatever threshold.
+DecideSettings withoutThreshold(DecideSettings decide);
+
+/// The settings that the answer to noise depends on.
+AnalysisSettings dimensionless(AnalysisSettings settings);
+
+std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth);
+
+/// Null only where `make` answers that.
+std::shared_ptr<const Calibration> keptCalibration(const std::string &key, const std::function<std::shared_ptr<const Calibration>()> &make);
+
+} // namespace faintline

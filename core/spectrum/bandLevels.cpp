@@ -1,0 +1,259 @@
+#include "spectrum/bandLevels.h"
+
+#include "spectrum/between.h"
+#include "spectrum/levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace faintline {
+
+namespace {
+
+    constexpr float silence = NoiseBackground::silence;
+
+    /// First cell of a sub-band; column `bands` is the whole band.
+    Index firstCell(Index column, Index bands, Index cells)
+    {
+        return column == bands ? 0 : column * cells / bands;
+    }
+
+    Index endCell(Index column, Index bands, Index cells)
+    {
+        return column == bands ? cells : (column + 1) * cells / bands;
+    }
+
+    /// ln of the mean of which a mean of so many cells is an estimate: what the logarithm of one that scatters falls short by is added.
+    float lnMean(float mean, std::ptrdiff_t cells, double likeness)
+    {
+        const double scatter = meanScatter(static_cast<double>(cells), likeness);
+        return std::log(mean) + static_cast<float>(0.5 * scatter * scatter);
+    }
+
+    /// Mean of one row over another, of the cells of noise in each sub-band and in the whole band, ln.
+    std::vector<double> between(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise, Index cells, Index bands)
+    {
+        std::vector<double> result(static_cast<std::size_t>(bands + 1), 0.0);
+        std::vector<double> counts(result.size(), 0.0);
+        for (Index band = 0; band < bands; ++band)
+            for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
+                if (isNoise[cell]) {
+                    result[static_cast<std::size_t>(band)] += static_cast<double>(upper[cell] - lower[cell]);
+                    counts[static_cast<std::size_t>(band)] += 1.0;
+                }
+        result.back() = std::accumulate(result.begin(), result.end(), 0.0);
+        counts.back() = std::accumulate(counts.begin(), counts.end(), 0.0);
+        for (std::size_t column = 0; column < result.size(); ++column)
+            result[column] = counts[column] > 0.0 ? result[column] / counts[column] : 0.0;
+        for (std::size_t column = 0; column < result.size(); ++column)
+            if (counts[column] == 0.0) // its level is the common one
+                result[column] = result.back();
+        return result;
+    }
+
+    /// Gives silence the level of what was before it, or of what comes first.
+    void bridgeSilence(std::vector<float> &series)
+    {
+        const auto first = std::find_if(series.begin(), series.end(), [](float value) { return value < levelNotKnown; });
+        float level = first == series.end() ? 0.0f : *first;
+        for (float &value : series)
+            level = value = value < levelNotKnown ? value : level;
+    }
+
+} // namespace
+
+std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground &block, Index bands, double likeness)
+{
+    std::vector<float> levels;
+    if (bands == 0)
+        return levels;
+    constexpr std::ptrdiff_t fewestCells = 24;
+    const Index cells = std::ssize(block.lnPower);
+    std::vector<float> inverse(static_cast<std::size_t>(cells));
+    for (std::size_t cell = 0; cell < inverse.size(); ++cell)
+        inverse[cell] = block.lnPower[cell] > silence ? std::exp(-block.lnPower[cell]) : 0.0f;
+    const auto agreeing = static_cast<float>(4.0 * medianScatter(static_cast<double>(cells) / static_cast<double>(bands)));
+    std::vector<float> sample;
+    std::vector<float> few;
+    std::vector<Index> telling;
+    std::vector<Index> known;
+    for (Index frame = 0; frame < std::ssize(frames) / cells; ++frame) {
+        const auto collect = [&](Index band, const std::vector<bool> &wanted) {
+            for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
+                if (const auto c = static_cast<std::size_t>(cell); wanted[c])
+                    sample.push_back(frames[static_cast<std::size_t>(frame * cells + cell)] * inverse[c]);
+        };
+        levels.resize(levels.size() + static_cast<std::size_t>(bands + 1), levelNotKnown);
+        float *own = &levels[levels.size() - static_cast<std::size_t>(bands + 1)];
+        few.clear();
+        telling.clear();
+        known.clear();
+        for (Index band = 0; band < bands; ++band) {
+            sample.clear();
+            collect(band, block.isNoise);
+            const std::ptrdiff_t count = std::ssize(sample);
+            if (count < fewestCells)
+                continue;
+            const float median = medianOf(sample);
+            if (!(median > 0.0f))
+                continue;
+            own[band] = lnMean(truncatedMean(sample, median / std::numbers::ln2_v<float>), count, likeness);
+            known.push_back(band);
+            const auto firm = std::count(block.isFirm.begin() + firstCell(band, bands, cells), block.isFirm.begin() + endCell(band, bands, cells), true);
+            if (2 * firm >= endCell(band, bands, cells) - firstCell(band, bands, cells)) {
+                few.push_back(own[band]);
+                telling.push_back(band);
+            }
+        }
+        const bool isFirm = 2 * std::ssize(telling) >= bands || known.size() == telling.size();
+        if (!isFirm) { // a few sub-bands are not the whole
+            telling = known;
+            few.clear();
+            for (const Index band : known)
+                few.push_back(own[band]);
+        }
+        float middle = 0.0f;
+        if (few.size() > 2) // two cannot outvote one another: then all count
+            middle = medianOf(few);
+        else if (!few.empty())
+            middle = std::accumulate(few.begin(), few.end(), 0.0f) / static_cast<float>(few.size());
+        sample.clear();
+        for (Index band : telling)
+            if (telling.size() < 3 || std::abs(own[band] - middle) < agreeing)
+                collect(band, isFirm ? block.isFirm : block.isNoise);
+        const float mean = truncatedMean(sample, std::exp(middle));
+        own[bands] = mean > 0.0f && !sample.empty() ? lnMean(mean, std::ssize(sample), likeness) : levelNotKnown;
+        std::replace(own, own + bands, levelNotKnown, own[bands]);
+    }
+    return levels;
+}
+
+std::vector<float> mediansOf(const std::vector<float> &levels, Index columns)
+{
+    std::vector<float> medians(static_cast<std::size_t>(columns), 0.0f);
+    std::vector<float> series;
+    for (std::size_t column = 0; column < medians.size(); ++column) {
+        series.clear();
+        for (std::size_t i = column; i < levels.size(); i += medians.size())
+            if (levels[i] < levelNotKnown)
+                series.push_back(levels[i]);
+        if (!series.empty())
+            medians[column] = medianOf(series);
+    }
+    return medians;
+}
+
+float shareOfLines(float median)
+{
+    constexpr float chance = 0.02f;
+    constexpr float most = 0.15f;
+    return std::clamp(median - chance, 0.0f, most);
+}
+
+LevelOffsets::LevelOffsets(const std::vector<float> &levels, Index columns)
+    : medians(mediansOf(levels, columns)), isSure(medians.size(), false)
+{
+    std::vector<float> deviations = levels;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (levels[i] < levelNotKnown)
+            deviations[i] = std::abs(levels[i] - medians[i % medians.size()]);
+    const std::vector<float> typical = mediansOf(deviations, columns);
+    for (std::size_t column = 0; column < medians.size(); ++column)
+        isSure[column] = std::ssize(levels) > 7 * columns && std::abs(medians[column]) >= 1.4826f * typical[column];
+}
+
+void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &offsets, const std::vector<Index> &blockOfLevel)
+{
+    constexpr Index reach = 6;
+    if (offsets.empty())
+        return;
+    const std::size_t columns = offsets.front().medians.size();
+    std::vector<std::vector<float>> taken;
+    std::vector<float> few;
+    for (Index block = 0; block < std::ssize(offsets); ++block) {
+        const LevelOffsets &own = offsets[static_cast<std::size_t>(block)];
+        taken.push_back(std::vector<float>(columns, 0.0f));
+        for (std::size_t column = 0; column < columns; ++column) {
+            if (own.isSure[column]) {
+                taken.back()[column] = own.medians[column];
+                continue;
+            }
+            if (column + 1 == columns)
+                continue;
+            few.clear();
+            for (Index other = std::max<Index>(0, block - reach); other <= std::min(std::ssize(offsets) - 1, block + reach); ++other)
+                if (const LevelOffsets &each = offsets[static_cast<std::size_t>(other)]; !each.isSure[column])
+                    few.push_back(each.medians[column]);
+            taken.back()[column] = shareOfLines(medianOf(few));
+        }
+    }
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (levels[i] < levelNotKnown)
+            levels[i] -= taken[static_cast<std::size_t>(blockOfLevel[i / columns])][i % columns];
+}
+
+void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const NoiseBackground &background,
+                      const std::vector<Index> &blockOfLevel)
+{
+    const Index columns = background.bandCount + 1;
+    const Index cells = background.frequency.count;
+    const Index last = background.time.count - 1;
+    std::array<std::vector<double>, 3> over; // the block before, its own, the next
+    Index known = -1;
+    for (Index i = 0; i < background.levelTime.count; ++i) {
+        const Index block = blockOfLevel[static_cast<std::size_t>(i)];
+        const float *own = rows.lnPower.data() + block * cells;
+        if (block != known)
+            for (Index side = -1; side <= 1; ++side)
+                over[static_cast<std::size_t>(side + 1)] =
+                    between(own, background.lnPower.data() + std::clamp<Index>(block + side, 0, last) * cells,
+                            rows.isNoise.begin() + block * cells, cells, background.bandCount);
+        known = block;
+        if (own[0] <= silence)
+            continue;
+        const Between t = between(background.time, background.levelTime.value(static_cast<double>(i)));
+        const auto isSilent = [&](Index b) { return background.lnPower[static_cast<std::size_t>(std::min(b, last) * cells)] <= silence; };
+        const Index early = isSilent(t.lower) ? t.lower + 1 : t.lower;
+        const Index late = isSilent(t.lower + 1) ? t.lower : t.lower + 1;
+        for (Index column = 0; column < columns; ++column) {
+            const auto difference = [&](Index b) {
+                return over[static_cast<std::size_t>(std::clamp<Index>(std::min(b, last) - block + 1, 0, 2))][static_cast<std::size_t>(column)];
+            };
+            float &level = levels[static_cast<std::size_t>(i * columns + column)];
+            if (level < levelNotKnown)
+                level += static_cast<float>((1.0 - t.fraction) * difference(early) + t.fraction * difference(late));
+        }
+    }
+}
+
+std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, double overlap, double likeness)
+{
+    const auto bands = static_cast<std::size_t>(background.bandCount);
+    const auto count = static_cast<std::size_t>(background.levelTime.count);
+    std::vector<float> result(count * bands);
+    if (bands == 0)
+        return result;
+    const auto cells = static_cast<double>(background.frequency.count);
+    const auto column = [&](std::size_t number) {
+        std::vector<float> series(count);
+        for (std::size_t i = 0; i < count; ++i)
+            series[i] = levels[i * (bands + 1) + number];
+        bridgeSilence(series);
+        return series;
+    };
+    const std::vector<float> common = beyondScatter(column(bands), overlap * meanScatter(cells, likeness));
+    for (std::size_t band = 0; band < bands; ++band) {
+        std::vector<float> own = column(band);
+        for (std::size_t i = 0; i < count; ++i)
+            own[i] -= common[i];
+        own = beyondScatter(own, overlap * meanScatter(cells / static_cast<double>(bands), likeness));
+        for (std::size_t i = 0; i < count; ++i)
+            result[i * bands + band] = common[i] + own[i];
+    }
+    return result;
+}
+
+} // namespace faintline
