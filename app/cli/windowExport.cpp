@@ -5,6 +5,7 @@
 #include "analysis/slopeUnit.h"
 #include "base/fileName.h"
 #include "base/readingJson.h"
+#include "base/wholeNumber.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
 #include "exchange/writeReviewed.h"
@@ -68,8 +69,8 @@ namespace {
         options.iq = source.value("iq", false);
         options.rawType = source.value("rawType", std::string());
         options.rawRateHz = source.value("rawRateHz", 0.0);
-        options.rawChannels = source.value("rawChannels", 1);
-        options.rawHeaderBytes = source.value("rawHeaderBytes", Index(0));
+        options.rawChannels = wholeNumber(source, "recording", "rawChannels", 1);
+        options.rawHeaderBytes = wholeNumber(source, "recording", "rawHeaderBytes", Index(0));
         return {withInjections(openRecording(path, options), injections), nullptr};
     }
 
