@@ -108,8 +108,11 @@ namespace {
             mayRead(fileNameFromText(recording));
         std::vector<int> runs(static_cast<std::size_t>(runCount(experiment)));
         std::iota(runs.begin(), runs.end(), 0);
-        if (provenance.contains("runs")) // it was stopped
-            runs = provenance["runs"].get<std::vector<int>>();
+        if (provenance.contains("runs")) { // it was stopped
+            runs.clear();
+            for (const Json &run : provenance["runs"])
+                runs.push_back(runFromJson(run, experiment, "runs"));
+        }
         Campaign campaign = begin(experiment, context.part(0.0, 0.1));
         carryOut(campaign, runs, context.part(0.1, 1.0));
         writeCurve(campaign, out);
