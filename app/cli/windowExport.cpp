@@ -43,13 +43,17 @@ namespace {
 
     RecordingPointer withInjections(RecordingPointer base, const Json &injections)
     {
+        const std::string where = "recording.injected";
+        std::vector<InjectedLine> lines;
         for (const Json &one : injections) {
-            InjectedLine line;
-            readFields(one.at("line"), LineSettings::fields(), line.line, "recording.injected");
-            line.amplitude = one.at("amplitude");
-            base =
-                std::make_shared<InjectedRecording>(base, std::vector{line}, one.value("channel", 0), one.value("seed", std::uint64_t(1)));
+            lines.emplace_back();
+            readFields(one.at("line"), LineSettings::fields(), lines.back().line, where);
+            lines.back().amplitude = one.at("amplitude");
         }
+        checkInjections(lines, base->info(), where);
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            base = std::make_shared<InjectedRecording>(base, std::vector{lines[i]}, wholeNumber(injections[i], where, "channel", 0),
+                                                       wholeNumber(injections[i], where, "seed", std::uint64_t(1)));
         return base;
     }
 

@@ -30,6 +30,8 @@ private:
     {
         return (member + ",").repeated(count - 1) + member;
     }
+
+    static QByteArray provenance(const QByteArray &kind);
 };
 
 void tst_cliBounded::smallFiles_data()
@@ -69,8 +71,19 @@ void tst_cliBounded::smallFiles_data()
     QTest::newRow("frames that are not there") << QStringList{"detect", "--frames", "@", "--summary"}
                                                << "\x93NUMPY\x01" + QByteArray(1, '\0') + "\x76" + QByteArray(1, '\0')
             + QByteArray("{'descr': '<f8', 'fortran_order': False, 'shape': (2000000, 1000), }").leftJustified(0x76);
+    QTest::newRow("a provenance of many added lines") << QStringList{"replay", "@"} << QByteArray();
     QTest::newRow("a provenance of many words") << QStringList{"replay", "@"} << QByteArray();
     QTest::newRow("a provenance of many options") << QStringList{"replay", "@"} << QByteArray();
+}
+
+QByteArray tst_cliBounded::provenance(const QByteArray &kind)
+{
+    if (kind.contains("added"))
+        return R"({"version": "0", "settings": {}, "recording": {"scenario": {"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 2},
+            "injected": [)" + list(R"({"line": {"frequencyHz": 10}, "amplitude": 0.1})", 15000) + "]}}";
+    return R"({"faintline": "0", "folder": ".", "inputs": [], "arguments": [)"
+        + (kind.contains("options") ? list("\"--a\"", 110000) : "\"detect\", " + list("\"small\"", 40000)) + R"(], "outputs": [)"
+        + list("\"small\"", 40000) + "]}";
 }
 
 void tst_cliBounded::smallFiles()
@@ -80,9 +93,7 @@ void tst_cliBounded::smallFiles()
     QVERIFY(text.size() < 1'000'000);
     writeArray(pathOf("frames.npy"), {3, 4}, std::vector<float>(12, 1.0f));
     if (arguments.contains("replay"))
-        writeBytes(pathOf("small.provenance.json"), R"({"faintline": "0", "folder": ".", "inputs": [], "arguments": [)"
-                       + (QByteArray(QTest::currentDataTag()).contains("options") ? list("\"--a\"", 110000) : "\"detect\", " + list("\"small\"", 40000))
-                       + R"(], "outputs": [)" + list("\"small\"", 40000) + "]}");
+        writeBytes(pathOf("small.provenance.json"), provenance(QTest::currentDataTag()));
     arguments.replaceInStrings("@", "small");
     const QString name = arguments.filter("small").constFirst();
     writeBytes(path(name).toStdString(), text);
