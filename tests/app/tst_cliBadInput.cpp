@@ -1,5 +1,6 @@
 #include "exchange/NumPy.h"
 #include "support/recordings.h"
+#include "support/slowdown.h"
 
 #include <QImage>
 #include <QProcess>
@@ -50,7 +51,7 @@ private:
 
     Outcome run(const QString &name, const QStringList &arguments, const std::function<void()> &inChild = {}) const
     {
-        constexpr int patience = 120'000; // ms, for a machine that is busy with other things
+        constexpr int patience = 120'000 * slowdown; // ms, for a machine that is busy with other things
         QProcess process;
         process.setWorkingDirectory(m_folder.path());
         if (inChild)
@@ -94,13 +95,13 @@ namespace {
     /// Two gibibytes of addresses, a third of which every thread wants for its stack.
     void limitMemory()
     {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which want all there are
+        if (isSanitized) // which wants all there are
+            return;
         constexpr rlim_t mebibyte = 1 << 20;
         const rlimit all{2048 * mebibyte, 2048 * mebibyte};
         const rlimit stack{700 * mebibyte, 700 * mebibyte};
         setrlimit(RLIMIT_AS, &all);
         setrlimit(RLIMIT_STACK, &stack);
-#endif
     }
 
 } // namespace
