@@ -9,7 +9,7 @@ Index Axis::nearest(double wanted) const
     const double rounded = std::floor(position(wanted) + 0.5);
     const double last = static_cast<double>(count - 1);
     if (!cyclic)
-        return static_cast<Index>(std::fmin(std::fmax(rounded, 0.0), last)); // which take what is no number for 0
+        return static_cast<Index>(std::fmin(std::fmax(rounded, 0.0), last)); // which take NaN for 0
     if (!std::isfinite(rounded))
         return 0;
     const double rest = std::fmod(rounded, last + 1.0);
