@@ -4,7 +4,7 @@
 # asan: AddressSanitizer and UndefinedBehaviorSanitizer over core, command line, widgets and window, and every test, the hostile files among
 # them. tsan: ThreadSanitizer over what computes on threads: recursion, thread pool, streaming, previews, calibrations, campaigns, the window's
 # jobs. Qt and the other libraries of the system are not instrumented: what goes through Qt's queue from thread to thread is seen by asan only.
-# `sh tests/strict.sh asan -R tst_Axis` builds everything, and runs one test. What is no finding stands in leaks.supp.
+# `sh tests/strict.sh asan -R tst_Axis` builds everything, and runs one test. What is no finding stands in leaks.supp and races.supp.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -55,7 +55,7 @@ esac
 export ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1:${ASAN_OPTIONS:-}"
 export LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0:${LSAN_OPTIONS:-}"
 export UBSAN_OPTIONS="print_stacktrace=1:${UBSAN_OPTIONS:-}"
-export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:${TSAN_OPTIONS:-}"
+export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/tests/races.supp:${TSAN_OPTIONS:-}"
 
 sh cmake/setup.sh
 failed=
