@@ -1,6 +1,7 @@
 #include "app/RenderOptions.h"
 
 #include "app/filePath.h"
+#include "base/wholeNumber.h"
 
 #include <QFileInfo>
 
@@ -48,7 +49,7 @@ RenderOptions renderOptionsFromJson(const Json &json)
 {
     RenderOptions options;
     options.views = json.value("views", std::vector{json.at("view").get<std::string>()});
-    options.size = {json.at("size").at(0).get<int>(), json.at("size").at(1).get<int>()};
+    options.size = {wholeNumber<int>(json.at("size").at(0), "render.size"), wholeNumber<int>(json.at("size").at(1), "render.size")};
     options.theme = json.at("theme").get<std::string>();
     options.scale = json.value("scale", 1.0);
     const auto take = [&json](const char *name, std::optional<double> &value) {

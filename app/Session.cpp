@@ -3,6 +3,7 @@
 #include "app/filePath.h"
 #include "base/AtomicFile.h"
 #include "base/readingJson.h"
+#include "base/wholeNumber.h"
 
 #include <QDir>
 #include <QFileInfo>
@@ -27,8 +28,8 @@ namespace {
         Source::Injection injection;
         readFields(json.at("line"), LineSettings::fields(), injection.line.line, where + ".line");
         injection.line.amplitude = json.at("amplitude").get<double>();
-        injection.channel = json.value("channel", 0);
-        injection.seed = json.value("seed", std::uint64_t(1));
+        injection.channel = wholeNumber(json, where, "channel", 0);
+        injection.seed = wholeNumber(json, where, "seed", std::uint64_t(1));
         return injection;
     }
 
@@ -89,8 +90,8 @@ namespace {
         source.options.iq = json.value("iq", false);
         source.options.rawType = json.value("rawType", std::string());
         source.options.rawRateHz = json.value("rawRateHz", 0.0);
-        source.options.rawChannels = json.value("rawChannels", 1);
-        source.options.rawHeaderBytes = json.value("rawHeaderBytes", Index(0));
+        source.options.rawChannels = wholeNumber(json, "recording", "rawChannels", 1);
+        source.options.rawHeaderBytes = wholeNumber(json, "recording", "rawHeaderBytes", Index(0));
         return source;
     }
 
@@ -130,7 +131,7 @@ namespace {
     Session sessionFromJson(const Json &json, const QString &path)
     {
         checkKeys(json, "", {"faintline", "recording", "settings", "view", "annotations"});
-        if (json.value("faintline", 0) != formatVersion)
+        if (json.value("faintline", Json()) != formatVersion)
             throw Error("faintline",
                         "must be " + std::to_string(formatVersion) + ", the version of the format this program reads");
         if (!json.contains("recording"))

@@ -63,6 +63,14 @@ namespace {
         return opened;
     }
 
+    std::vector<InjectedLine> linesOf(const std::vector<Source::Injection> &injections)
+    {
+        std::vector<InjectedLine> lines;
+        for (const Source::Injection &injection : injections)
+            lines.push_back(injection.line);
+        return lines;
+    }
+
 } // namespace
 
 QString Source::name() const
@@ -93,6 +101,11 @@ Source sourceOf(const QString &path, const OpenOptions &options)
 OpenedSource openSource(const Source &source)
 {
     OpenedSource opened = openBase(source);
+    if (source.injections.empty())
+        return opened;
+    if (!opened.recording)
+        throw Error("recording.injected", "lines are added to the samples of a recording; this is of frames");
+    checkInjections(linesOf(source.injections), opened.recording->info(), "recording.injected");
     for (const Source::Injection &injection : source.injections)
         opened = withInjection(opened, injection);
     return opened;

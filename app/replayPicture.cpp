@@ -12,6 +12,7 @@
 #include "base/AtomicFile.h"
 #include "base/oneLine.h"
 #include "base/readingJson.h"
+#include "base/wholeNumber.h"
 
 #include <QDir>
 #include <QFileInfo>
@@ -52,9 +53,9 @@ namespace {
             window.setAsking(false);
             window.show();
             testAndSettle(window, [&] { window.openScans(test); });
-            testAndSettle(window, [&] { window.sequentialTests().select(provenance.at("walk").get<int>()); });
-            testAndSettle(window, [&] { window.sequentialTests().setStage(provenance.at("stage").get<Index>()); });
-            window.sequential().trajectory().showAxis(provenance.at("axis").get<int>());
+            testAndSettle(window, [&] { window.sequentialTests().select(wholeNumber<int>(provenance.at("walk"), "walk")); });
+            testAndSettle(window, [&] { window.sequentialTests().setStage(wholeNumber<Index>(provenance.at("stage"), "stage")); });
+            window.sequential().trajectory().showAxis(wholeNumber<int>(provenance.at("axis"), "axis"));
             const auto &views = window.sequential().views();
             const auto view = std::find_if(views.begin(), views.end(), [name = provenance.at("chart").get<std::string>()](const auto &one) {
                 return one.title.toStdString() == name;

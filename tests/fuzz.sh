@@ -7,7 +7,18 @@ set -eu
 cd "$(dirname "$0")/.."
 minutes=${1:-10}
 [ $# -gt 0 ] && shift
+case $minutes in
+'' | *[!0-9]*)
+    sed -n '2,/^set -eu/s/^# //p' "$0" >&2
+    exit 2
+    ;;
+esac
+command -v clang++ >/dev/null || {
+    echo "error: tests/fuzz.sh: needs clang++ (on Debian: apt-get install clang)" >&2
+    exit 1
+}
 
+sh cmake/setup.sh
 if [ ! -f build-fuzz/build.ninja ]; then
     cmake --preset fuzz >/dev/null
 fi
@@ -54,6 +65,18 @@ if [ ! -d "$seeds" ]; then
 EOF
         echo '{"faintline": 1, "recording": {"name": "s", "scenario": {"kind": "lines", "lines": []}}, "settings": {}, "render":
  {"view": "output", "size": [4, 3], "theme": "light", "scale": 1, "time": 1, "set": ["a=b"], "layer": "age", "overlay": true, "focused": false}}' > origin.txt
+        echo '{"faintline": 1, "version": "0.1.0", "recording": {"name": "s", "scenario": {"kind": "lines", "sampleRateHz": 1000,
+ "durationSeconds": 2, "lines": []}, "injected": [{"line": {"frequencyHz": 99}, "amplitude": 0.1, "channel": 0, "seed": 1}]},
+ "settings": {}, "annotations": {"boxes": []}, "shownThreshold": 3}' > export.json
+        few='{"kind": "lines", "runs": 2, "frames": 60, "blockFrames": 30, "blockBins": 30, "durationWindows": 10, "snrDb": [3],
+ "detectors": [{"name": "P", "settings": {"detector.kind": "pOfN"}}]}'
+        echo "$few" > few.json
+        echo '{"version": "0.1.0", "experiment": '"$few"', "runs": [0, 1]}' > curve.json
+        "$cli" evaluate few.json --shard 1/2 --out shard.json
+        FAINTLINE_CACHE=$PWD "$cli" detect line.wav --set spectrogram.windowSeconds=0.5 --set model.lowestSlope=0 --set model.highestSlope=0
+        # Four pixels by three that tell of a scale.
+        echo iVBORw0KGgoAAAANSUhEUgAAAAQAAAADCAAAAACRn/EaAAAAI3RFWHRwcm92ZW5hbmNlAHsicmVuZGVyIjogeyJzY2FsZSI6IDF9feS0IvUAAAAPSURBVHicY2BkYmZhgB\
+MAAOEAH40//+EAAAAASUVORK5CYII= | base64 -d > picture.png
     )
 fi
 

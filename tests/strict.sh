@@ -1,37 +1,71 @@
 #!/bin/sh
-# Everything under the sanitizers: sh tests/strict.sh [asan|tsan|all] [CTEST-ARGUMENT...]
+# Everything under the sanitizers; fails where a test does, or where a sanitizer has something to say:
+#     sh tests/strict.sh [asan|tsan|all] [CTEST-ARGUMENT...]
 # asan: AddressSanitizer and UndefinedBehaviorSanitizer over core, command line, widgets and window, and every test, the hostile files among
-# them. tsan: ThreadSanitizer over what computes on threads: recursion, thread pool, streaming, previews, campaigns. Qt and the other libraries
-# of the system are not instrumented, so the window's own threads (JobRunner) are covered by asan only.
+# them. tsan: ThreadSanitizer over what computes on threads: recursion, thread pool, streaming, previews, calibrations, campaigns, the window's
+# jobs. Qt and the other libraries of the system are not instrumented: what goes through Qt's queue from thread to thread is seen by asan only.
+# `sh tests/strict.sh asan -R tst_Axis` builds everything, and runs one test. What is no finding stands in leaks.supp and races.supp.
 set -eu
 
 cd "$(dirname "$0")/.."
-which=${1:-all}
-[ $# -gt 0 ] && shift
-threads='^tst_(parallel|Recursion|advance|Smd|AudioRecording|analyse|previewStatistic|outputLayers|StateReplay|Campaign|SequentialStudy|durability|killed)$'
+threaded="parallel Recursion advance Smd Fft AudioRecording analyse previewStatistic outputLayers StateReplay closeup bandCalibration Campaign
+    SweepExperiment SequentialStudy JobRunner durability killed cliStreams"
+
+usage() {
+    sed -n '2,/^set -eu/s/^# //p' "$0"
+}
+
+words() { # PREFIX SEPARATOR: of the threaded tests
+    echo $threaded | sed "s/^/$1/; s/ /$2$1/g"
+}
+
+configure() {
+    [ -f "build-$1/build.ninja" ] || cmake --preset "$1"
+}
 
 run() { # PRESET, ctest's arguments
     preset=$1
     shift
-    [ -f "build-$preset/build.ninja" ] || cmake --preset "$preset"
-    cmake --build "build-$preset"
     ctest --test-dir "build-$preset" --output-on-failure -j2 "$@"
 }
+
+asan() {
+    configure asan && cmake --build build-asan && run asan "$@"
+}
+
+tsan() {
+    configure tsan && cmake --build build-tsan --target faintline-cli $(words tst_ ' ') && run tsan -R "^($(words tst_ '|'))\$" "$@"
+}
+
+which=${1:-all}
+[ $# -gt 0 ] && shift
+case $which in
+asan | tsan | all) ;;
+-h | --help)
+    usage
+    exit
+    ;;
+*)
+    usage >&2
+    exit 2
+    ;;
+esac
 
 # The C library's own allocator lets a large request fail, which tests ask for; sanitizers would end the program.
 export ASAN_OPTIONS="allocator_may_return_null=1:detect_leaks=1:${ASAN_OPTIONS:-}"
 export LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0:${LSAN_OPTIONS:-}"
 export UBSAN_OPTIONS="print_stacktrace=1:${UBSAN_OPTIONS:-}"
-export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:${TSAN_OPTIONS:-}"
+export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/tests/races.supp:${TSAN_OPTIONS:-}"
+
+sh cmake/setup.sh
+failed=
 case $which in
-asan) run asan "$@" ;;
-tsan) run tsan -R "$threads" "$@" ;;
-all)
-    run asan "$@"
-    run tsan -R "$threads" "$@"
-    ;;
-*)
-    echo "error: tests/strict.sh: asan, tsan or all" >&2
-    exit 2
-    ;;
+asan | all) asan "$@" || failed=asan ;;
 esac
+case $which in
+tsan | all) tsan "$@" || failed="$failed tsan" ;;
+esac
+[ -z "$failed" ] || {
+    echo "error: tests/strict.sh: failed under" $failed >&2
+    exit 1
+}

@@ -6,6 +6,7 @@
 #include "analysis/slopeUnit.h"
 #include "base/fileName.h"
 #include "base/readingJson.h"
+#include "base/wholeNumber.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
 #include "exchange/writeReviewed.h"
@@ -43,13 +44,17 @@ namespace {
 
     RecordingPointer withInjections(RecordingPointer base, const Json &injections)
     {
+        const std::string where = "recording.injected";
+        std::vector<InjectedLine> lines;
         for (const Json &one : injections) {
-            InjectedLine line;
-            readFields(one.at("line"), LineSettings::fields(), line.line, "recording.injected");
-            line.amplitude = one.at("amplitude");
-            base =
-                std::make_shared<InjectedRecording>(base, std::vector{line}, one.value("channel", 0), one.value("seed", std::uint64_t(1)));
+            lines.emplace_back();
+            readFields(one.at("line"), LineSettings::fields(), lines.back().line, where);
+            lines.back().amplitude = one.at("amplitude");
         }
+        checkInjections(lines, base->info(), where);
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            base = std::make_shared<InjectedRecording>(base, std::vector{lines[i]}, wholeNumber(injections[i], where, "channel", 0),
+                                                       wholeNumber(injections[i], where, "seed", std::uint64_t(1)));
         return base;
     }
 
@@ -69,8 +74,8 @@ namespace {
         options.iq = source.value("iq", false);
         options.rawType = source.value("rawType", std::string());
         options.rawRateHz = source.value("rawRateHz", 0.0);
-        options.rawChannels = source.value("rawChannels", 1);
-        options.rawHeaderBytes = source.value("rawHeaderBytes", Index(0));
+        options.rawChannels = wholeNumber(source, "recording", "rawChannels", 1);
+        options.rawHeaderBytes = wholeNumber(source, "recording", "rawHeaderBytes", Index(0));
         return {withInjections(openRecording(path, options), injections), nullptr};
     }
 
@@ -108,8 +113,11 @@ namespace {
             mayRead(fileNameFromText(recording));
         std::vector<int> runs(static_cast<std::size_t>(runCount(experiment)));
         std::iota(runs.begin(), runs.end(), 0);
-        if (provenance.contains("runs")) // it was stopped
-            runs = provenance["runs"].get<std::vector<int>>();
+        if (provenance.contains("runs")) { // it was stopped
+            runs.clear();
+            for (const Json &run : provenance["runs"])
+                runs.push_back(runFromJson(run, experiment, "runs"));
+        }
         Campaign campaign = begin(experiment, context.part(0.0, 0.1));
         carryOut(campaign, runs, context.part(0.1, 1.0));
         writeCurve(campaign, out);

@@ -25,7 +25,7 @@ struct Axis {
     /// Fractional index of a value; not clamped, not wrapped.
     double position(double value) const { return (value - first) / step; }
 
-    /// Index of the nearest cell: wrapped on a cyclic axis, clamped to 0 … count-1 otherwise.
+    /// Index of the nearest cell: wrapped on a cyclic axis, clamped to 0 … count-1 otherwise; 0 for NaN.
     Index nearest(double value) const;
 
     /// An index brought into 0 … count-1 by wrapping, or -1 if it lies off a bounded axis.

@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "base/fileName.h"
+#include "base/wholeNumber.h"
 #include "evaluate/PdCurve.h"
 #include "evaluate/sweepCurve.h"
 #include "recording/openRecording.h"
@@ -90,6 +91,14 @@ int runCount(const Experiment &experiment)
                                  [](const InjectionExperiment &injection) { return injection.trials; },
                                  [](const SweepExperiment &sweep) { return sweep.runs(); }},
                       experiment);
+}
+
+int runFromJson(const Json &json, const Experiment &experiment, const std::string &where)
+{
+    const int run = wholeNumber<int>(json, where);
+    if (run < 0 || run >= runCount(experiment))
+        throw Error(where + " = " + std::to_string(run), "must lie in 0 … " + std::to_string(runCount(experiment) - 1));
+    return run;
 }
 
 std::vector<double> snrsOf(const Experiment &experiment)

@@ -22,6 +22,10 @@ Json toJson(const Experiment &experiment);
 
 /// How many runs (fields, or single trials) the experiment consists of.
 int runCount(const Experiment &experiment);
+
+/// The number of one of them; throws Error naming `where`.
+int runFromJson(const Json &json, const Experiment &experiment, const std::string &where);
+
 void setSeed(Experiment &experiment, int seed);
 
 /// The signal-to-noise ratios and the detectors of an experiment; a sweep has one ratio, and a detector for each value.

@@ -171,6 +171,10 @@ void checkExperiment(const SweepExperiment &experiment)
     checkFields(experiment, SweepExperiment::fields());
     if (experiment.values.empty())
         throw Error("values", "must hold at least one value");
+    constexpr std::size_t mostRuns = 10'000'000;
+    if (experiment.values.size() > mostRuns / static_cast<std::size_t>(experiment.trials))
+        throw Error("trials = " + std::to_string(experiment.trials),
+                    "of each of " + std::to_string(experiment.values.size()) + " values are more than 10 million");
     for (std::size_t i = 0; i < experiment.values.size(); ++i)
         settingsAt(experiment, i);
     if (!experiment.recording.empty())

@@ -53,10 +53,10 @@ namespace {
         return values;
     }
 
-    RunOutcome outcomeFrom(const Json &json)
+    RunOutcome outcomeFrom(const Json &json, const Experiment &experiment, const std::string &where)
     {
         RunOutcome outcome;
-        outcome.run = json.at("run").get<int>();
+        outcome.run = runFromJson(json.at("run"), experiment, where + ": run");
         for (const Json &detector : json.at("noise"))
             outcome.noise.push_back(floatsFrom(detector));
         for (const Json &detector : json.at("signal")) {
@@ -133,6 +133,13 @@ namespace {
         return at != std::string::npos && line == withChecksum(line.substr(0, at) + "}");
     }
 
+    /// Of a sweep: how many false alarms in how many seconds.
+    bool isCount(const std::vector<float> &noise)
+    {
+        constexpr float most = 1e9f; // of either in one run
+        return noise.size() == 2 && std::all_of(noise.begin(), noise.end(), [](float value) { return value >= 0.0f && value <= most; });
+    }
+
     /// Every detector and SNR of the experiment must have its answers.
     void checkShape(const Campaign &campaign, const RunOutcome &outcome, const std::string &where)
     {
@@ -141,7 +148,7 @@ namespace {
         const std::size_t snrs = snrsOf(campaign.experiment).size();
         bool isWhole = outcome.noise.size() == detectors && outcome.signal.size() == detectors;
         for (const auto &noise : outcome.noise)
-            isWhole = isWhole && (isSweep ? noise.size() == 2 : !noise.empty());
+            isWhole = isWhole && (isSweep ? isCount(noise) : !noise.empty());
         for (const auto &signal : outcome.signal) {
             isWhole = isWhole && signal.size() == snrs;
             for (const auto &values : signal)
@@ -172,6 +179,7 @@ namespace {
     /// "name",snr,pd,low,high,trials,threshold: the last may be empty.
     CurvePoint pointFrom(std::string_view line, const std::string &where)
     {
+        constexpr double mostTrials = 1e15;
         const Error refusal(where, std::string("must be ") + curveHead);
         CurvePoint point;
         std::size_t quote = line.starts_with('"') ? 1 : line.size();
@@ -191,7 +199,7 @@ namespace {
                 break;
             rest = rest.substr(comma + 1);
         }
-        if (values.size() != 6 || !values[0] || !values[1] || !values[2] || !values[3] || !values[4])
+        if (values.size() != 6 || !values[0] || !values[1] || !values[2] || !values[3] || !(values[4] && *values[4] >= 0.0 && *values[4] <= mostTrials))
             throw refusal;
         point.snrDb = *values[0];
         point.pd = *values[1];
@@ -254,7 +262,7 @@ Campaign readCampaign(const std::string &path)
             break; // no line end: cut off
         try {
             const std::string where = path + ", line " + std::to_string(number);
-            campaign.outcomes.push_back(outcomeFrom(parseJson(line, where)));
+            campaign.outcomes.push_back(outcomeFrom(parseJson(line, where), campaign.experiment, where));
             checkShape(campaign, campaign.outcomes.back(), where);
         } catch (const nlohmann::json::exception &) {
             throw Error(path + ", line " + std::to_string(number), "must be {\"run\": …, \"noise\": [[…]], \"signal\": [[[…]]]}");

@@ -33,7 +33,7 @@ namespace {
         if (std::error_code code; std::filesystem::is_directory(path, code))
             throw Error(path, "is a folder; annotations are a file");
         std::string text;
-        std::vector<char> block(1 << 20);
+        std::vector<char> block(1 << 16);
         while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
             text.append(block.data(), static_cast<std::size_t>(file.gcount()));
             if (text.size() > mostBytes)

@@ -158,6 +158,13 @@ namespace {
         return text;
     }
 
+    /// A box may lie anywhere; a sample's number is held in a double and in the file alike.
+    long long sampleAt(double seconds, double rate)
+    {
+        constexpr double most = 9007199254740992.0; // 2⁵³
+        return std::llround(std::clamp(seconds * rate, -most, most));
+    }
+
     std::string sigmf(const Analysis &analysis, const std::vector<Row> &rows)
     {
         if (!analysis.recording)
@@ -173,9 +180,9 @@ namespace {
         json["annotations"] = Json::array();
         for (const Row &row : rows) {
             Json one;
-            const long long start = std::llround(row.box.startSeconds * rate);
+            const long long start = sampleAt(row.box.startSeconds, rate);
             one["core:sample_start"] = start;
-            one["core:sample_count"] = std::max(1LL, std::llround(row.box.endSeconds * rate) - start);
+            one["core:sample_count"] = std::max(1LL, sampleAt(row.box.endSeconds, rate) - start);
             if (row.box.lowHz && row.box.highHz) {
                 one["core:freq_lower_edge"] = centre + *row.box.lowHz;
                 one["core:freq_upper_edge"] = centre + *row.box.highHz;

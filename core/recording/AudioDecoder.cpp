@@ -69,7 +69,8 @@ struct AudioDecoder::Source {
     {
         Source &source = of(user);
         const Index base = whence == SEEK_CUR ? source.offset : whence == SEEK_END ? source.file->size() : 0;
-        source.offset = std::max<Index>(0, base + offset);
+        constexpr Index farthest = Index(1) << 60; // behind every file's end, as a chunk's length may lead
+        source.offset = std::clamp<Index>(base + std::clamp<Index>(offset, -farthest, farthest), 0, farthest);
         return source.offset;
     }
 

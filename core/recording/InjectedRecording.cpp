@@ -2,6 +2,17 @@
 
 namespace faintline {
 
+void checkInjections(const std::vector<InjectedLine> &lines, const RecordingInfo &recording, const std::string &name)
+{
+    constexpr std::size_t most = 1000;
+    if (lines.size() > most)
+        throw Error(name, "must be at most " + std::to_string(most) + " lines");
+    std::vector<LineSettings> settings;
+    for (const InjectedLine &one : lines)
+        settings.push_back(one.line);
+    checkLines(settings, recording, name);
+}
+
 InjectedRecording::InjectedRecording(RecordingPointer base, const std::vector<InjectedLine> &lines, int channel,
                                      std::uint64_t seed)
     : m_base(std::move(base)), m_channel(channel)

@@ -10,9 +10,9 @@ namespace {
     constexpr double mostNodes = 6e6; ///< 16 bytes each
     constexpr std::size_t mostLines = 10000;
 
-    std::string lineName(std::size_t i)
+    std::string lineName(const std::string &list, std::size_t i)
     {
-        return "lines[" + std::to_string(i) + "]";
+        return list + "[" + std::to_string(i) + "]";
     }
 
     double durationOf(const LineSettings &line, const RecordingInfo &recording)
@@ -125,6 +125,18 @@ void checkLine(const LineSettings &line, const RecordingInfo &recording, const s
                     "is too short for a line of " + formatNumber(duration) + " s");
 }
 
+void checkLines(std::span<const LineSettings> lines, const RecordingInfo &recording, const std::string &name)
+{
+    double nodes = 0.0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        checkLine(lines[i], recording, lineName(name, i));
+        const double duration = durationOf(lines[i], recording);
+        nodes += wanderNodes(lines[i], duration) + fadingNodes(lines[i], duration);
+        if (nodes > mostNodes)
+            throw Error(lineName(name, i), "wanders or fades too fast for its length, together with the lines before it");
+    }
+}
+
 void checkScene(const LineScene &scene)
 {
     checkFields(scene, LineScene::fields());
@@ -138,15 +150,7 @@ void checkScene(const LineScene &scene)
                     "must be at least a millionth of the duration");
     if (scene.lines.size() > mostLines)
         throw Error("lines", "must be at most " + std::to_string(mostLines));
-    const RecordingInfo recording = recordingInfo(scene);
-    double nodes = 0.0;
-    for (std::size_t i = 0; i < scene.lines.size(); ++i) {
-        checkLine(scene.lines[i], recording, lineName(i));
-        const double duration = durationOf(scene.lines[i], recording);
-        nodes += wanderNodes(scene.lines[i], duration) + fadingNodes(scene.lines[i], duration);
-        if (nodes > mostNodes)
-            throw Error(lineName(i), "wanders or fades too fast for its length, together with the lines before it");
-    }
+    checkLines(scene.lines, recordingInfo(scene), "lines");
 }
 
 LineScene lineSceneFromJson(const Json &json)
@@ -165,7 +169,7 @@ LineScene lineSceneFromJson(const Json &json)
             throw Error("lines", "must be a list, [ … ]");
         scene.lines.resize(lines->size());
         for (std::size_t i = 0; i < lines->size(); ++i)
-            readFields((*lines)[i], LineSettings::fields(), scene.lines[i], lineName(i));
+            readFields((*lines)[i], LineSettings::fields(), scene.lines[i], lineName("lines", i));
     }
     checkScene(scene);
     return scene;

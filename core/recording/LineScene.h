@@ -4,6 +4,7 @@
 #include "recording/Recording.h"
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,6 +72,9 @@ RecordingInfo recordingInfo(const LineScene &scene);
 /// Checks a line's ranges, and that it lies within the recording and, but for its wander, within its band.
 /// Throws Error naming the key ("lines[2].snrDb", where `name` is "lines[2]").
 void checkLine(const LineSettings &line, const RecordingInfo &recording, const std::string &name);
+
+/// Checks each as `checkLine` does, and what they need together; `name` stands for the list ("lines").
+void checkLines(std::span<const LineSettings> lines, const RecordingInfo &recording, const std::string &name);
 
 /// Checks the scene and its lines. Throws Error naming the key.
 void checkScene(const LineScene &scene);

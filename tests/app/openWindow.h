@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/MainWindow.h"
+#include "support/slowdown.h"
 
 #include <QFile>
 #include <QSettings>
@@ -14,7 +15,7 @@ namespace faintline::test {
 
 /// How tests of the window begin: a small scene, a window nobody has to answer, and patience.
 
-constexpr int patience = 120'000; ///< ms, for a machine that is busy with other things
+constexpr int patience = 120'000 * slowdown; ///< ms, for a machine that is busy with other things
 
 /// A file with that text; its path.
 inline QString writeFile(const QTemporaryDir &folder, const QString &name, const QByteArray &text)

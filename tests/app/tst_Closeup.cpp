@@ -45,7 +45,7 @@ class tst_Closeup : public QObject
 
     bool settle()
     {
-        return QTest::qWaitFor([this] { return !workbench().closeup().isBusy(); }, 20000);
+        return QTest::qWaitFor([this] { return !workbench().closeup().isBusy(); }, patience);
     }
 
 private slots:

@@ -99,7 +99,7 @@ private slots:
         QVERIFY(panel.computeButton()->isVisible());
         QVERIFY(panel.sentence().contains("something else"));
         panel.computeButton()->click();
-        QTRY_VERIFY_WITH_TIMEOUT(window.comparer().result().has_value(), 60000);
+        QTRY_VERIFY_WITH_TIMEOUT(window.comparer().result().has_value(), patience);
         QVERIFY(!panel.computeButton()->isVisible());
         QCOMPARE(window.comparer().kept()->settings, kept->settings);
     }

@@ -51,6 +51,19 @@ private slots:
         }
     }
 
+    void linesAreAddedToRecordingsOnlyAndNotWithoutEnd()
+    {
+        const Source::Injection line{{{3.0, 0.5, 0.0, 0.0, 20.0}, 0.1}, 0, 1};
+        Source source = sourceOf(file("f.json", R"({"kind": "lines", "sampleRateHz": 100, "durationSeconds": 10})"));
+        source.injections.assign(2, line);
+        QCOMPARE(openSource(source).truth.lines.size(), std::size_t(2));
+        source.injections.assign(1001, line);
+        QVERIFY_THROWS_EXCEPTION(Error, openSource(source));
+        source = sourceOf(file("g.json", R"({"kind": "pings", "pings": 3, "rangeCells": 10, "beams": 4})"));
+        source.injections = {line};
+        QVERIFY_THROWS_EXCEPTION(Error, openSource(source));
+    }
+
     void onlyBareSamplesNeedToBeAskedAbout()
     {
         QVERIFY(needsRawOptions(file("c.cf32", "0123456789abcdef"), {}));

@@ -43,7 +43,7 @@ private slots:
         QSignalSpy busy(&window.experiments(), &Experiments::busyChanged);
         panel.start();
         QVERIFY(window.experiments().isBusy());
-        QTRY_VERIFY_WITH_TIMEOUT(!window.experiments().isBusy(), 60000);
+        QTRY_VERIFY_WITH_TIMEOUT(!window.experiments().isBusy(), patience);
         const Experiments::Entry *entry = window.experiments().entry(panel.shown());
         QCOMPARE(entry->state, Experiments::State::Done);
         QCOMPARE(entry->runsDone(), 12);
@@ -57,7 +57,7 @@ private slots:
         QCOMPARE(window.document().settings().decide.by, DecideSettings::By::Nats);
         window.document().undoStack().undo();
         QCOMPARE(window.document().settings().decide.thresholdNats, before);
-        QTRY_VERIFY_WITH_TIMEOUT(!window.controller().isBusy(), 60000);
+        QTRY_VERIFY_WITH_TIMEOUT(!window.controller().isBusy(), patience);
     }
 
     void cancelledItKeepsWhatThereIs()
@@ -70,9 +70,9 @@ private slots:
         panel.form().setRange(5.0, 15.0, 3, false);
         panel.form().setLines(3.0, 10.0, 5000);
         panel.start();
-        QTRY_VERIFY_WITH_TIMEOUT(window.experiments().entry(panel.shown())->runsDone() > 3, 60000);
+        QTRY_VERIFY_WITH_TIMEOUT(window.experiments().entry(panel.shown())->runsDone() > 3, patience);
         panel.cancel();
-        QTRY_VERIFY_WITH_TIMEOUT(!window.experiments().isBusy(), 60000);
+        QTRY_VERIFY_WITH_TIMEOUT(!window.experiments().isBusy(), patience);
         const Experiments::Entry *entry = window.experiments().entry(panel.shown());
         QCOMPARE(entry->state, Experiments::State::Cancelled);
         QVERIFY(entry->runsDone() < 15000);

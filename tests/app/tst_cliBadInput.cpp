@@ -1,5 +1,6 @@
 #include "exchange/NumPy.h"
 #include "support/recordings.h"
+#include "support/slowdown.h"
 
 #include <QImage>
 #include <QProcess>
@@ -50,7 +51,7 @@ private:
 
     Outcome run(const QString &name, const QStringList &arguments, const std::function<void()> &inChild = {}) const
     {
-        constexpr int patience = 120'000; // ms, for a machine that is busy with other things
+        constexpr int patience = 120'000 * slowdown; // ms, for a machine that is busy with other things
         QProcess process;
         process.setWorkingDirectory(m_folder.path());
         if (inChild)
@@ -94,13 +95,13 @@ namespace {
     /// Two gibibytes of addresses, a third of which every thread wants for its stack.
     void limitMemory()
     {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which want all there are
+        if (isSanitized) // which wants all there are
+            return;
         constexpr rlim_t mebibyte = 1 << 20;
         const rlimit all{2048 * mebibyte, 2048 * mebibyte};
         const rlimit stack{700 * mebibyte, 700 * mebibyte};
         setrlimit(RLIMIT_AS, &all);
         setrlimit(RLIMIT_STACK, &stack);
-#endif
     }
 
 } // namespace
@@ -182,6 +183,15 @@ void tst_cliBadInput::wrongKinds_data()
     const QByteArray shard =
         R"({"faintlineCampaign": 1, "thresholds": ["high"], "experiment": )" + QByteArray(experiment).replace('\n', ' ') + "}\n";
     QTest::newRow("thresholds of a shard") << merge << shard << QStringLiteral("bad.json, line 1: thresholds: ") + otherKind;
+    const QByteArray few = R"({"faintlineCampaign": 1, "thresholds": [], "experiment": )" + QByteArray(experiment).replace('\n', ' ')
+        + "}\n{\"noise\": [[1]], \"signal\": [[[1]]], \"run\": ";
+    QTest::newRow("run of a shard") << merge << few + "1e300}\n" << "bad.json, line 2: run: must be a whole number";
+    QTest::newRow("run before the first") << merge << few + "-1}\n" << "bad.json, line 2: run = -1: must lie in 0 … 1";
+    QTest::newRow("run after the last") << merge << few + "2}\n" << "bad.json, line 2: run = 2: must lie in 0 … 1";
+    const QByteArray sweep = R"({"faintlineCampaign": 1, "thresholds": [1], "experiment": {"kind": "sweep", "trials": 1, "values": [5],)"
+                             R"( "parameter": "decide.thresholdNats"}})" "\n" R"({"run": 0, "signal": [[[1]]], "noise": )";
+    for (const char *noise : {"[[1e30, 5]]", "[[null, 5]]", "[[-1, 5]]", "[[1, 1e30]]"})
+        QTest::newRow(noise) << merge << sweep + noise + "}\n" << "bad.json, line 2: must hold values for each of the 1 detectors";
     QTest::newRow("a folder as a shard") << QStringList{"merge", ".", "--out", "o.csv"} << QByteArray() << ".: is not a file";
     QTest::newRow("begin of an event") << annotated << QByteArray(R"({"events": [{"t_onset": "soon", "t_end": 2}]})")
                                        << QStringLiteral("bad.json, event 1: ") + otherKind;

@@ -1,5 +1,7 @@
 // The manual pages name every command and every option that the programs' own help shows.
 
+#include "support/slowdown.h"
+
 #include <QFile>
 #include <QProcess>
 #include <QProcessEnvironment>
@@ -12,7 +14,7 @@ QString helpOf(const QString &program, const QStringList &command = {})
 {
     QProcess process;
     process.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/") + program, command + QStringList{"--help"});
-    return process.waitForFinished(60000) && process.exitCode() == 0 ? QString::fromUtf8(process.readAllStandardOutput()) : QString();
+    return process.waitForFinished(60000 * faintline::test::slowdown) && process.exitCode() == 0 ? QString::fromUtf8(process.readAllStandardOutput()) : QString();
 }
 
 /// The page without its escapes: "\-" is a minus.

@@ -1,5 +1,7 @@
 // Runs the program as a person would: `faintline render …`.
 
+#include "support/slowdown.h"
+
 #include <QImage>
 #include <QImageReader>
 #include <QProcess>
@@ -22,7 +24,7 @@ Outcome run(const QStringList &arguments)
     environment.remove("QT_QPA_PLATFORM"); // it finds its own
     process.setProcessEnvironment(environment);
     process.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), arguments);
-    if (!process.waitForFinished(120000))
+    if (!process.waitForFinished(120000 * faintline::test::slowdown))
         return {};
     return {process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
 }

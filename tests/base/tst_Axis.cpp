@@ -17,6 +17,7 @@ private slots:
     void positionUndoesValue();
     void nearestClamps();
     void nearestWraps();
+    void nearestOfFarAway();
     void nearestOfHalves();
     void wrappedIndices();
     void emptyAxes();
@@ -70,6 +71,15 @@ void tst_Axis::nearestWraps()
     QCOMPARE(bearing.nearest(-90.0), Index(3));
     QCOMPARE(bearing.nearest(360.0 * 1000.0 + 180.0), Index(2));
     QCOMPARE(bearing.nearest(-360.0 * 1000.0 + 180.0), Index(2));
+}
+
+void tst_Axis::nearestOfFarAway()
+{
+    for (const double far : {1e18, 1e300, -1e300, double(INFINITY), -double(INFINITY), double(NAN)}) {
+        QVERIFY(bearing.nearest(far) >= 0 && bearing.nearest(far) < 4);
+        QCOMPARE(frequency.nearest(far), far > 0.0 ? Index(4) : Index(0));
+    }
+    QCOMPARE(bearing.nearest(NAN), Index(0));
 }
 
 void tst_Axis::nearestOfHalves()

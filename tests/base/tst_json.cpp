@@ -1,4 +1,5 @@
-#include "base/json.h"
+#include "base/Axis.h"
+#include "base/wholeNumber.h"
 
 #include <QtTest>
 
@@ -14,6 +15,7 @@ private slots:
     void missingKeysKeepTheirValues();
     void mistakesAreNamed_data();
     void mistakesAreNamed();
+    void wholeNumbers();
     void textThatIsNoJson();
     void filesThatAreNone();
 };
@@ -112,6 +114,24 @@ void tst_json::mistakesAreNamed()
     QFETCH(QString, message);
     const std::string said = errorOf(qPrintable(text));
     QVERIFY2(QString::fromStdString(said).contains(message), said.c_str());
+}
+
+void tst_json::wholeNumbers()
+{
+    const auto whole = []<class T>(const char *text, T) { return wholeNumber<T>(parseJson(text, "here"), "n"); };
+    QCOMPARE(whole("-7", 0), -7);
+    QCOMPARE(whole("3.0", 0), 3);
+    QCOMPARE(whole("2147483647", 0), 2147483647);
+    QCOMPARE(whole("18446744073709551615", std::uint64_t(0)), std::numeric_limits<std::uint64_t>::max());
+    QCOMPARE(whole("1e15", Index(0)), Index(1000000000000000));
+    for (const char *none : {"2147483648", "-2147483649", "1e300", "-1e300", "1e999", "0.5", "true", "null", "\"1\"", "[1]"})
+        QVERIFY_THROWS_EXCEPTION(Error, whole(none, 0));
+    for (const char *none : {"-1", "18446744073709551616", "1e20"})
+        QVERIFY_THROWS_EXCEPTION(Error, whole(none, std::uint64_t(0)));
+    const Json object = parseJson(R"({"a": 1, "b": "2"})", "here");
+    QCOMPARE(wholeNumber(object, "here", "a", 5), 1);
+    QCOMPARE(wholeNumber(object, "here", "c", 5), 5);
+    QVERIFY_THROWS_EXCEPTION(Error, wholeNumber(object, "here", "b", 5));
 }
 
 void tst_json::textThatIsNoJson()

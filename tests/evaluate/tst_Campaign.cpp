@@ -138,6 +138,11 @@ void tst_Campaign::namesOfDetectorsInACurve()
     QCOMPARE(curve.size(), 2u); // one for each SNR, and no row that a name brought with it
     QCOMPARE(curve[1].detector, std::string("a\",9 \"b\",1,1,1,1,1,1"));
     QCOMPARE(curve[1].snrDb, 3.0);
+
+    QFile file(m_folder.filePath("names.csv"));
+    QVERIFY(file.open(QFile::Append) && file.write("\"c\",3,0.5,0,1,1e300,\n") > 0);
+    file.close();
+    QVERIFY_EXCEPTION_THROWN(readCurve(path("names.csv")), Error); // nobody tries so often
 }
 
 void tst_Campaign::killedAndResumed()

@@ -106,6 +106,14 @@ private slots:
         QVERIFY2(told.startsWith(why), qPrintable(told));
     }
 
+    void runsAreCounted()
+    {
+        SweepExperiment large = sweep();
+        large.trials = 1'000'000;
+        large.values.assign(3000, 5.0);
+        QCOMPARE(whyNot(large), std::string("trials = 1000000: of each of 3000 values are more than 10 million"));
+    }
+
     void jsonRoundTrip()
     {
         const SweepExperiment before = sweep();

@@ -23,6 +23,7 @@ private slots:
     void audacity();
     void sigmf();
     void textsAreTakenApart();
+    void farAway();
     void hostile_data();
     void hostile();
 
@@ -109,6 +110,16 @@ void tst_annotations::comeBack()
     boxes.boxes = back;
     writeReviewed(analysis, {}, boxes, file);
     QVERIFY(readAnnotations(file, m_info) == back);
+}
+
+/// Samples of SigMF are counted, as far as one can count.
+void tst_annotations::farAway()
+{
+    Annotations boxes;
+    boxes.boxes = {{-1e300, 1e300, {}, {}, "", "", Verdict::None}, {5.0, 1e300, {}, {}, "", "", Verdict::None}};
+    writeReviewed(threeTracks(m_info), {}, boxes, path("far.sigmf-meta"));
+    for (const Annotation &box : readAnnotations(path("far.sigmf-meta"), m_info))
+        QVERIFY(box.startSeconds <= 5.0 && box.endSeconds > 1e12);
 }
 
 void tst_annotations::eventsOfTheCommandLine()

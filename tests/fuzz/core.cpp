@@ -6,6 +6,7 @@
 #include "analysis/CalibrationStore.h"
 #include "analysis/Review.h"
 #include "app/cli/readProvenance.h"
+#include "app/cli/windowExport.h"
 #include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
@@ -24,6 +25,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -69,6 +71,22 @@ void readCalibration(const Input &input)
     store.load("key");
 }
 
+/// Up to where something is computed of it.
+void readWindowExport(const Input &input)
+{
+    std::stop_source stop;
+    stop.request_stop();
+    RunContext context;
+    context.stop = stop.get_token();
+    const Json provenance = parseJson(input.text, "provenance");
+    if (!cli::isOfWindow(provenance))
+        return;
+    try {
+        cli::remakeWindowExport(provenance, input.path, {}, input.path + ".csv", [](const std::string &) {}, context);
+    } catch (const Cancelled &) {
+    }
+}
+
 void readNames(const Input &input)
 {
     if (fileNameFromText(textFromFileName(input.text)) != input.text)
@@ -106,6 +124,7 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"json", ".json", [](const Input &input) { parseJson(input.text, "json"); }},
         {"names", ".txt", readNames},
         {"provenance", ".json", [](const Input &input) { cli::readProvenance(input.path); }},
+        {"windowExport", ".json", readWindowExport},
     };
     return all;
 }

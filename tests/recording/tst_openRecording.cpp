@@ -11,14 +11,6 @@
 using namespace faintline;
 using namespace faintline::test;
 
-#ifdef __SANITIZE_ADDRESS__
-/// libsndfile does not free what it had made of the header of an OGG file that it then refuses.
-extern "C" const char *__lsan_default_suppressions()
-{
-    return "leak:vorbis_info_init\n";
-}
-#endif
-
 /// What opening says of files that are no recordings, and that no malformed file makes it crash, hang or give NaN.
 class tst_openRecording : public QObject
 {
@@ -28,6 +20,7 @@ private slots:
     void refusals();
     void rawFilesAskForWhatIsMissing();
     void contentBeatsExtension();
+    void chunksLongerThanAnyFile();
     void notPermitted();
     void truncatedAnywhere_data();
     void truncatedAnywhere();
@@ -100,6 +93,17 @@ void tst_openRecording::rawFilesAskForWhatIsMissing()
     options.rawType = "unknown";
     options.rawRateHz = 1.0;
     QVERIFY(contains(refusal(path("a.iq"), options), "unknown is no sample type; known are cf32"));
+}
+
+/// A chunk's length may lead behind the last byte that could be counted.
+void tst_openRecording::chunksLongerThanAnyFile()
+{
+    writeAudio(path("long.rf64"), SF_FORMAT_RF64 | SF_FORMAT_PCM_16, 1, 1000, someNoise(2000));
+    QByteArray bytes = readBytes(path("long.rf64"));
+    const qsizetype sizes = bytes.indexOf("ds64") + 8;
+    bytes.replace(sizes, 24, QByteArray("\xf8\xff\xff\xff\xff\xff\xff\x7f", 8).repeated(3));
+    writeBytes(path("long.rf64"), bytes);
+    QCOMPARE(openRecording(path("long.rf64"))->info().sampleCount, Index(2000));
 }
 
 void tst_openRecording::contentBeatsExtension()

@@ -2,6 +2,7 @@
 
 #include "exchange/NumPy.h"
 #include "support/recordings.h"
+#include "support/slowdown.h"
 
 #include <QProcess>
 #include <QtTest>
@@ -20,7 +21,7 @@ protected:
         QByteArray err;
     };
 
-    static constexpr int patience = 120'000; ///< ms, for a machine that is busy with other things
+    static constexpr int patience = 120'000 * slowdown; ///< ms, for a machine that is busy with other things
     inline static const QString program = QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline-cli");
     /// For the line of `simulateLine`.
     inline static const QStringList lineSettings{"--set", "spectrogram.windowSeconds=0.5", "--set", "decide.falseAlarmsPerHour=2"};

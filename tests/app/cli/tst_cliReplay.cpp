@@ -18,6 +18,7 @@ private slots:
     void nothingElseIsTouched();
     void onlyItsOwnFolderIsRead();
     void helpIsNoResult();
+    void runsThatAreNone();
 
 private:
     Outcome runAtHome(const QStringList &arguments, const QString &home) const;
@@ -140,6 +141,19 @@ void tst_cliReplay::onlyItsOwnFolderIsRead()
     const Outcome outcome = run({"replay", "results/curve.csv"});
     QCOMPARE(outcome.code, 2);
     QVERIFY2(outcome.err.contains("lies outside"), outcome.err.constData());
+}
+
+/// A curve that the window exported of a sweep that was stopped.
+void tst_cliReplay::runsThatAreNone()
+{
+    writeBytes(pathOf("sweep.csv"), "look");
+    for (const char *runs : {"[-1]", "[4]", "[0, 1e300]", "[0.5]"}) {
+        writeBytes(pathOf("sweep.csv.provenance.json"), R"({"version": "0", "experiment": {"kind": "sweep", "trials": 2, "durationSeconds": 2,
+            "sampleRateHz": 100, "parameter": "decide.thresholdNats", "values": [5, 6]}, "runs": )" + QByteArray(runs) + "}");
+        const Outcome outcome = run({"replay", "sweep.csv"});
+        QCOMPARE(outcome.code, 2);
+        QVERIFY2(outcome.err.startsWith("error: runs"), outcome.err.constData());
+    }
 }
 
 void tst_cliReplay::helpIsNoResult()
