@@ -159,7 +159,7 @@ void AnalysisController::startAnalysis()
     const auto &cursor = m_document.viewport().cursor();
     const Span visible = m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
     m_runner.start([this, opened = m_document.openedSource(), settings = m_document.analysedSettings(), previous = m_document.analysis(), visible,
-                    kept = m_kept](const RunContext &context) -> JobRunner::Delivery {
+                    kept = m_kept, showsFirstEstimates = m_showsFirstEstimates](const RunContext &context) -> JobRunner::Delivery {
         if (const bool isSame =
                 previous && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
             isSame && isWorthAPreview(*previous, settings)) {
@@ -182,7 +182,7 @@ void AnalysisController::startAnalysis()
             pictures = [this](const PicturesSoFar &sofar) {
                 m_runner.deliver([this, sofar] { emit m_document.picturesGrew(sofar); });
             };
-        const bool isNew = opened.recording && !knownCalibration(settings);
+        const bool isNew = showsFirstEstimates && opened.recording && !knownCalibration(settings);
         auto analysis = analyse(opened, settings, context.part(0.0, isNew ? 0.3 : 1.0), previous.get(), pictures,
                                 isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined);
         if (analysis->calibration->isFirstEstimate) {

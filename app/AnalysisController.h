@@ -57,6 +57,9 @@ public slots:
     void commitThreshold(double nats);
     void stepThreshold(int quarterNats);
 
+    /// Off: nobody waits for a first estimate of the threshold; the refined one is the first to be shown.
+    void setShowsFirstEstimates(bool shows) { m_showsFirstEstimates = shows; }
+
 signals:
     void busyChanged(bool isBusy);
     void progressed(double fraction, const QString &what);
@@ -92,6 +95,7 @@ private:
     std::optional<double> m_firstEstimate; ///< threshold of the analysis that is being refined
     std::shared_ptr<const KeptFrames> m_kept; ///< of the last preview
     bool m_isOpening = false;
+    bool m_showsFirstEstimates = true;
     JobRunner m_runner; ///< last, so that its jobs end first
 };
 

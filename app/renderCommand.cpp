@@ -284,6 +284,7 @@ void render(const RenderOptions &options)
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
     window.setAsking(false);
+    window.controller().setShowsFirstEstimates(false);
     window.resize(options.size);
     window.show();
     if (isLesson(pathText(options.source))) {
@@ -324,6 +325,7 @@ void report(const RenderOptions &options)
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
     window.setAsking(false);
+    window.controller().setShowsFirstEstimates(false);
     window.resize(options.size);
     window.show();
     openAndSettle(window, options);

@@ -14,8 +14,6 @@ struct WindowTrial {
     std::ptrdiff_t tracks = 0;
     /// Share of the energy along its tracks that the next longer window tried followed too (energyKept); NaN: not compared.
     double kept = 0.0;
-
-    bool operator==(const WindowTrial &) const = default;
 };
 
 /// What was asked for where the window was left to the recording, and what came of it.
