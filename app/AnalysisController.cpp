@@ -1,5 +1,6 @@
 #include "app/AnalysisController.h"
 
+#include "analysis/chooseWindow.h"
 #include "analysis/knownCalibration.h"
 #include "analysis/lineInNoise.h"
 #include "analysis/slopeUnit.h"
@@ -162,17 +163,18 @@ void AnalysisController::startAnalysis()
                     kept = m_kept, showsFirstEstimates = m_showsFirstEstimates](const RunContext &context) -> JobRunner::Delivery {
         if (const bool isSame =
                 previous && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
-            isSame && isWorthAPreview(*previous, settings)) {
+            isSame && isWorthAPreview(*previous, inWindowOf(*previous, settings))) {
+            const AnalysisSettings previewed = inWindowOf(*previous, settings);
             const Axis &time = previous->time();
             const FrameRange range = previewRange(*previous->frames, time.nearest(visible.low), time.nearest(visible.high));
             // What is calibrated already is there as soon as a preview of that much would be.
-            if (!range.isEmpty() && (range.isKeepable || !knownCalibration(settings))) {
+            if (!range.isEmpty() && (range.isKeepable || !knownCalibration(previewed))) {
                 const bool isKept = kept && kept->holds(previous->frames, range.readFirst, range.end);
                 std::shared_ptr<const KeptFrames> frames;
                 if (range.isKeepable)
                     frames = isKept ? kept
                                     : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst, context.part(0.0, 0.01));
-                const StatisticPreview preview = previewStatistic(*previous, settings, range, frames.get(), context.part(0.01, 0.02));
+                const StatisticPreview preview = previewStatistic(*previous, previewed, range, frames.get(), context.part(0.01, 0.02));
                 m_runner.deliver([this, settings, preview, frames] { showPreview(settings, preview, frames); });
             }
         }

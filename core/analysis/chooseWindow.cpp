@@ -28,6 +28,13 @@ namespace {
         return model;
     }
 
+    AnalysisSettings inThat(const WindowTrial &trial, AnalysisSettings settings)
+    {
+        settings.spectrogram.windowSeconds = trial.settings.spectrogram.windowSeconds;
+        settings.model = withLaw(settings.model, trial.settings.model);
+        return settings;
+    }
+
     TracksOnAxes tracksOf(const Analysis &analysis)
     {
         const Spectrogram &spectrogram = dynamic_cast<const NormalisedSpectrogram &>(*analysis.frames).spectrogram();
@@ -162,6 +169,12 @@ bool leavesWindowToRecording(const AnalysisSettings &settings)
         && model.motion == Motion::Slopes && model.likelihood != LikelihoodKind::Linear && model == withLaw(model, ModelSettings());
 }
 
+AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings)
+{
+    const auto &choice = analysis.choice;
+    return choice && leavesWindowToRecording(settings) ? inThat(choice->trials[choice->chosen], settings) : settings;
+}
+
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
                                                       const Analysis *previous, const PictureSink &pictures, CalibrationDepth calibrationDepth)
 {
@@ -180,10 +193,7 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         choice = search.choice(*found);
     }
     if (isChosen || !found->statistic) {
-        AnalysisSettings used = choice.trials[choice.chosen].settings;
-        used.decide = settings.decide;
-        used.track = settings.track;
-        used.conventional = settings.conventional;
+        const AnalysisSettings used = inThat(choice.trials[choice.chosen], settings);
         const RunContext rest = isChosen ? context : context.part(0.7, 1.0);
         found = analyse(recording, used, rest, isChosen ? previous : found.get(), {}, pictures, calibrationDepth);
     }

@@ -8,6 +8,9 @@ namespace faintline {
 /// tracks are looked at from both ends.
 bool leavesWindowToRecording(const AnalysisSettings &settings);
 
+/// The settings with the window and law that were chosen for an analysis, if both leave them open; else as they are.
+AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings);
+
 /// `analyse`, with the window that suits the signals of the recording where the settings leave it open.
 ///
 /// The automatic window T0 (Spectrogram::automaticWindowSeconds) comes first, with its pictures. Others, four times as long or short from one to

@@ -159,6 +159,13 @@ void tst_chooseWindow::aChangeOfTheThresholdKeepsIt()
     QCOMPARE(second->settings.decide.falseAlarmsPerHour, 10.0);
     QVERIFY(second->answers(settings) && !second->answers({}));
     QVERIFY(second->threshold < first->threshold);
+
+    settings.model.snr = 1.0; // what is previewed before a window is chosen anew
+    const AnalysisSettings previewed = inWindowOf(*second, settings);
+    QCOMPARE(previewed.spectrogram.windowSeconds, second->settings.spectrogram.windowSeconds);
+    QVERIFY(previewed.model.highestSlope == laws::glide().highestSlope && previewed.model.snr == 1.0);
+    settings.spectrogram.windowSeconds = 0.5;
+    QVERIFY(inWindowOf(*second, settings) == settings);
 }
 
 void tst_chooseWindow::itsWords()
