@@ -52,14 +52,6 @@ namespace {
         return spectrogram.windowSamples() / spectrogram.recording().info().sampleRateHz;
     }
 
-    /// Settings with the window and the law of motion of a trial.
-    AnalysisSettings inThatWindow(AnalysisSettings settings, const WindowTrial &trial)
-    {
-        settings.spectrogram.windowSeconds = trial.windowSeconds;
-        settings.model = trial.settings.model;
-        return settings;
-    }
-
 } // namespace
 
 PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller, QWidget *parent)
@@ -144,7 +136,7 @@ void PipelinePanel::showWindows()
         for (std::size_t i = 0; i < m_choice->trials.size(); ++i)
             m_window->addItem(tr("%1 s, %n track(s)", nullptr, static_cast<int>(m_choice->trials[i].tracks)).arg(seconds(i)));
         const auto taken = std::find_if(m_choice->trials.begin(), m_choice->trials.end(), [this](const WindowTrial &trial) {
-            return inThatWindow(m_document.settings(), trial) == m_document.settings();
+            return inWindowOf(trial, m_document.settings()) == m_document.settings();
         });
         if (leavesWindowToRecording(m_document.analysedSettings()))
             m_window->setCurrentIndex(0);
@@ -192,7 +184,7 @@ void PipelinePanel::applyPreset(int index)
 void PipelinePanel::applyWindow(int index)
 {
     const WindowTrial &trial = m_choice->trials[index == 0 ? m_choice->automatic : static_cast<std::size_t>(index - 1)];
-    AnalysisSettings settings = inThatWindow(m_document.settings(), trial);
+    AnalysisSettings settings = inWindowOf(trial, m_document.settings());
     if (index == 0)
         settings.spectrogram.windowSeconds = 0.0;
     m_controller.setSettings(settings, tr("Take window “%1”").arg(m_window->itemText(index)));

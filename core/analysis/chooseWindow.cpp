@@ -1,5 +1,6 @@
 #include "analysis/chooseWindow.h"
 
+#include "analysis/sureStatistic.h"
 #include "track/energyKept.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace {
     constexpr double fewestCells = 24.0;
     constexpr double fewestFrames = 16.0;
     constexpr std::size_t mostTrials = 5;
-    constexpr double sureNats = 3.3;     ///< above the threshold: ln 100 over the slope of the tail
 
     ModelSettings withLaw(ModelSettings model, const ModelSettings &law)
     {
@@ -26,13 +26,6 @@ namespace {
         model.slopesPerBin = law.slopesPerBin;
         model.slopeChange = law.slopeChange;
         return model;
-    }
-
-    AnalysisSettings inThat(const WindowTrial &trial, AnalysisSettings settings)
-    {
-        settings.spectrogram.windowSeconds = trial.settings.spectrogram.windowSeconds;
-        settings.model = withLaw(settings.model, trial.settings.model);
-        return settings;
     }
 
     TracksOnAxes tracksOf(const Analysis &analysis)
@@ -44,7 +37,8 @@ namespace {
 
     double windowSecondsOf(const Analysis &analysis)
     {
-        return 1.0 / tracksOf(analysis).cellHz;
+        const double asked = analysis.settings.spectrogram.windowSeconds;
+        return asked > 0.0 ? asked : 1.0 / tracksOf(analysis).cellHz;
     }
 
     class WindowSearch
@@ -130,17 +124,15 @@ namespace {
             m_trials.insert(m_trials.begin() + static_cast<Index>(numberOf(trial.windowSeconds)), trial);
         }
 
-        static double leastStatistic(const Analysis &analysis) { return analysis.threshold + sureNats; }
-
         static bool isSure(const Analysis &analysis)
         {
             return std::any_of(analysis.tracks.begin(), analysis.tracks.end(),
-                               [&](const Track &track) { return track.peakStatistic >= leastStatistic(analysis); });
+                               [&](const Track &track) { return track.peakStatistic >= sureStatistic(analysis); });
         }
 
         static double shareKept(const Analysis &shorter, const Analysis &longer)
         {
-            return energyKept(tracksOf(shorter), tracksOf(longer), leastStatistic(shorter));
+            return energyKept(tracksOf(shorter), tracksOf(longer), sureStatistic(shorter));
         }
 
         RecordingPointer m_recording;
@@ -169,10 +161,18 @@ bool leavesWindowToRecording(const AnalysisSettings &settings)
         && model.motion == Motion::Slopes && model.likelihood != LikelihoodKind::Linear && model == withLaw(model, ModelSettings());
 }
 
+AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
+{
+    settings.spectrogram.windowSeconds = trial.windowSeconds;
+    settings.model = withLaw(settings.model, trial.settings.model);
+    return settings;
+}
+
 AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings)
 {
     const auto &choice = analysis.choice;
-    return choice && leavesWindowToRecording(settings) ? inThat(choice->trials[choice->chosen], settings) : settings;
+    const bool isOther = choice && choice->chosen != choice->automatic && leavesWindowToRecording(settings);
+    return isOther ? inWindowOf(choice->trials[choice->chosen], settings) : settings;
 }
 
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
@@ -193,7 +193,7 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         choice = search.choice(*found);
     }
     if (isChosen || !found->statistic) {
-        const AnalysisSettings used = inThat(choice.trials[choice.chosen], settings);
+        const AnalysisSettings used = choice.chosen == choice.automatic ? settings : inWindowOf(choice.trials[choice.chosen], settings);
         const RunContext rest = isChosen ? context : context.part(0.7, 1.0);
         found = analyse(recording, used, rest, isChosen ? previous : found.get(), {}, pictures, calibrationDepth);
     }

@@ -11,6 +11,9 @@ bool leavesWindowToRecording(const AnalysisSettings &settings);
 /// The settings with the window and law that were chosen for an analysis, if both leave them open; else as they are.
 AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &settings);
 
+/// The settings with the window and law of motion of a trial.
+AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings);
+
 /// `analyse`, with the window that suits the signals of the recording where the settings leave it open.
 ///
 /// The automatic window T0 (Spectrogram::automaticWindowSeconds) comes first, with its pictures. Others, four times as long or short from one to

@@ -1,6 +1,7 @@
 #include "analysis/learnMotion.h"
 
 #include "analysis/pathStrips.h"
+#include "analysis/sureStatistic.h"
 #include "base/Error.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "track/bothWays.h"
@@ -18,7 +19,6 @@ namespace {
     constexpr double leastStaying = 0.8;
     constexpr double mostStaying = 0.998;
     constexpr int steps = 3;
-    constexpr double sureNats = 3.3; ///< above the threshold: ln 100 over the slope of the tail
     constexpr std::size_t mostFrames = 20'000;
 
     const Spectrogram &spectrogramOf(const Analysis &analysis)
@@ -30,7 +30,7 @@ namespace {
     {
         std::vector<const Track *> tracks;
         for (const Track &track : analysis.tracks)
-            if (!track.smoothed.empty() && track.peakStatistic >= analysis.threshold + sureNats)
+            if (!track.smoothed.empty() && track.peakStatistic >= sureStatistic(analysis))
                 tracks.push_back(&track);
         std::stable_sort(tracks.begin(), tracks.end(), [](const Track *a, const Track *b) { return a->peakStatistic > b->peakStatistic; });
         std::size_t frames = 0;
