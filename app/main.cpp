@@ -1,15 +1,15 @@
 // The window, and its twin that draws pictures without a screen.
 
-#include "app/MainWindow.h"
-#include "app/Recovery.h"
-#include "app/comparePictures.h"
-#include "app/filePath.h"
-#include "app/readPicture.h"
-#include "app/renderCommand.h"
-#include "app/replayPicture.h"
+#include "app/window/MainWindow.h"
+#include "app/document/Recovery.h"
+#include "app/render/comparePictures.h"
+#include "app/base/filePath.h"
+#include "app/render/readPicture.h"
+#include "app/render/renderCommand.h"
+#include "app/render/replayPicture.h"
 #include "base/oneLine.h"
 #include "base/standardStreams.h"
-#include "widgets/icon.h"
+#include "widgets/base/icon.h"
 
 #include <CLI/CLI.hpp>
 

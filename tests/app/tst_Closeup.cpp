@@ -1,7 +1,7 @@
-#include "app/Closeup.h"
-#include "app/Workbench.h"
+#include "app/control/Closeup.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
-#include "widgets/StripPlot.h"
+#include "widgets/plot/StripPlot.h"
 
 using namespace faintline;
 using namespace faintline::test;

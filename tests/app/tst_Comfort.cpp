@@ -1,12 +1,12 @@
 // A walk over all widgets of the window in all its layouts: each can be named, reached, and no key means two things.
 
-#include "app/OpenOptionsDialog.h"
-#include "app/InjectDialog.h"
-#include "app/Panels.h"
-#include "app/ToolBar.h"
-#include "app/Workbench.h"
+#include "app/panels/OpenOptionsDialog.h"
+#include "app/panels/InjectDialog.h"
+#include "app/window/Panels.h"
+#include "app/window/ToolBar.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
-#include "widgets/WaterfallView.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QAbstractButton>
 #include <QAccessible>

@@ -1,6 +1,6 @@
 // Commands found by letters of their names and carried out from the keyboard alone.
 
-#include "app/CommandPalette.h"
+#include "app/window/CommandPalette.h"
 
 #include <QAction>
 #include <QLineEdit>

@@ -1,7 +1,7 @@
-#include "app/ComparePanel.h"
-#include "app/Comparer.h"
+#include "app/panels/ComparePanel.h"
+#include "app/control/Comparer.h"
 #include "app/openWindow.h"
-#include "widgets/WaterfallView.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QLabel>
 #include <QPushButton>

@@ -1,4 +1,4 @@
-#include "app/Document.h"
+#include "app/document/Document.h"
 
 #include <QSignalSpy>
 #include <QTest>

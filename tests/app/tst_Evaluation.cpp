@@ -1,15 +1,15 @@
 // The evaluation side from outside: an experiment is started, grows, is cancelled, looked into; a line is injected and taken out again.
 
-#include "app/EvaluatePanel.h"
-#include "app/ExperimentForm.h"
-#include "app/ExperimentsPanel.h"
-#include "app/NoiseFitPanel.h"
-#include "app/ReproductionPanel.h"
-#include "app/TrialViewer.h"
-#include "app/TrialWindow.h"
-#include "app/Workbench.h"
+#include "app/panels/EvaluatePanel.h"
+#include "app/panels/ExperimentForm.h"
+#include "app/panels/ExperimentsPanel.h"
+#include "app/panels/NoiseFitPanel.h"
+#include "app/panels/ReproductionPanel.h"
+#include "app/panels/TrialViewer.h"
+#include "app/panels/TrialWindow.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
-#include "widgets/ChartPlot.h"
+#include "widgets/plot/ChartPlot.h"
 
 #include <QFile>
 #include <QProcess>

@@ -1,13 +1,13 @@
 // Events are judged in the window: what changes is seen, can be undone, and comes back with the session.
 
-#include "app/EventReviews.h"
+#include "app/control/EventReviews.h"
 
-#include "app/Session.h"
-#include "app/Workbench.h"
+#include "app/document/Session.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
 #include "exchange/readAnnotations.h"
-#include "widgets/EventModel.h"
-#include "widgets/EventTable.h"
+#include "widgets/events/EventModel.h"
+#include "widgets/events/EventTable.h"
 
 #include <QApplication>
 #include <QFile>

@@ -1,10 +1,10 @@
 // A line drawn by hand: points by mouse and by key, its evidence beside the detector's, and nothing given away before it is revealed.
 
-#include "app/HandLinePanel.h"
-#include "app/Workbench.h"
+#include "app/panels/HandLinePanel.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
-#include "widgets/HandLine.h"
-#include "widgets/StripPlot.h"
+#include "widgets/waterfall/HandLine.h"
+#include "widgets/plot/StripPlot.h"
 
 #include <QPushButton>
 

@@ -1,4 +1,4 @@
-#include "app/LearnMotionDialog.h"
+#include "app/panels/LearnMotionDialog.h"
 #include "app/openWindow.h"
 
 #include <QAction>

@@ -1,21 +1,21 @@
 // Every lesson is gone through as a learner would: what a step says is checked where it says it, the task is open before the learner's
 // act, which is done by mouse and keys, and done after it.
 
-#include "app/CommandPalette.h"
-#include "app/LessonGuide.h"
-#include "app/LessonPanel.h"
-#include "app/PingBench.h"
-#include "app/PointerFrame.h"
-#include "app/ScanTestForm.h"
-#include "app/SequentialPanel.h"
-#include "app/WelcomePage.h"
-#include "app/Workbench.h"
-#include "app/lessonMeasures.h"
+#include "app/window/CommandPalette.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/lessons/LessonPanel.h"
+#include "app/workspace/PingBench.h"
+#include "app/lessons/PointerFrame.h"
+#include "app/panels/ScanTestForm.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/workspace/Workbench.h"
+#include "app/lessons/lessonMeasures.h"
 #include "app/openWindow.h"
-#include "widgets/PingMap.h"
-#include "widgets/SettingsForm.h"
-#include "widgets/WaterfallView.h"
-#include "widgets/WalkPlot.h"
+#include "widgets/pings/PingMap.h"
+#include "widgets/forms/SettingsForm.h"
+#include "widgets/waterfall/WaterfallView.h"
+#include "widgets/plot/WalkPlot.h"
 
 #include <QAbstractScrollArea>
 #include <QButtonGroup>

@@ -1,14 +1,14 @@
 // The window from outside: what a person does, and what is to be seen then.
 
-#include "app/KeysOverlay.h"
-#include "app/MessageBar.h"
-#include "app/ScenarioCard.h"
-#include "app/WelcomePage.h"
-#include "app/WindowViews.h"
-#include "app/Workbench.h"
+#include "app/help/KeysOverlay.h"
+#include "app/base/MessageBar.h"
+#include "app/welcome/ScenarioCard.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/views/WindowViews.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
-#include "widgets/EventTable.h"
-#include "widgets/ExceedancePlot.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
 
 #include <qwt_plot_canvas.h>
 #include <qwt_scale_map.h>

@@ -1,8 +1,8 @@
 // Measuring in the window with keys and mouse: a box's area SNR, sidebands in both pictures, the peak.
 
-#include "app/Workbench.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
-#include "widgets/WaterfallView.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QAction>
 #include <QMenu>

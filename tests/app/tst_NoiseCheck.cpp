@@ -1,5 +1,5 @@
-#include "app/InfoPanel.h"
-#include "app/NoiseCheck.h"
+#include "app/panels/InfoPanel.h"
+#include "app/panels/NoiseCheck.h"
 #include "app/openWindow.h"
 
 #include <QLabel>

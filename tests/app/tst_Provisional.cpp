@@ -1,4 +1,4 @@
-#include "app/Workbench.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
 
 #include <QLabel>

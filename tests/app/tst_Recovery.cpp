@@ -1,7 +1,7 @@
 // Unsaved work survives: kept while it is unsaved, found again after the program was killed.
 
-#include "app/MessageBar.h"
-#include "app/Recovery.h"
+#include "app/base/MessageBar.h"
+#include "app/document/Recovery.h"
 #include "app/openWindow.h"
 
 #include <QApplication>

@@ -1,4 +1,4 @@
-#include "app/Session.h"
+#include "app/document/Session.h"
 
 #include "base/Error.h"
 

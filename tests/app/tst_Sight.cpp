@@ -1,4 +1,4 @@
-#include "app/Sight.h"
+#include "app/base/Sight.h"
 
 #include <QDockWidget>
 #include <QMainWindow>

@@ -1,14 +1,14 @@
 // The states of a line's frames, the law by which they follow each other, and what else the detector says of its output.
 
-#include "app/LawPanel.h"
-#include "app/OutputLayers.h"
-#include "app/StateSlicePanel.h"
-#include "app/WelcomePage.h"
-#include "app/Workbench.h"
+#include "app/panels/LawPanel.h"
+#include "app/control/OutputLayers.h"
+#include "app/panels/StateSlicePanel.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
-#include "widgets/LawPlot.h"
-#include "widgets/LayerItem.h"
-#include "widgets/SliceMarks.h"
+#include "widgets/plot/LawPlot.h"
+#include "widgets/waterfall/LayerItem.h"
+#include "widgets/waterfall/SliceMarks.h"
 
 #include <qwt_plot_canvas.h>
 #include <qwt_text.h>

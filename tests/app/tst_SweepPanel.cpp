@@ -1,7 +1,7 @@
-#include "app/SweepForm.h"
-#include "app/SweepPanel.h"
+#include "app/panels/SweepForm.h"
+#include "app/panels/SweepPanel.h"
 #include "app/openWindow.h"
-#include "widgets/ChartPlot.h"
+#include "widgets/plot/ChartPlot.h"
 
 #include <qwt_plot.h>
 

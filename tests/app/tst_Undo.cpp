@@ -1,7 +1,7 @@
 // Two hundred random edits of all kinds, undone and redone; sessions that are the same bytes however often they are saved.
 
-#include "app/Document.h"
-#include "app/Session.h"
+#include "app/document/Document.h"
+#include "app/document/Session.h"
 
 #include <QFile>
 #include <QTemporaryDir>

@@ -1,8 +1,8 @@
 // The ladder under the cursor: its terms add up to what the picture shows, and its sentence says which way it went.
 
-#include "app/WhyPanel.h"
+#include "app/panels/WhyPanel.h"
 #include "app/openWindow.h"
-#include "widgets/ChartPlot.h"
+#include "widgets/plot/ChartPlot.h"
 
 #include <QTableWidget>
 

@@ -1,5 +1,5 @@
 #include "app/openWindow.h"
-#include "app/PipelinePanel.h"
+#include "app/panels/PipelinePanel.h"
 #include "analysis/chooseWindow.h"
 
 #include <QComboBox>

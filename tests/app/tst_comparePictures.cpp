@@ -1,9 +1,9 @@
-#include "app/comparePictures.h"
+#include "app/render/comparePictures.h"
 
 #include "base/Error.h"
-#include "widgets/ColourMap.h"
-#include "widgets/ReadOut.h"
-#include "widgets/Theme.h"
+#include "widgets/plot/ColourMap.h"
+#include "widgets/base/ReadOut.h"
+#include "widgets/base/Theme.h"
 
 #include <QDir>
 #include <QFile>

@@ -1,17 +1,17 @@
 // Every view has its equation and its keys, and both come up for the view one is at.
 
-#include "app/EquationSheet.h"
-#include "app/KeysOverlay.h"
-#include "app/WindowViews.h"
-#include "app/Workbench.h"
-#include "app/currentView.h"
-#include "app/equations.h"
-#include "app/keySections.h"
+#include "app/help/EquationSheet.h"
+#include "app/help/KeysOverlay.h"
+#include "app/views/WindowViews.h"
+#include "app/workspace/Workbench.h"
+#include "app/window/currentView.h"
+#include "app/help/equations.h"
+#include "app/help/keySections.h"
 #include "app/openWindow.h"
 #include "detect/makeDetector.h"
-#include "widgets/EventTable.h"
-#include "widgets/ExceedancePlot.h"
-#include "widgets/StripPlot.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/plot/StripPlot.h"
 
 #include <memory>
 
@@ -63,7 +63,7 @@ void tst_equations::theOneOfTheViewComesUp()
     const auto own = newWindow();
     MainWindow &window = *own;
     auto *sheet = window.findChild<EquationSheet *>();
-    QVERIFY(currentView(window).isEmpty());
+    QVERIFY(currentView(window, window).isEmpty());
     QTest::keyClick(&window, Qt::Key_F1, Qt::ShiftModifier);
     QVERIFY(!sheet->isVisible());
 
@@ -74,7 +74,7 @@ void tst_equations::theOneOfTheViewComesUp()
                                                    {&window.thresholdPlot(), "threshold"}};
     for (const auto &[widget, name] : views) {
         widget->setFocus();
-        QCOMPARE(currentView(window), name);
+        QCOMPARE(currentView(window, window), name);
         QTest::keyClick(widget, Qt::Key_F1, Qt::ShiftModifier);
         QVERIFY(sheet->isVisible());
         QVERIFY2(sheet->text().contains(equationOf(name)->equation), qPrintable(name));

@@ -1,13 +1,13 @@
 // Names, notes and units from files, as they come onto the screen.
 
-#include "app/EventReviews.h"
-#include "app/ExperimentsPanel.h"
-#include "app/FileDrop.h"
-#include "app/LessonGuide.h"
-#include "app/MessageBar.h"
-#include "app/Session.h"
-#include "app/Workbench.h"
-#include "app/filePath.h"
+#include "app/control/EventReviews.h"
+#include "app/panels/ExperimentsPanel.h"
+#include "app/window/FileDrop.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/base/MessageBar.h"
+#include "app/document/Session.h"
+#include "app/workspace/Workbench.h"
+#include "app/base/filePath.h"
 #include "app/openWindow.h"
 #include "base/AtomicFile.h"
 #include "base/fileName.h"
@@ -15,8 +15,8 @@
 #include "evaluate/PdCurve.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
-#include "widgets/EventTable.h"
-#include "widgets/WaterfallView.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QAbstractButton>
 #include <QAbstractItemView>

@@ -1,8 +1,8 @@
 // What a saved view tells of its making, read back from the file as another program would.
 
-#include "app/saveView.h"
+#include "app/document/saveView.h"
 
-#include "app/Provenance.h"
+#include "app/document/Provenance.h"
 #include "base/Error.h"
 #include "base/json.h"
 

@@ -2,7 +2,8 @@
 #include <QRegularExpression>
 #include <QtTest>
 
-/// Who may know whom: a folder of the core includes itself and those to its left, and nothing else of the project.
+/// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the project, the widgets the
+/// core as well, the app both. No two units (a header with its source) include each other, at no distance.
 class tst_layers : public QObject
 {
     Q_OBJECT
@@ -12,8 +13,11 @@ private slots:
     void foldersAreKnown();
     void core_data();
     void core();
-    void widgetsKnowNoApp();
-    void commandLineKnowsTheCoreOnly();
+    void widgetsAndApp_data();
+    void widgetsAndApp();
+    void commandLineIncludesTheCoreOnly();
+    void noUnitsInACircle();
+    void circlesAreFound();
     void wrongIncludesAreFound_data();
     void wrongIncludesAreFound();
 
@@ -24,6 +28,9 @@ private:
 namespace {
 
     const QStringList order{"base", "recording", "spectrum", "model", "detect", "track", "analysis", "evaluate", "exchange"};
+    const QStringList widgetOrder{"base", "plot", "waterfall", "pings", "events", "forms"};
+    const QStringList appOrder{"cli",   "base",    "document", "control", "workspace", "panels",
+                               "views", "lessons", "help",     "welcome", "window",    "render"};
 
     QString root()
     {
@@ -80,6 +87,61 @@ namespace {
         return {};
     }
 
+    /// What "widgets/folder/Name.h" or "app/folder/Name.h" includes that it must not; empty if nothing.
+    QString wrongAbove(const QString &path, const QString &text)
+    {
+        const QString part = path.section('/', 0, 0), folder = path.section('/', 1, 1);
+        const QStringList &folders = part == "app" ? appOrder : widgetOrder;
+        const auto rank = folder.contains('.') ? folders.size() : folders.indexOf(folder); // app/main.cpp puts all together
+        for (const Include &include : includesOf(text)) {
+            const QString otherPart = include.name.section('/', 0, 0);
+            if (!include.isQuoted || include.name.startsWith("tst_"))
+                continue;
+            if (!QFile::exists(root() + include.name) && !QFile::exists(root() + "core/" + include.name))
+                return include.name + " does not exist";
+            if (part == "widgets" && otherPart == "app")
+                return include.name + " is of the app";
+            if (otherPart == part && folders.indexOf(include.name.section('/', 1, 1)) > rank)
+                return include.name + " lies to the right";
+        }
+        return {};
+    }
+
+    /// Which units each unit includes; "core/base/Axis" is Axis.h and Axis.cpp.
+    using Units = QMap<QString, QSet<QString>>;
+
+    QString unitOf(const QString &file)
+    {
+        return file.left(file.lastIndexOf('.'));
+    }
+
+    /// The units on the way from one back to itself; empty if no such way exists.
+    QStringList circleFrom(const Units &units, const QString &unit, QStringList &way, QSet<QString> &done)
+    {
+        if (way.contains(unit))
+            return way.mid(way.indexOf(unit)) << unit;
+        if (done.contains(unit))
+            return {};
+        way.append(unit);
+        for (const QString &next : units.value(unit))
+            if (const QStringList circle = circleFrom(units, next, way, done); !circle.isEmpty())
+                return circle;
+        way.removeLast();
+        done.insert(unit);
+        return {};
+    }
+
+    QStringList circleIn(const Units &units)
+    {
+        QSet<QString> done;
+        for (auto unit = units.keyBegin(); unit != units.keyEnd(); ++unit) {
+            QStringList way;
+            if (const QStringList circle = circleFrom(units, *unit, way, done); !circle.isEmpty())
+                return circle;
+        }
+        return {};
+    }
+
 } // namespace
 
 QStringList tst_layers::filesIn(const QString &folder) const
@@ -98,6 +160,9 @@ void tst_layers::initTestCase()
 
 void tst_layers::foldersAreKnown()
 {
+    for (const auto &[part, folders] : {std::pair("widgets", widgetOrder), std::pair("app", appOrder)})
+        for (const QString &folder : QDir(root() + part).entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+            QVERIFY2(folders.contains(folder), qPrintable(folder));
     for (const QString &folder : QDir(root() + "core").entryList(QDir::Dirs | QDir::NoDotAndDotDot))
         QVERIFY2(order.contains(folder), qPrintable(folder));
     QVERIFY(filesIn("core").size() > 40);
@@ -117,17 +182,22 @@ void tst_layers::core()
     QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
 }
 
-void tst_layers::widgetsKnowNoApp()
+void tst_layers::widgetsAndApp_data()
 {
-    for (const QString &path : filesIn("widgets"))
-        for (const Include &include : includesOf(contentOf("widgets/" + path))) {
-            const QString message = path + " includes " + include.name;
-            QVERIFY2(!include.name.startsWith("app/"), qPrintable(message));
-            QVERIFY2(!include.isQuoted || include.name.contains('/') || !QFile::exists(root() + "app/" + include.name), qPrintable(message));
-        }
+    QTest::addColumn<QString>("path");
+    for (const QString part : {"widgets", "app"})
+        for (const QString &path : filesIn(part))
+            QTest::newRow(qPrintable(part + "/" + path)) << part + "/" + path;
 }
 
-void tst_layers::commandLineKnowsTheCoreOnly()
+void tst_layers::widgetsAndApp()
+{
+    QFETCH(QString, path);
+    const QString wrong = wrongAbove(path, contentOf(path));
+    QVERIFY2(wrong.isEmpty(), qPrintable(wrong));
+}
+
+void tst_layers::commandLineIncludesTheCoreOnly()
 {
     int seen = 0;
     for (const QString &path : filesIn("app")) {
@@ -143,6 +213,28 @@ void tst_layers::commandLineKnowsTheCoreOnly()
     QVERIFY(seen > 1);
 }
 
+void tst_layers::noUnitsInACircle()
+{
+    Units units;
+    for (const QString part : {"core", "widgets", "app"})
+        for (const QString &path : filesIn(part)) {
+            const QString unit = unitOf(part + "/" + path);
+            for (const Include &include : includesOf(contentOf(part + "/" + path))) {
+                const QString other = QFile::exists(root() + "core/" + include.name) ? "core/" + include.name : include.name;
+                if (include.isQuoted && unitOf(other) != unit)
+                    units[unit].insert(unitOf(other));
+            }
+        }
+    QVERIFY(units.size() > 300);
+    QCOMPARE(circleIn(units).join(" -> "), QString());
+}
+
+void tst_layers::circlesAreFound()
+{
+    QCOMPARE(circleIn({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {"d"}}}), QStringList());
+    QCOMPARE(circleIn({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d", "b"}}}).join(" "), QString("b c b"));
+}
+
 void tst_layers::wrongIncludesAreFound_data()
 {
     QTest::addColumn<QString>("path");
@@ -154,7 +246,7 @@ void tst_layers::wrongIncludesAreFound_data()
     QTest::newRow("indented") << "model/X.h" << "  #  include \"detect/Smd.h\"" << true;
     QTest::newRow("neighbour without its folder") << "model/X.h" << "#include \"StateSpace.h\"" << true;
     QTest::newRow("gone") << "model/X.h" << "#include \"model/Gone.h\"" << true;
-    QTest::newRow("another part") << "model/X.h" << "#include \"widgets/Viewport.h\"" << true;
+    QTest::newRow("another part") << "model/X.h" << "#include \"widgets/base/Viewport.h\"" << true;
     QTest::newRow("Qt class") << "model/X.h" << "#include <QString>" << true;
     QTest::newRow("Qt module") << "model/X.h" << "#include <QtCore/QString>" << true;
     QTest::newRow("FFTW") << "spectrum/Spectrogram.cpp" << "#include <fftw3.h>" << true;

@@ -3,10 +3,10 @@
 //
 //     QT_QPA_PLATFORM=offscreen faintline-bench-paint [recording [width height]]
 
-#include "app/MainWindow.h"
-#include "app/Workbench.h"
-#include "widgets/ExceedancePlot.h"
-#include "widgets/Theme.h"
+#include "app/window/MainWindow.h"
+#include "app/workspace/Workbench.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/base/Theme.h"
 
 #include <qwt_scale_div.h>
 

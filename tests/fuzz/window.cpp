@@ -2,15 +2,15 @@
 
 #include "fuzz/fuzz.h"
 
-#include "app/Lesson.h"
-#include "app/Provenance.h"
-#include "app/Session.h"
-#include "app/filePath.h"
-#include "app/readPicture.h"
-#include "app/replayPicture.h"
-#include "app/scanScenario.h"
+#include "app/lessons/Lesson.h"
+#include "app/document/Provenance.h"
+#include "app/document/Session.h"
+#include "app/base/filePath.h"
+#include "app/render/readPicture.h"
+#include "app/render/replayPicture.h"
+#include "app/control/scanScenario.h"
 #include "base/oneLine.h"
-#include "widgets/labelText.h"
+#include "widgets/base/labelText.h"
 
 #include <QFileInfo>
 #include <QImage>

@@ -2,7 +2,7 @@
 
 #include "analysis/analyse.h"
 #include "spectrum/PeakPyramid.h"
-#include "widgets/Viewport.h"
+#include "widgets/base/Viewport.h"
 
 #include <functional>
 #include <memory>

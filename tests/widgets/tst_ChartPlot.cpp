@@ -1,6 +1,6 @@
-#include "widgets/ChartPlot.h"
+#include "widgets/plot/ChartPlot.h"
 
-#include "widgets/Theme.h"
+#include "widgets/base/Theme.h"
 
 #include <qwt_plot.h>
 #include <qwt_plot_curve.h>

@@ -1,7 +1,7 @@
-#include "widgets/ColourBar.h"
+#include "widgets/waterfall/ColourBar.h"
 
 #include "pictures.h"
-#include "widgets/Theme.h"
+#include "widgets/base/Theme.h"
 
 #include <QtTest>
 

@@ -1,10 +1,10 @@
-#include "widgets/EventTable.h"
+#include "widgets/events/EventTable.h"
 
 #include "pictures.h"
-#include "widgets/EventFilter.h"
-#include "widgets/EventModel.h"
-#include "widgets/ReadOut.h"
-#include "widgets/Theme.h"
+#include "widgets/events/EventFilter.h"
+#include "widgets/events/EventModel.h"
+#include "widgets/base/ReadOut.h"
+#include "widgets/base/Theme.h"
 
 #include <QHeaderView>
 #include <QLineEdit>

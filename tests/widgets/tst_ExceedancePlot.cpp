@@ -1,6 +1,6 @@
-#include "widgets/ExceedancePlot.h"
+#include "widgets/plot/ExceedancePlot.h"
 
-#include "widgets/Theme.h"
+#include "widgets/base/Theme.h"
 
 #include <qwt_scale_div.h>
 

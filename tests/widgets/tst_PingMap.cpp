@@ -1,13 +1,13 @@
 // The map of one ping, as a plane and from above, and its marks.
 
-#include "widgets/PingMap.h"
+#include "widgets/pings/PingMap.h"
 
 #include "spectrum/pictureCuts.h"
-#include "widgets/PingOverlayItem.h"
-#include "widgets/PingViewports.h"
-#include "widgets/PolarItem.h"
-#include "widgets/PolarView.h"
-#include "widgets/Theme.h"
+#include "widgets/pings/PingOverlayItem.h"
+#include "widgets/pings/PingViewports.h"
+#include "widgets/pings/PolarItem.h"
+#include "widgets/pings/PolarView.h"
+#include "widgets/base/Theme.h"
 
 #include <qwt_plot_canvas.h>
 #include <qwt_text.h>

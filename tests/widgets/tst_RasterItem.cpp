@@ -1,4 +1,4 @@
-#include "widgets/RasterItem.h"
+#include "widgets/waterfall/RasterItem.h"
 
 #include "pictures.h"
 

@@ -1,8 +1,8 @@
-#include "widgets/SettingsForm.h"
+#include "widgets/forms/SettingsForm.h"
 
-#include "widgets/SettingRow.h"
-#include "widgets/Theme.h"
-#include "widgets/settingWords.h"
+#include "widgets/forms/SettingRow.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/settingWords.h"
 
 #include <QCheckBox>
 #include <QComboBox>

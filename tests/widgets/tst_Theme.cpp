@@ -1,16 +1,16 @@
-#include "widgets/Theme.h"
+#include "widgets/base/Theme.h"
 
 #include "pictures.h"
-#include "widgets/ColourBar.h"
-#include "widgets/ColourMap.h"
-#include "widgets/EventTable.h"
-#include "widgets/ExceedancePlot.h"
-#include "widgets/OverviewStrip.h"
-#include "widgets/ReadOut.h"
-#include "widgets/SettingsForm.h"
-#include "widgets/StripPlot.h"
-#include "widgets/WaterfallView.h"
-#include "widgets/icon.h"
+#include "widgets/waterfall/ColourBar.h"
+#include "widgets/plot/ColourMap.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/waterfall/OverviewStrip.h"
+#include "widgets/base/ReadOut.h"
+#include "widgets/forms/SettingsForm.h"
+#include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/WaterfallView.h"
+#include "widgets/base/icon.h"
 
 #include <QApplication>
 #include <QDirIterator>

@@ -1,4 +1,4 @@
-#include "widgets/Viewport.h"
+#include "widgets/base/Viewport.h"
 
 #include <QtTest>
 

@@ -1,8 +1,8 @@
-#include "widgets/WalkPlot.h"
+#include "widgets/plot/WalkPlot.h"
 
-#include "widgets/BarPlot.h"
-#include "widgets/CellPicture.h"
-#include "widgets/Theme.h"
+#include "widgets/plot/BarPlot.h"
+#include "widgets/plot/CellPicture.h"
+#include "widgets/base/Theme.h"
 
 #include <qwt_scale_div.h>
 #include <qwt_text.h>

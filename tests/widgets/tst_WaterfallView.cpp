@@ -1,7 +1,7 @@
-#include "widgets/WaterfallView.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include "pictures.h"
-#include "widgets/Theme.h"
+#include "widgets/base/Theme.h"
 
 #include <QMenu>
 #include <QtTest>

@@ -1,4 +1,4 @@
-#include "widgets/labelText.h"
+#include "widgets/base/labelText.h"
 
 #include <QLabel>
 #include <QTest>

@@ -1,6 +1,6 @@
-#include "widgets/quantities.h"
+#include "widgets/base/quantities.h"
 
-#include "widgets/scaleTicks.h"
+#include "widgets/base/scaleTicks.h"
 
 #include <QtTest>
 

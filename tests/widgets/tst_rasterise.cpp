@@ -1,4 +1,4 @@
-#include "widgets/rasterise.h"
+#include "widgets/base/rasterise.h"
 
 #include "pictures.h"
 

@@ -1,9 +1,9 @@
-#include "widgets/OverviewStrip.h"
-#include "widgets/StripPlot.h"
+#include "widgets/waterfall/OverviewStrip.h"
+#include "widgets/plot/StripPlot.h"
 
 #include "pictures.h"
-#include "widgets/Theme.h"
-#include "widgets/WaterfallView.h"
+#include "widgets/base/Theme.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <qwt_plot_curve.h>
 #include <qwt_text.h>

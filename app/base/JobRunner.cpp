@@ -1,0 +1,166 @@
+#include "app/base/JobRunner.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <new>
+#include <utility>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::chrono::milliseconds progressInterval(40);
+    constexpr std::chrono::milliseconds longJob(500);
+    constexpr std::chrono::milliseconds restAfterJob(300);
+
+    /// The C library keeps what a job's threads freed for those threads, which for an hour of recording are 170 MiB.
+    void giveBackMemory()
+    {
+#ifdef __GLIBC__
+        malloc_trim(0);
+#endif
+    }
+
+    int threadCount()
+    {
+        return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    }
+
+} // namespace
+
+JobRunner::JobRunner(QObject *parent) : QObject(parent), m_thread([this](const std::stop_token &quit) { work(quit); })
+{
+}
+
+JobRunner::~JobRunner()
+{
+    m_thread.request_stop();
+    {
+        const std::lock_guard lock(m_mutex);
+        m_request.job = {};
+        m_request.stop.request_stop();
+    }
+    m_thread.join();
+}
+
+void JobRunner::start(Job job)
+{
+    {
+        const std::lock_guard lock(m_mutex);
+        m_request.stop.request_stop();
+        m_request = {++m_newest, std::move(job), {}};
+    }
+    m_wake.notify_one();
+    m_isRunning = true;
+    emit started();
+}
+
+void JobRunner::cancel()
+{
+    if (!m_isRunning)
+        return;
+    {
+        const std::lock_guard lock(m_mutex);
+        m_request.stop.request_stop();
+        m_request.job = {};
+    }
+    ++m_newest;
+    m_isRunning = false;
+    emit cancelled();
+}
+
+void JobRunner::deliver(std::function<void()> part)
+{
+    post(m_current, std::move(part));
+}
+
+void JobRunner::work(const std::stop_token &quit)
+{
+    std::unique_lock lock(m_mutex);
+    const auto isAsked = [this] { return bool(m_request.job); };
+    bool owesMemory = false;
+    for (;;) {
+        // Not while the delivery is taken: who frees what it replaces would wait for it, and it goes with the rest then.
+        if (owesMemory && !m_wake.wait_for(lock, quit, restAfterJob, isAsked) && !quit.stop_requested()) {
+            lock.unlock();
+            giveBackMemory();
+            lock.lock();
+            owesMemory = false;
+        }
+        if (!m_wake.wait(lock, quit, isAsked))
+            return;
+        const auto begin = std::chrono::steady_clock::now();
+        {
+            const Request request = {m_request.number, std::exchange(m_request.job, {}), m_request.stop};
+            lock.unlock();
+            run(request);
+        }
+        owesMemory = owesMemory || std::chrono::steady_clock::now() - begin > longJob;
+        lock.lock();
+    }
+}
+
+void JobRunner::run(const Request &request)
+{
+    m_current = request.number;
+    RunContext context;
+    context.stop = request.stop.get_token();
+    context.threads = threadCount();
+    std::atomic<std::chrono::steady_clock::time_point> last{};
+    context.progress = [this, &request, &last](double fraction, std::string_view what) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last.load() < progressInterval)
+            return;
+        last = now;
+        post(request.number, [this, fraction, text = QString::fromUtf8(what.data(), qsizetype(what.size()))] {
+            emit progressed(fraction, text);
+        });
+    };
+
+    const auto fail = [&](const Error &error) {
+        post(request.number, [this, error] {
+            m_isRunning = false;
+            emit failed(error);
+        });
+    };
+    try {
+        Delivery deliver = request.job(context);
+        post(request.number, [this, number = request.number, deliver = std::move(deliver)] {
+            m_isRunning = false;
+            deliver();
+            if (number == m_newest) // a delivery may start the next job
+                emit finished();
+        });
+    } catch (const Cancelled &) {
+        post(request.number, [this] {
+            m_isRunning = false;
+            emit cancelled();
+        });
+    } catch (const Error &error) {
+        fail(error);
+    } catch (const std::bad_alloc &) {
+        fail(Error("memory", "there is not enough of it for this; look at a part of the recording",
+                   Error::Kind::Failure));
+    } catch (const std::exception &error) {
+        fail(Error("internal failure", error.what(), Error::Kind::Failure));
+    }
+}
+
+void JobRunner::post(std::uint64_t number, std::function<void()> action)
+{
+    QMetaObject::invokeMethod(
+        this,
+        [this, number, action = std::move(action)] {
+            if (number == m_newest)
+                action();
+        },
+        Qt::QueuedConnection);
+}
+
+} // namespace faintline

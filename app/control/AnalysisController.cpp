@@ -1,0 +1,312 @@
+#include "app/control/AnalysisController.h"
+
+#include "analysis/chooseWindow.h"
+#include "analysis/knownCalibration.h"
+#include "analysis/lineInNoise.h"
+#include "analysis/slopeUnit.h"
+#include "spectrum/noiseMean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    /// Three digits, what a dragged value is worth in a form, within the range of the field.
+    double rounded(double value, const char *field)
+    {
+        const FieldInfo &info = settingField(field);
+        return std::clamp(QString::number(value, 'g', 3).toDouble(), info.minimum, info.maximum);
+    }
+
+    /// The settings that put the threshold there.
+    DecideSettings decideAt(DecideSettings decide, DecideSettings::By by, double nats, const Analysis &analysis)
+    {
+        decide.by = by;
+        switch (by) {
+        case DecideSettings::By::FalseAlarmsPerHour:
+            decide.falseAlarmsPerHour = rounded(analysis.calibration->eventRateAt(nats) * analysis.cellFramesPerHour,
+                                                "decide.falseAlarmsPerHour");
+            break;
+        case DecideSettings::By::PfaPerCell:
+            decide.pfaPerCell = rounded(analysis.calibration->exceedanceAt(nats), "decide.pfaPerCell");
+            break;
+        case DecideSettings::By::Nats:
+            decide.thresholdNats = std::round(nats * 100.0) / 100.0;
+            break;
+        }
+        return decide;
+    }
+
+    /// Whether noise exceeds a threshold so seldom that the rate cannot be set.
+    bool isBeyondRates(DecideSettings::By by, double nats, const Analysis &analysis)
+    {
+        if (by == DecideSettings::By::FalseAlarmsPerHour)
+            return analysis.calibration->eventRateAt(nats) * analysis.cellFramesPerHour
+                   < settingField("decide.falseAlarmsPerHour").minimum;
+        return by == DecideSettings::By::PfaPerCell
+               && analysis.calibration->exceedanceAt(nats) < settingField("decide.pfaPerCell").minimum;
+    }
+
+} // namespace
+
+AnalysisController::AnalysisController(Document &document, QObject *parent) : QObject(parent), m_document(document)
+{
+    connect(&m_document, &Document::settingsChanged, this, &AnalysisController::run);
+    connect(&m_document.viewport(), &Viewport::spanChanged, this, &AnalysisController::dropPartialPreview);
+    connect(&m_document, &Document::opened, this, [this] { m_kept.reset(); });
+    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
+    connect(&m_runner, &JobRunner::progressed, this, &AnalysisController::progressed);
+    connect(&m_runner, &JobRunner::finished, this, &AnalysisController::end);
+    connect(&m_runner, &JobRunner::cancelled, this, &AnalysisController::end);
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        emit failed(error);
+        end();
+    });
+}
+
+void AnalysisController::open(const QString &path, const OpenOptions &options, const Adjust &adjust)
+{
+    open(path, options, adjust, {});
+}
+
+/// With what is already annotated, where a recording is read anew.
+void AnalysisController::open(const QString &path, const OpenOptions &options, const Adjust &adjust, const Annotations &annotations)
+{
+    m_isOpening = true;
+    m_runner.start([this, path, options, adjust, annotations](const RunContext &context) -> JobRunner::Delivery {
+        context.checkpoint(0.0, "opening");
+        Opening opening = openNow(path, options);
+        if (adjust)
+            adjust(opening.settings);
+        if (opening.annotations.isEmpty())
+            opening.annotations = annotations;
+        return [this, opening = std::move(opening)] { deliver(opening); };
+    });
+}
+
+void AnalysisController::reopen(const OpenOptions &options)
+{
+    open(m_document.source().path, options,
+         [now = m_document.settings()](AnalysisSettings &settings) { settings = now; }, m_document.annotations());
+}
+
+void AnalysisController::adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
+{
+    m_isOpening = false;
+    m_runner.cancel();
+    m_document.setOpened(opened, analysis->settings);
+    std::vector<Event> found = events(*analysis);
+    m_document.setAnalysis(std::move(analysis), std::move(found));
+    emit settled();
+}
+
+void AnalysisController::edit(const QString &field, const FieldValue &value, const QString &text)
+{
+    AnalysisSettings after = m_document.settings();
+    settingField(field.toStdString()).set(after, value);
+    if (const SlopeUnit unit = after.model.slopeUnit; unit != m_document.settings().model.slopeUnit && m_document.recording()) {
+        after.model = m_document.settings().model; // the same slopes in the other unit
+        after.model = withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after.spectrogram, m_document.recording()->info()));
+    }
+    m_document.edit(after, text, field);
+}
+
+void AnalysisController::editNumber(const QString &field, double value)
+{
+    const bool isWhole = settingField(field.toStdString()).kind == FieldKind::Integer;
+    edit(field, isWhole ? FieldValue(static_cast<int>(std::lround(value))) : FieldValue(value), tr("Take a value of the sweep"));
+}
+
+void AnalysisController::setSettings(const AnalysisSettings &settings, const QString &text)
+{
+    m_document.edit(settings, text);
+}
+
+void AnalysisController::inject(const LineSettings &line)
+{
+    if (!m_document.recording() || m_isOpening)
+        return;
+    const OpenedSource opened = m_document.openedSource();
+    m_runner.start([this, opened, line, settings = m_document.settings()](const RunContext &context) -> JobRunner::Delivery {
+        const Source::Injection injection{lineInNoise(line, opened.recording, settings, context), settings.selection.channel,
+                                          opened.source.injections.size() + 1};
+        OpenedSource injected = withInjection(opened, injection);
+        return [this, injected = std::move(injected)] { m_document.replaceOpened(injected, tr("Inject a line")); };
+    });
+}
+
+void AnalysisController::setThresholdUnit(DecideSettings::By by)
+{
+    if (!m_document.analysis() || m_document.settings().decide.by == by)
+        return;
+    AnalysisSettings after = m_document.settings();
+    after.decide = decideAt(after.decide, by, m_document.shownThreshold(), *m_document.analysis());
+    m_document.edit(after, tr("Set the threshold in other units"));
+}
+
+void AnalysisController::run()
+{
+    if (!m_document.isEmpty() && !m_isOpening)
+        startAnalysis();
+}
+
+void AnalysisController::startAnalysis()
+{
+    m_firstEstimate.reset();
+    // Of pings one is looked at: that of the cursor.
+    const auto &cursor = m_document.viewport().cursor();
+    const Span visible = m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
+    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.analysedSettings(), previous = m_document.analysis(), visible,
+                    kept = m_kept, showsFirstEstimates = m_showsFirstEstimates](const RunContext &context) -> JobRunner::Delivery {
+        if (const bool isSame =
+                previous && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
+            isSame && isWorthAPreview(*previous, inWindowOf(*previous, settings))) {
+            const AnalysisSettings previewed = inWindowOf(*previous, settings);
+            const Axis &time = previous->time();
+            const FrameRange range = previewRange(*previous->frames, time.nearest(visible.low), time.nearest(visible.high));
+            // What is calibrated already is there as soon as a preview of that much would be.
+            if (!range.isEmpty() && (range.isKeepable || !knownCalibration(previewed))) {
+                const bool isKept = kept && kept->holds(previous->frames, range.readFirst, range.end);
+                std::shared_ptr<const KeptFrames> frames;
+                if (range.isKeepable)
+                    frames = isKept ? kept
+                                    : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst, context.part(0.0, 0.01));
+                const StatisticPreview preview = previewStatistic(*previous, previewed, range, frames.get(), context.part(0.01, 0.02));
+                m_runner.deliver([this, settings, preview, frames] { showPreview(settings, preview, frames); });
+            }
+        }
+        // What is seen already is not taken away for a part of what comes.
+        PictureSink pictures;
+        if (!previous)
+            pictures = [this](const PicturesSoFar &sofar) {
+                m_runner.deliver([this, sofar] { emit m_document.picturesGrew(sofar); });
+            };
+        const bool isNew = showsFirstEstimates && opened.recording && !knownCalibration(settings);
+        auto analysis = analyse(opened, settings, context.part(0.0, isNew ? 0.3 : 1.0), previous.get(), pictures,
+                                isNew ? CalibrationDepth::FirstEstimate : CalibrationDepth::Refined);
+        if (analysis->calibration->isFirstEstimate) {
+            m_runner.deliver([this, analysis, found = events(*analysis)] { showFirstEstimate(analysis, found); });
+            analysis = analyse(opened, settings, context.part(0.3, 1.0), analysis.get());
+        }
+        std::vector<Event> found = events(*analysis);
+        return [this, analysis = std::move(analysis), found = std::move(found)] {
+            m_document.setAnalysis(analysis, found);
+        };
+    });
+}
+
+void AnalysisController::showFirstEstimate(std::shared_ptr<const Analysis> analysis, std::vector<Event> found)
+{
+    m_firstEstimate = analysis->threshold;
+    m_document.setAnalysis(std::move(analysis), std::move(found));
+    restoreView();
+}
+
+void AnalysisController::showPreview(const AnalysisSettings &settings, const StatisticPreview &preview,
+                                     std::shared_ptr<const KeptFrames> kept)
+{
+    m_kept = std::move(kept);
+    if (settings == m_document.analysedSettings() && !m_document.isCurrent() && m_runner.isRunning())
+        m_document.setProvisional(preview.statistic);
+    dropPartialPreview();
+}
+
+/// Who looks farther than the preview reaches sees the analysis there is.
+void AnalysisController::dropPartialPreview()
+{
+    const auto &shown = m_document.provisional();
+    if (!shown || m_document.hasPings()) // there it is of one ping, and shown with that one only
+        return;
+    const Span &visible = m_document.viewport().time();
+    const Axis &time = shown->time();
+    if (visible.low < time.value(-1.5) || visible.high > time.value(static_cast<double>(time.count) + 0.5))
+        m_document.setProvisional(nullptr);
+}
+
+void AnalysisController::stop()
+{
+    m_runner.cancel();
+}
+
+void AnalysisController::previewThreshold(double nats)
+{
+    m_document.setShownThreshold(nats);
+}
+
+void AnalysisController::commitThreshold(double nats)
+{
+    if (!m_document.analysis())
+        return;
+    AnalysisSettings after = m_document.settings();
+    const Analysis &analysis = *m_document.analysis();
+    const auto by = isBeyondRates(after.decide.by, nats, analysis) ? DecideSettings::By::Nats : after.decide.by;
+    after.decide = decideAt(after.decide, by, nats, analysis);
+    const bool isMoved = after != m_document.settings();
+    m_document.setShownThreshold(isMoved ? nats : m_document.analysis()->threshold);
+    m_document.edit(after, tr("Move the threshold"), QStringLiteral("threshold"));
+}
+
+void AnalysisController::stepThreshold(int quarterNats)
+{
+    commitThreshold(m_document.shownThreshold() + 0.25 * quarterNats);
+}
+
+void AnalysisController::recover(const QString &path)
+{
+    m_isOpening = true;
+    m_runner.start([this, path](const RunContext &context) -> JobRunner::Delivery {
+        context.checkpoint(0.0, "opening");
+        Opening opening = openNow(path, {});
+        opening.sessionPath.clear();
+        return [this, opening = std::move(opening)] {
+            deliver(opening);
+            m_document.undoStack().resetClean();
+        };
+    });
+}
+
+AnalysisController::Opening AnalysisController::openNow(const QString &path, const OpenOptions &options)
+{
+    if (!isSessionPath(path)) {
+        OpenedSource opened = openSource(sourceOf(path, options));
+        const AnalysisSettings settings = firstSettings(opened);
+        const QString warning = opened.source.isStack() ? QString::fromStdString(noiseMeanWarning(*opened.frames)) : QString();
+        return {std::move(opened), settings, {}, {}, warning};
+    }
+    const Session session = readSession(path);
+    return {openSource(session.source), session.settings, session.view, path, recordingMismatch(session), session.annotations};
+}
+
+void AnalysisController::deliver(const Opening &opening)
+{
+    m_isOpening = false;
+    m_pendingView = opening.view;
+    m_document.setOpened(opening.opened, opening.settings, opening.sessionPath, opening.annotations);
+    if (!opening.warning.isEmpty())
+        emit warned(m_document.source().name(), opening.warning);
+    startAnalysis();
+}
+
+void AnalysisController::end()
+{
+    // An opening that failed or was cancelled had displaced the analysis of what is still open.
+    if (std::exchange(m_isOpening, false) && !m_document.isEmpty() && !m_document.isCurrent())
+        return startAnalysis();
+    m_document.setProvisional(nullptr); // of settings that could not be analysed
+    emit busyChanged(false);
+    restoreView();
+    if (const auto first = std::exchange(m_firstEstimate, {}); first && !m_document.analysis()->calibration->isFirstEstimate)
+        emit refined(*first);
+    emit settled();
+}
+
+void AnalysisController::restoreView()
+{
+    if (m_pendingView && m_document.analysis())
+        emit viewRestored(*std::exchange(m_pendingView, {}));
+}
+
+} // namespace faintline

@@ -1,0 +1,64 @@
+#include "app/control/BoxMeter.h"
+
+#include "analysis/boxLevels.h"
+#include "app/document/Document.h"
+#include "widgets/base/quantities.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int pauseMs = 40;
+
+    /// The whole cells of a box, at least one.
+    std::pair<Index, Index> cellsOf(const Axis &axis, const Span &span)
+    {
+        const auto within = [&](double index) { return std::clamp<Index>(std::lround(index), 0, axis.count - 1); };
+        return {within(axis.position(span.low)), within(axis.position(span.high)) + 1};
+    }
+
+    QString noteOf(const BoxLevels &levels, bool saysMean)
+    {
+        const QString mean = saysMean ? BoxMeter::tr("mean %1 dB · ").arg(numberText(levels.meanDb, 1)) : QString();
+        if (!levels.snrDb)
+            return mean + BoxMeter::tr("no more than the noise beside it");
+        return mean + BoxMeter::tr("area SNR %1 dB").arg(numberText(*levels.snrDb, 1));
+    }
+
+} // namespace
+
+BoxMeter::BoxMeter(Document &document, QObject *parent) : QObject(parent), m_document(document)
+{
+    m_pause.setSingleShot(true);
+    m_pause.setInterval(pauseMs);
+    connect(&m_pause, &QTimer::timeout, this, &BoxMeter::measure);
+    connect(&document.viewport(), &Viewport::selectionChanged, this, &BoxMeter::follow);
+    connect(&document, &Document::analysisChanged, this, &BoxMeter::follow);
+}
+
+void BoxMeter::follow()
+{
+    m_runner.cancel();
+    m_pause.start();
+}
+
+void BoxMeter::measure()
+{
+    const auto &analysis = m_document.analysis();
+    const auto &selection = m_document.viewport().selection();
+    if (!analysis || !selection || analysis->grid().axes.size() != 1)
+        return;
+    const auto [beginFrame, endFrame] = cellsOf(analysis->time(), selection->time);
+    const auto [beginCell, endCell] = cellsOf(analysis->grid().axes.front(), selection->frequency);
+    const FrameBox box{beginFrame, endFrame, beginCell, endCell};
+    const bool saysMean = analysis->input->framesPerRow(0) > 1; // else the picture itself does
+    m_runner.start([this, analysis, box, saysMean](const RunContext &context) -> JobRunner::Delivery {
+        const QString note = noteOf(boxLevels(*analysis, box, context), saysMean);
+        return [this, note] { emit measured(note); };
+    });
+}
+
+} // namespace faintline

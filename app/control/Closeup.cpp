@@ -1,0 +1,113 @@
+#include "app/control/Closeup.h"
+
+#include "base/memoryShares.h"
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <QEvent>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int pauseMs = 80;
+    constexpr std::size_t byteBudget = memoryShares::closeup; ///< of each of the two: more frames than a screen has rows
+
+} // namespace
+
+Closeup::Closeup(Document &document, WaterfallView &input, WaterfallView &output, QObject *parent)
+    : QObject(parent), m_document(document), m_input(input), m_output(output)
+{
+    input.canvas()->installEventFilter(this);
+    m_pause.setSingleShot(true);
+    m_pause.setInterval(pauseMs);
+    connect(&m_pause, &QTimer::timeout, this, &Closeup::compute);
+    connect(&document, &Document::opened, this, &Closeup::follow);
+    connect(&document, &Document::analysisChanged, this, &Closeup::follow);
+    connect(&document, &Document::provisionalChanged, this, &Closeup::show);
+    connect(&document.viewport(), &Viewport::spanChanged, this, &Closeup::follow);
+    connect(&m_runner, &JobRunner::failed, this, &Closeup::settled); // the merged rows stay
+    connect(&m_runner, &JobRunner::finished, this, &Closeup::settled);
+    connect(&m_runner, &JobRunner::cancelled, this, &Closeup::settled);
+}
+
+bool Closeup::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() == QEvent::Resize)
+        follow();
+    return QObject::eventFilter(watched, event);
+}
+
+/// Nothing where the pictures say all that can be seen.
+FrameStretch Closeup::wanted() const
+{
+    const auto &analysis = m_document.analysis();
+    if (!analysis || m_document.hasPings() || analysis->grid().axes.size() != 1)
+        return {};
+    const Span &visible = m_document.viewport().time();
+    const Axis &time = analysis->time();
+    const FrameStretch frames{time.nearest(visible.low), time.nearest(visible.high) + 1};
+    const FrameStretch stretch = closeupStretch(*analysis->input, frames, m_input.framesPerPixel(), byteBudget);
+    if (stretch.isEmpty() || m_analysis != analysis || !m_stretch.contains(frames))
+        return stretch;
+    const Index cells = analysis->grid().size();
+    const auto mergedIn = [cells](const FrameStretch &one) { return framesPerRowWithin(byteBudget, one.end - one.begin, cells); };
+    const Index there = mergedIn(m_stretch);
+    const bool isFineEnough = there <= mergedIn(stretch) || static_cast<double>(there) <= m_input.framesPerPixel();
+    return isFineEnough ? m_stretch : stretch;
+}
+
+void Closeup::follow()
+{
+    const FrameStretch stretch = wanted();
+    if (m_analysis != m_document.analysis() || (stretch.isEmpty() && isBusy()))
+        stop();
+    if (stretch.isEmpty() || (m_analysis && m_stretch == stretch))
+        return;
+    m_runner.cancel();
+    m_pause.start();
+}
+
+void Closeup::stop()
+{
+    m_pause.stop();
+    m_runner.cancel();
+    m_analysis.reset();
+    m_stretch = {};
+    m_inputStretch.reset();
+    m_statisticStretch.reset();
+}
+
+void Closeup::compute()
+{
+    m_stretch = wanted();
+    if (m_stretch.isEmpty())
+        return emit settled();
+    m_analysis = m_document.analysis();
+    m_inputStretch.reset();
+    m_statisticStretch.reset();
+    for (WaterfallView *view : {&m_input, &m_output})
+        if (view->shownPicture() == view->picture())
+            view->setCloseup(nullptr); // one that is out of sight takes no memory beside the next
+    m_runner.start([this, analysis = m_analysis, stretch = m_stretch](const RunContext &context) -> JobRunner::Delivery {
+        m_runner.deliver([this, input = inputCloseup(*analysis, stretch, byteBudget, context)] {
+            m_inputStretch = input;
+            show();
+        });
+        return [this, statistic = statisticCloseup(*analysis, stretch, byteBudget, context)] {
+            m_statisticStretch = statistic;
+            show();
+        };
+    });
+}
+
+void Closeup::show()
+{
+    if (m_analysis != m_document.analysis())
+        return;
+    if (m_inputStretch)
+        m_input.setCloseup(m_inputStretch);
+    if (m_statisticStretch && !m_document.provisional())
+        m_output.setCloseup(m_statisticStretch);
+}
+
+} // namespace faintline

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "analysis/closeup.h"
+#include "app/document/Document.h"
+#include "app/base/JobRunner.h"
+
+#include <QTimer>
+
+namespace faintline {
+
+class WaterfallView;
+
+/// Who zooms into a long recording, whose pictures hold rows of many frames, sees single frames: what is visible is gone through again
+/// on a worker, the input first, and shown in the place of the merged rows as soon as it is there.
+///
+/// The newest view wins; one that moves on ends the work for the one before. Nothing is done where rows are frames already.
+class Closeup : public QObject
+{
+    Q_OBJECT
+
+public:
+    Closeup(Document &document, WaterfallView &input, WaterfallView &output, QObject *parent = nullptr);
+
+    bool isBusy() const { return m_pause.isActive() || m_runner.isRunning(); }
+
+signals:
+    void settled();
+
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override; ///< the view's canvas: another size, other pixels
+
+private:
+    FrameStretch wanted() const;
+    void follow();
+    void compute();
+    void show();
+    void stop();
+
+    Document &m_document;
+    WaterfallView &m_input;
+    WaterfallView &m_output;
+    std::shared_ptr<const Analysis> m_analysis; ///< that all of this is of
+    FrameStretch m_stretch;                     ///< shown, or being made
+    std::shared_ptr<const PeakPyramid> m_inputStretch;
+    std::shared_ptr<const PeakPyramid> m_statisticStretch;
+    QTimer m_pause;     ///< a view on its way is not computed
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline

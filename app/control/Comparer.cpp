@@ -1,0 +1,103 @@
+#include "app/control/Comparer.h"
+
+#include "evaluate/differencePicture.h"
+#include "evaluate/measureCost.h"
+
+#include <utility>
+
+namespace faintline {
+
+Comparer::Comparer(Document &document, QObject *parent) : QObject(parent), m_document(document)
+{
+    connect(&document, &Document::opened, this, [this] {
+        m_runner.cancel();
+        m_result.reset();
+        m_cost.reset();
+        emit changed();
+    });
+    connect(&document, &Document::analysisChanged, this, &Comparer::compare);
+    connect(&m_runner, &JobRunner::progressed, this, &Comparer::progressed);
+    connect(&m_runner, &JobRunner::finished, this, &Comparer::settled);
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        emit failed(error);
+        emit settled();
+    });
+}
+
+void Comparer::keep()
+{
+    if (!m_document.analysis())
+        return;
+    m_kept = m_document.analysis();
+    m_cost.reset();
+    emit keptChanged();
+    compare();
+}
+
+bool Comparer::isOfWhatIsOpen() const
+{
+    if (!m_kept)
+        return false;
+    return m_kept->recording ? m_kept->recording == m_document.recording() : m_kept->frames == m_document.frames();
+}
+
+void Comparer::computeHere()
+{
+    if (!m_kept || !m_document.analysis())
+        return;
+    m_runner.start([this, opened = m_document.openedSource(), settings = m_kept->settings,
+                    previous = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
+        auto analysis = analyse(opened, settings, context, previous.get());
+        return [this, analysis = std::move(analysis)] {
+            m_kept = analysis;
+            m_cost.reset();
+            emit keptChanged();
+            compare();
+        };
+    });
+}
+
+AnalysisSettings Comparer::exchange()
+{
+    const AnalysisSettings before = m_kept->settings;
+    keep();
+    return before;
+}
+
+void Comparer::setActive(bool isActive)
+{
+    if (std::exchange(m_isActive, isActive) != isActive)
+        compare();
+}
+
+void Comparer::compare()
+{
+    const auto &b = m_document.analysis();
+    if (!m_isActive || !isOfWhatIsOpen() || !b)
+        return;
+    if (m_result && m_result->a == m_kept && m_result->b == b)
+        return;
+    m_runner.start([this, a = m_kept, b](const RunContext &context) -> JobRunner::Delivery {
+        Result result{a, b, compareAnalyses(*a, *b), differencePicture(*a, *b, context), settingDifferences(a->settings, b->settings)};
+        return [this, result = std::move(result)] {
+            m_result = result;
+            emit changed();
+            measure();
+        };
+    });
+}
+
+void Comparer::measure()
+{
+    if (!m_isMeasuringCost)
+        return;
+    m_meter.start([this, a = m_result->a, b = m_result->b, known = m_cost](const RunContext &context) -> JobRunner::Delivery {
+        const Cost cost{known ? known->a : measureCost(*a, context), measureCost(*b, context)};
+        return [this, cost] {
+            m_cost = cost;
+            emit costChanged();
+        };
+    });
+}
+
+} // namespace faintline

@@ -1,0 +1,284 @@
+#include "app/control/EventReviews.h"
+
+#include "analysis/judgeByBoxes.h"
+#include "app/base/filePath.h"
+#include "app/control/thresholdWords.h"
+#include "base/oneLine.h"
+#include "exchange/readAnnotations.h"
+#include "exchange/writeReviewed.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/pings/PingMap.h"
+#include "widgets/waterfall/WaterfallView.h"
+#include "widgets/base/labelText.h"
+
+#include <QAction>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QItemSelectionModel>
+#include <QMenu>
+#include <QTableView>
+
+#include <algorithm>
+
+namespace faintline {
+
+EventReviews::EventReviews(Document &document, EventTable &table, std::vector<WaterfallView *> views, QWidget *window)
+    : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window), m_provenance(document)
+{
+    m_eventActions << add(tr("&Accept"), Qt::Key_Y, tr("This is a signal"), &EventReviews::accept)
+                   << add(tr("Re&ject"), Qt::Key_X, tr("This is none: it is drawn faint from now on"), &EventReviews::reject)
+                   << add(tr("&Undecided"), Qt::Key_U, tr("Takes accepting or rejecting back"), &EventReviews::takeBack)
+                   << add(tr("&Note…"), Qt::Key_E, tr("What there is to say about it"), &EventReviews::editNote)
+                   << add(tr("&Merge"), Qt::Key_G, tr("The selected events are one signal; Ctrl or Shift and click selects several"), &EventReviews::merge)
+                   << add(tr("&Separate"), QKeySequence(Qt::SHIFT | Qt::Key_G), tr("They are several signals after all"), &EventReviews::separate);
+    m_actions << nullptr;
+    m_addBox = add(tr("Add annotation of the &box…"), Qt::Key_B, tr("Names the measured box (M)"), &EventReviews::askForLabel);
+    m_actions << nullptr;
+    add(tr("&Import annotations…"), {}, tr("Raven selection tables, Audacity labels, SigMF, CSV, JSON"), &EventReviews::askForImport);
+    add(tr("E&xport events and annotations…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E), tr("CSV, JSON, Raven, Audacity, SigMF"), &EventReviews::askForExport);
+
+    for (QAction *action : m_eventActions)
+        m_table.table()->addAction(action);
+    connect(&m_table, &EventTable::noteRequested, this, &EventReviews::editNote);
+    connect(m_table.table()->selectionModel(), &QItemSelectionModel::selectionChanged, this, &EventReviews::enable);
+    connect(&m_document.viewport(), &Viewport::selectionChanged, this, &EventReviews::enable);
+    connect(&m_document, &Document::opened, this, &EventReviews::show);
+    connect(&m_document, &Document::annotationsChanged, this, &EventReviews::show);
+    connect(&m_document, &Document::shownEventsChanged, this, &EventReviews::show);
+    for (WaterfallView *view : m_views)
+        connect(view, &WaterfallView::contextMenuRequested, this,
+                [this](QMenu *menu, double seconds, double hz) { fillContextMenu(*menu, seconds, hz); });
+    connect(&m_provenance, &Provenance::failed, this, &EventReviews::failed);
+    enable();
+}
+
+void EventReviews::addMaps(std::vector<PingMap *> maps)
+{
+    m_maps = std::move(maps);
+    for (PingMap *map : m_maps)
+        connect(map->plane(), &WaterfallView::contextMenuRequested, this, [this, map](QMenu *menu, double range, double bearing) {
+            if (const int track = map->trackAt({range, bearing}))
+                fillContextMenu(*menu, track);
+        });
+}
+
+QAction *EventReviews::add(const QString &text, const QKeySequence &key, const QString &tip, void (EventReviews::*act)())
+{
+    auto *action = new QAction(text, this);
+    action->setShortcut(key);
+    action->setToolTip(tip);
+    connect(action, &QAction::triggered, this, act);
+    m_actions << action;
+    return action;
+}
+
+void EventReviews::addActionsTo(QMenu &menu)
+{
+    for (QAction *action : m_actions)
+        action ? menu.addAction(action) : void(menu.addSeparator());
+}
+
+std::vector<int> EventReviews::chosen() const
+{
+    return m_document.analysis() ? m_table.selectedEvents() : std::vector<int>();
+}
+
+void EventReviews::setReviews(std::vector<Review> reviews, const QString &text)
+{
+    Annotations after = m_document.annotations();
+    after.reviews = std::move(reviews);
+    m_document.annotate(std::move(after), text);
+}
+
+void EventReviews::judge(Verdict verdict)
+{
+    const std::vector<int> ids = chosen();
+    if (ids.empty())
+        return;
+    const QString text = verdict == Verdict::Accepted ? tr("Accept") : verdict == Verdict::Rejected ? tr("Reject") : tr("Undecide");
+    setReviews(withVerdict(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids, verdict),
+               ids.size() == 1 ? tr("%1 event %2").arg(text).arg(ids.front()) : tr("%1 %2 events").arg(text).arg(ids.size()));
+}
+
+void EventReviews::merge()
+{
+    if (const std::vector<int> ids = chosen(); ids.size() > 1)
+        setReviews(merged(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids),
+                   tr("Merge %1 events").arg(ids.size()));
+}
+
+void EventReviews::separate()
+{
+    if (const std::vector<int> ids = chosen(); !ids.empty())
+        setReviews(separated(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids), tr("Separate events"));
+}
+
+void EventReviews::setNote(int id, const QString &note)
+{
+    const std::vector<Event> events = m_document.shownEvents();
+    if (std::any_of(events.begin(), events.end(), [id](const Event &event) { return event.id == id; }))
+        setReviews(withNote(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), id, oneLine(note.toStdString())),
+                   tr("Note on event %1").arg(id));
+}
+
+void EventReviews::editNote()
+{
+    const int id = m_table.selectedEvent();
+    if (id == 0 || !m_document.analysis())
+        return;
+    QString before;
+    for (const EventReview &one : eventReviews(*m_document.analysis(), m_document.shownEvents(), m_document.annotations().reviews))
+        if (one.event == id)
+            before = QString::fromStdString(oneLine(one.note));
+    bool isGiven = false;
+    const QString note = QInputDialog::getText(m_window, tr("Note on event %1").arg(id), tr("What there is to say about it:"), QLineEdit::Normal, before, &isGiven);
+    if (isGiven && m_document.analysis())
+        setNote(id, note);
+}
+
+void EventReviews::annotateSelection(const QString &label)
+{
+    const auto &box = m_document.viewport().selection();
+    if (!box || m_document.hasPings())
+        return;
+    Annotations after = m_document.annotations();
+    after.boxes.push_back({box->time.low, box->time.high, box->frequency.low, box->frequency.high, oneLine(label.toStdString()), {}, Verdict::None});
+    m_document.annotate(std::move(after), tr("Add annotation"));
+    m_document.viewport().clearSelection();
+}
+
+void EventReviews::askForLabel()
+{
+    bool isGiven = false;
+    const QString label = QInputDialog::getText(m_window, tr("Add annotation"), tr("What is in the box?"), QLineEdit::Normal, {}, &isGiven);
+    if (isGiven)
+        annotateSelection(label);
+}
+
+void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
+{
+    if (m_document.hasPings())
+        return;
+    menu.addSeparator();
+    menu.addAction(m_addBox);
+    const std::vector<Annotation> &boxes = m_document.annotations().boxes;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const Annotation &box = boxes[i];
+        const bool isIn = seconds >= box.startSeconds && seconds <= box.endSeconds && (!box.lowHz || (hz >= *box.lowHz && hz <= *box.highHz));
+        if (!isIn)
+            continue;
+        const QString name = box.label.empty() ? tr("annotation") : tr("“%1”").arg(buttonText(QString::fromStdString(box.label), 40));
+        menu.addAction(tr("Remove %1").arg(name), this, [this, i, name] {
+            Annotations after = m_document.annotations();
+            after.boxes.erase(after.boxes.begin() + static_cast<std::ptrdiff_t>(i));
+            m_document.annotate(std::move(after), tr("Remove %1").arg(name));
+        });
+    }
+}
+
+/// What is said next is said about that track.
+void EventReviews::fillContextMenu(QMenu &menu, int track)
+{
+    m_table.setSelectedEvent(track);
+    for (PingMap *map : m_maps)
+        map->setSelectedTrack(track);
+    menu.addSection(tr("Track %1").arg(track));
+    menu.addActions(m_eventActions);
+}
+
+void EventReviews::importFrom(const QString &path)
+{
+    const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
+    const std::vector<Annotation> boxes = readAnnotations(pathBytes(path), info);
+    Annotations after = m_document.annotations();
+    JudgedByBoxes imported{{}, boxes, 0};
+    if (m_document.analysis()) {
+        imported = judgeByBoxes(after.reviews, *m_document.analysis(), m_document.shownEvents(), boxes);
+        after.reviews = imported.reviews;
+    }
+    after.boxes.insert(after.boxes.end(), imported.others.begin(), imported.others.end());
+    m_document.annotate(std::move(after), tr("Import %1 annotations").arg(boxes.size()));
+    const QString judged = imported.judged == 0 ? QString() : tr(" %1 event(s) are judged by them.").arg(imported.judged);
+    emit told(fileLabel(path), tr("%1 annotation(s) imported; Ctrl+Z takes them back.").arg(boxes.size()) + judged);
+}
+
+void EventReviews::exportTo(const QString &path)
+{
+    if (!m_document.analysis())
+        return;
+    if (m_document.analysis()->calibration->isFirstEstimate)
+        return emit failed(firstEstimateError());
+    writeReviewed(*m_document.analysis(), m_document.shownEvents(), m_document.annotations(), pathBytes(path));
+    // Only a threshold that is being dragged is not that of the settings.
+    const bool isDragged = m_document.shownThreshold() != m_document.analysis()->threshold;
+    m_provenance.with([this, path, isDragged, threshold = m_document.shownThreshold()](const std::string &provenance) {
+        try {
+            Json json = parseJson(provenance, "provenance");
+            if (isDragged)
+                json["shownThreshold"] = threshold;
+            writeProvenanceBeside(path, json.dump(2) + "\n");
+        } catch (const Error &error) {
+            emit failed(error);
+        }
+    });
+}
+
+void EventReviews::askForImport()
+{
+    const QString path = QFileDialog::getOpenFileName(m_window, tr("Import annotations"), QFileInfo(m_document.source().path).path(),
+                                                      tr("Annotations (*.txt *.sigmf-meta *.csv *.json);;Everything (*)"));
+    if (path.isEmpty())
+        return;
+    try {
+        importFrom(path);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void EventReviews::askForExport()
+{
+    const QString path = QFileDialog::getSaveFileName(
+        m_window, tr("Export events and annotations"), nameBeside(m_document.source().path, QStringLiteral("-events.csv")),
+        tr("Table (*.csv);;JSON (*.json);;Raven selection table (*.selections.txt);;Audacity labels (*.txt);;SigMF annotations (*.sigmf-meta)"));
+    if (path.isEmpty())
+        return;
+    try {
+        exportTo(path);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void EventReviews::show()
+{
+    std::vector<EventReview> said;
+    if (m_document.analysis())
+        said = eventReviews(*m_document.analysis(), m_document.shownEvents(), m_document.annotations().reviews);
+    m_table.setReviews(said);
+    std::vector<int> rejected;
+    for (const EventReview &one : said)
+        if (one.verdict == Verdict::Rejected)
+            rejected.push_back(one.event);
+    for (WaterfallView *view : m_views) {
+        view->setFaintEvents(rejected);
+        view->setAnnotations(m_document.hasPings() ? std::vector<Annotation>() : m_document.annotations().boxes);
+    }
+    for (PingMap *map : m_maps)
+        map->setFaintTracks(rejected);
+    enable();
+}
+
+void EventReviews::enable()
+{
+    const std::vector<int> ids = chosen();
+    for (QAction *action : m_eventActions)
+        action->setEnabled(!ids.empty());
+    m_eventActions[4]->setEnabled(ids.size() > 1); // merging
+    m_addBox->setEnabled(m_document.viewport().selection().has_value() && !m_document.isEmpty() && !m_document.hasPings());
+    for (qsizetype i = m_actions.size() - 2; i < m_actions.size(); ++i) // import and export
+        m_actions[i]->setEnabled(m_document.analysis() != nullptr);
+}
+
+} // namespace faintline

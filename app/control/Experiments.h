@@ -1,0 +1,85 @@
+#pragma once
+
+#include "app/base/JobRunner.h"
+#include "evaluate/Campaign.h"
+#include "evaluate/reproduce.h"
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace faintline {
+
+/// The experiments of this window: what waits, runs, and has been done, one at a time on a worker.
+///
+/// A campaign grows while it runs: every finished run is added as it comes, and `changed` says so a few times a second. Cancelled ones
+/// keep the runs they have. Results depend on the experiment alone, as everywhere.
+class Experiments : public QObject
+{
+    Q_OBJECT
+
+public:
+    enum class State { Waiting, Running, Done, Cancelled, Failed };
+
+    struct Entry {
+        int id = 0;
+        QString name;
+        State state = State::Waiting;
+        double progress = 0.0;
+        QString doing;   ///< while it runs
+        QString failure; ///< why it failed
+        std::optional<Campaign> campaign;
+        RecordingPointer recording;                    ///< that lines are injected into
+        std::shared_ptr<const InjectionTrials> trials; ///< of an injection, once prepared
+        std::optional<Reproducible> reproducible;
+        std::shared_ptr<const Reproduction> reproduction; ///< once done
+        std::optional<std::vector<CurvePoint>> imported;  ///< a curve file's points: there are no trials behind them
+        int runsDone() const { return campaign ? static_cast<int>(campaign->outcomes.size()) : 0; }
+        bool isOpen() const { return state == State::Waiting || state == State::Running; }
+    };
+
+    explicit Experiments(QObject *parent = nullptr);
+
+    /// Puts a campaign at the end of the queue; an injection needs the recording. Returns its id.
+    int start(const QString &name, const Experiment &experiment, RecordingPointer recording = {});
+    int start(const Reproducible &reproducible, const ReproduceOptions &options);
+    /// Adds what was done elsewhere: runs of a campaign, or the points of a curve.
+    int add(const QString &name, Campaign campaign);
+    int add(const QString &name, std::vector<CurvePoint> curve);
+
+    void cancel(int id);
+    void remove(int id);
+
+    const std::vector<Entry> &entries() const { return m_entries; }
+    const Entry *entry(int id) const;
+    bool isBusy() const { return m_running != 0; }
+
+signals:
+    void added(int id);
+    void changed(int id); ///< its runs, state or progress
+    void removed(int id);
+    void busyChanged(bool isBusy);
+
+private:
+    Entry *find(int id);
+    int append(Entry entry);
+    void startNext();
+    void startCampaign(const Entry &entry);
+    void startReproduction(const Entry &entry);
+    void addOutcome(int id, RunOutcome outcome);
+    void end(State state, const QString &failure = {});
+    void announce();
+
+    std::vector<Entry> m_entries;
+    std::vector<ReproduceOptions> m_options; ///< by id - 1
+    int m_lastId = 0;
+    int m_running = 0; ///< id; 0: nothing
+    QTimer m_announcer;
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline

@@ -1,0 +1,40 @@
+#include "app/control/thresholdWords.h"
+
+#include "app/base/statisticUnit.h"
+
+#include <QCoreApplication>
+
+namespace faintline {
+
+namespace {
+
+    QString tr(const char *text)
+    {
+        return QCoreApplication::translate("thresholdWords", text);
+    }
+
+} // namespace
+
+QString firstEstimateSentence(const Analysis &analysis, bool isBusy)
+{
+    return (isBusy ? tr("Threshold %1 %2 (first estimate, false alarms within a factor %3; being refined).")
+                   : tr("Threshold %1 %2 (first estimate, false alarms within a factor %3; Run refines it)."))
+        .arg(analysis.threshold, 0, 'f', 2)
+        .arg(statisticUnit(analysis.settings))
+        .arg(analysis.calibration->rateUncertaintyAt(analysis.threshold), 0, 'f', 1);
+}
+
+Error firstEstimateError()
+{
+    return Error("threshold", "is a first estimate; what is exported waits for the refined one. Run refines it if it was stopped");
+}
+
+QString refinedSentence(const Analysis &analysis, double firstEstimate)
+{
+    return tr("Threshold refined: %1 %2 instead of %3. Events follow it.")
+        .arg(analysis.threshold, 0, 'f', 2)
+        .arg(statisticUnit(analysis.settings))
+        .arg(firstEstimate, 0, 'f', 2);
+}
+
+} // namespace faintline

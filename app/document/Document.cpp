@@ -1,0 +1,191 @@
+#include "app/document/Document.h"
+
+#include "analysis/slopeUnit.h"
+
+#include <QElapsedTimer>
+#include <QUndoCommand>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr qint64 mergeMilliseconds = 700;
+    constexpr int editId = 1;
+
+} // namespace
+
+/// The program's only undo command: two values of what is open and its settings.
+class Document::Edit : public QUndoCommand
+{
+public:
+    Edit(Document &document, State after, const QString &text, QString field)
+        : QUndoCommand(text), m_document(document), m_before(document.state()), m_after(std::move(after)),
+          m_field(std::move(field))
+    {
+        m_age.start();
+    }
+
+    void undo() override { m_document.apply(m_before); }
+    void redo() override { m_document.apply(m_after); }
+
+    int id() const override { return m_field.isEmpty() ? -1 : editId; }
+
+    bool mergeWith(const QUndoCommand *other) override
+    {
+        const auto &next = static_cast<const Edit &>(*other);
+        if (next.m_field != m_field || m_age.elapsed() > mergeMilliseconds)
+            return false;
+        m_after = next.m_after;
+        m_age.restart();
+        setObsolete(m_after.settings == m_before.settings && m_after.annotations == m_before.annotations);
+        return true;
+    }
+
+private:
+    Document &m_document;
+    State m_before;
+    State m_after;
+    QString m_field;
+    QElapsedTimer m_age; ///< since the last edit that went into this
+};
+
+Document::Document(QObject *parent) : QObject(parent)
+{
+    connect(&m_undoStack, &QUndoStack::cleanChanged, this, &Document::sessionChanged);
+}
+
+void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath, Annotations annotations)
+{
+    m_opened = std::move(opened);
+    m_settings = settings;
+    m_annotations = std::move(annotations);
+    m_sessionPath = sessionPath;
+    m_analysis.reset();
+    m_provisional.reset();
+    m_events.clear();
+    m_viewport.setExtents({}, {});
+    m_undoStack.clear();
+    emit this->opened();
+    emit sessionChanged();
+}
+
+void Document::edit(const AnalysisSettings &after, const QString &text, const QString &field)
+{
+    if (after != m_settings)
+        m_undoStack.push(new Edit(*this, {m_opened, after, m_annotations}, text, field));
+}
+
+void Document::replaceOpened(OpenedSource opened, const QString &text)
+{
+    m_undoStack.push(new Edit(*this, {std::move(opened), m_settings, m_annotations}, text, {}));
+}
+
+void Document::annotate(Annotations after, const QString &text)
+{
+    if (after != m_annotations)
+        m_undoStack.push(new Edit(*this, {m_opened, m_settings, std::move(after)}, text, {}));
+}
+
+void Document::setSaved(const QString &sessionPath)
+{
+    m_sessionPath = sessionPath;
+    m_undoStack.setClean();
+    emit sessionChanged();
+}
+
+void Document::setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events)
+{
+    m_analysis = std::move(analysis);
+    m_provisional.reset();
+    m_events = std::move(events);
+    m_shownThreshold = m_analysis->threshold;
+    emit analysisChanged();
+    emit shownThresholdChanged();
+    emit shownEventsChanged();
+}
+
+void Document::setProvisional(std::shared_ptr<const PeakPyramid> statistic)
+{
+    if (statistic == m_provisional || !m_analysis)
+        return;
+    m_provisional = std::move(statistic);
+    emit provisionalChanged();
+}
+
+AnalysisSettings Document::analysedSettings() const
+{
+    return m_opened.recording ? withSlopesInBins(m_settings, m_opened.recording->info()) : m_settings;
+}
+
+AnalysisSettings Document::usedSettings() const
+{
+    return isCurrent() ? m_analysis->settings : analysedSettings();
+}
+
+bool Document::isCurrent() const
+{
+    return m_analysis && m_analysis->answers(analysedSettings()) && m_analysis->recording == m_opened.recording
+        && (!m_opened.frames || m_analysis->frames == m_opened.frames);
+}
+
+void Document::setShownThreshold(double nats)
+{
+    if (!m_analysis || nats == m_shownThreshold)
+        return;
+    const std::ptrdiff_t before = shownCount();
+    m_shownThreshold = nats;
+    emit shownThresholdChanged();
+    if (shownCount() != before)
+        emit shownEventsChanged();
+}
+
+std::vector<Event> Document::shownEvents() const
+{
+    std::vector<Event> result;
+    std::copy_if(m_events.begin(), m_events.end(), std::back_inserter(result),
+                 [this](const Event &event) { return isShown(event); });
+    return result;
+}
+
+std::ptrdiff_t Document::shownCount() const
+{
+    return std::count_if(m_events.begin(), m_events.end(), [this](const Event &event) { return isShown(event); });
+}
+
+std::vector<Track> Document::shownTracks() const
+{
+    std::vector<Track> result;
+    if (m_analysis)
+        std::copy_if(m_analysis->tracks.begin(), m_analysis->tracks.end(), std::back_inserter(result),
+                     [this](const Track &track) { return statisticOf(track, *m_analysis) >= m_shownThreshold; });
+    return result;
+}
+
+const Track *Document::track(int id) const
+{
+    if (!m_analysis)
+        return nullptr;
+    const auto &tracks = m_analysis->tracks;
+    const auto found = std::find_if(tracks.begin(), tracks.end(), [id](const Track &track) { return track.id == id; });
+    return found == tracks.end() ? nullptr : &*found;
+}
+
+void Document::apply(const State &state)
+{
+    const bool isReread = state.opened.recording != m_opened.recording || state.opened.frames != m_opened.frames;
+    const bool isRerun = isReread || state.settings != m_settings;
+    const bool isAnnotated = state.annotations != m_annotations;
+    m_opened = state.opened;
+    m_settings = state.settings;
+    m_annotations = state.annotations;
+    if (isRerun || !isAnnotated)
+        emit settingsChanged();
+    if (isAnnotated)
+        emit annotationsChanged();
+}
+
+} // namespace faintline

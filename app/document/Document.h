@@ -1,0 +1,128 @@
+#pragma once
+
+#include "analysis/Review.h"
+#include "analysis/analyse.h"
+#include "app/document/Source.h"
+#include "widgets/base/Viewport.h"
+
+#include <QObject>
+#include <QUndoStack>
+
+#include <memory>
+#include <vector>
+
+namespace faintline {
+
+/// What is open: the one mutable object of the program, everything else is values and views.
+///
+/// It holds the recording or the frames, where they came from, the settings with their undo stack, what is looked at, and the latest
+/// analysis, which may lag behind the settings while a new one is computed. The *shown threshold* is the analysis's, or
+/// the one under the user's finger while it is dragged.
+class Document : public QObject
+{
+    Q_OBJECT
+
+public:
+    explicit Document(QObject *parent = nullptr);
+
+    /// Something else is open from now on; forgets undo history, session and analysis.
+    void setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath = {},
+                   Annotations annotations = {});
+
+    bool isEmpty() const { return !m_opened.recording && !m_opened.frames; }
+    const Source &source() const { return m_opened.source; }
+    const RecordingPointer &recording() const { return m_opened.recording; } ///< null where ready-made frames are open
+    const NormalisedFramesPointer &frames() const { return m_opened.frames; } ///< null where a recording is open
+    /// Frames on range and bearing, to be looked at ping by ping.
+    bool hasPings() const { return m_opened.frames && m_opened.frames->grid().axes.size() == 2; }
+    const PingTruth &pingTruth() const { return m_opened.pingTruth; }
+    const Truth &truth() const { return m_opened.truth; }
+    const OpenedSource &openedSource() const { return m_opened; }
+
+    // ---- settings ------------------------------------------------------------------------------------------------
+
+    const AnalysisSettings &settings() const { return m_settings; }
+    /// As an analysis takes them: slopes in bins a frame of what is open.
+    AnalysisSettings analysedSettings() const;
+    /// The same with the window and law that the analysis chose, where it is of these settings.
+    AnalysisSettings usedSettings() const;
+    QUndoStack &undoStack() { return m_undoStack; }
+
+    /// One undoable step to what is open with a line added, its settings as they are.
+    void replaceOpened(OpenedSource opened, const QString &text);
+
+    /// One undoable step. Steps that name the same field and follow each other at once, as those of a held key or a
+    /// dragged value, become one.
+    void edit(const AnalysisSettings &after, const QString &text, const QString &field = {});
+
+    // ---- annotations ---------------------------------------------------------------------------------------------
+
+    const Annotations &annotations() const { return m_annotations; }
+    /// One undoable step; detection has nothing to do with it.
+    void annotate(Annotations after, const QString &text);
+
+    // ---- session -------------------------------------------------------------------------------------------------
+
+    /// The session file this is saved in; empty where there is none.
+    const QString &sessionPath() const { return m_sessionPath; }
+    void setSaved(const QString &sessionPath);
+    bool isModified() const { return !m_undoStack.isClean(); }
+
+    // ---- view and results ----------------------------------------------------------------------------------------
+
+    Viewport &viewport() { return m_viewport; }
+
+    /// `events`: those of the analysis.
+    void setAnalysis(std::shared_ptr<const Analysis> analysis, std::vector<Event> events);
+    const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
+    bool isCurrent() const;
+
+    /// What the changed settings make of the visible frames, until their analysis is there; null where there is no such thing.
+    void setProvisional(std::shared_ptr<const PeakPyramid> statistic);
+    const std::shared_ptr<const PeakPyramid> &provisional() const { return m_provisional; }
+
+    void setShownThreshold(double nats);
+    double shownThreshold() const { return m_shownThreshold; }
+    /// Events and tracks that exceed the shown threshold.
+    std::vector<Event> shownEvents() const;
+    std::vector<Track> shownTracks() const;
+    const Track *track(int id) const;
+
+signals:
+    void opened();
+    void settingsChanged();
+    void picturesGrew(const faintline::PicturesSoFar &pictures); ///< of a long recording, while its first analysis is still under way
+    void annotationsChanged();
+    void analysisChanged();
+    void provisionalChanged();
+    void shownThresholdChanged();
+    void shownEventsChanged(); ///< the threshold passed one, or they are new
+    void sessionChanged();     ///< its path, or whether there is something to save
+
+private:
+    /// What undo goes back to.
+    struct State {
+        OpenedSource opened;
+        AnalysisSettings settings;
+        Annotations annotations;
+    };
+    class Edit;
+
+    State state() const { return {m_opened, m_settings, m_annotations}; }
+    void apply(const State &state);
+    bool isShown(const Event &event) const { return event.statistic >= m_shownThreshold; }
+    std::ptrdiff_t shownCount() const;
+
+    OpenedSource m_opened;
+    AnalysisSettings m_settings;
+    Annotations m_annotations;
+    QString m_sessionPath;
+    Viewport m_viewport;
+    std::shared_ptr<const Analysis> m_analysis;
+    std::shared_ptr<const PeakPyramid> m_provisional;
+    std::vector<Event> m_events;
+    double m_shownThreshold = 0.0;
+    QUndoStack m_undoStack;
+};
+
+} // namespace faintline

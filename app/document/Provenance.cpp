@@ -1,0 +1,75 @@
+#include "app/document/Provenance.h"
+
+#include "app/document/Session.h"
+#include "app/base/filePath.h"
+#include "base/AtomicFile.h"
+#include "recording/openRecording.h"
+
+#include <QFileInfo>
+
+#include <utility>
+
+namespace faintline {
+
+std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations, std::string hash)
+{
+    if (!source.isSimulated() && hash.empty())
+        hash = recordingHash(pathBytes(source.path));
+    Json json = parseJson(sessionText({source, hash, settings, {}, annotations}, QFileInfo(source.path).path()), "session");
+    json.erase("view");
+    json["version"] = FAINTLINE_VERSION;
+    return json.dump(2) + "\n";
+}
+
+Provenance::Provenance(const Document &document, QObject *parent) : QObject(parent), m_document(document)
+{
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        m_requests.clear();
+        emit failed(error);
+    });
+}
+
+void Provenance::with(std::function<void(const std::string &json)> use)
+{
+    const auto &analysis = m_document.analysis(); // what is seen is the analysis's, which may lag behind
+    m_requests.push_back(
+        {m_document.source(), analysis ? analysis->settings : m_document.settings(), m_document.annotations(), std::move(use)});
+    if (!m_runner.isRunning())
+        answer();
+}
+
+void Provenance::answer()
+{
+    while (!m_requests.empty()) {
+        const Source &source = m_requests.front().source;
+        if (!source.isSimulated() && source.path != m_hashed) {
+            m_runner.start([this, path = source.path](const RunContext &) -> JobRunner::Delivery {
+                std::string hash = recordingHash(pathBytes(path));
+                return [this, path, hash = std::move(hash)] {
+                    m_hashed = path;
+                    m_hash = hash;
+                    answer();
+                };
+            });
+            return;
+        }
+        const Request request = std::move(m_requests.front());
+        m_requests.erase(m_requests.begin());
+        request.use(provenanceOf(request.source, request.settings, request.annotations, m_hash));
+    }
+}
+
+QString pictureProvenance(const std::string &json)
+{
+    QString text = QString::fromStdString(parseJson(json, "provenance").dump());
+    while (text.contains(QLatin1String("  "))) // within a name, then
+        text.replace(QLatin1String("  "), QLatin1String(" \\u0020"));
+    return text;
+}
+
+void writeProvenanceBeside(const QString &path, const std::string &json)
+{
+    writeTextFile(pathBytes(path) + ".provenance.json", json);
+}
+
+} // namespace faintline

@@ -1,0 +1,147 @@
+#include "app/document/Source.h"
+
+#include "analysis/chooseWindow.h"
+#include "analysis/slopeUnit.h"
+#include "app/base/filePath.h"
+#include "base/json.h"
+#include "exchange/ModelFile.h"
+#include "recording/AudioRecording.h"
+#include "recording/RawRecording.h"
+#include "recording/SimulatedRecording.h"
+#include "spectrum/SimulatedPings.h"
+
+namespace faintline {
+
+namespace {
+
+    constexpr qint64 largestScenario = 1 << 20;
+
+    void readScene(const QString &path, Source &source)
+    {
+        const std::string where = pathBytes(path);
+        const QByteArray text = readBeginning(path, largestScenario);
+        try {
+            const Json json = parseJson(text.toStdString(), where);
+            if (isPingScene(json))
+                source.pings = pingSceneFromJson(json);
+            else
+                source.scene = lineSceneFromJson(json);
+        } catch (const Error &error) {
+            throw error.where() == where ? error : Error(where + ": " + error.where(), error.why());
+        }
+    }
+
+    NormalisedFramesPointer readStack(const QString &path)
+    {
+        const QString grid = gridPathOf(path);
+        auto frames = readFrames(pathBytes(path), fileExists(grid) ? pathBytes(grid) : std::string());
+        if (frames->grid().axes.size() > 2)
+            throw Error(pathBytes(path), "has frames on " + std::to_string(frames->grid().axes.size())
+                                                + " axes; one or two can be shown (faintline-cli sequential takes more)");
+        return frames;
+    }
+
+    /// Without the lines that were added.
+    OpenedSource openBase(Source source)
+    {
+        source.injections.clear();
+        OpenedSource opened;
+        if (source.pings) {
+            const auto pings = std::make_shared<SimulatedPings>(*source.pings);
+            opened.pingTruth = pings->truth();
+            opened.frames = pings;
+        } else if (source.scene) {
+            const auto recording = std::make_shared<SimulatedRecording>(*source.scene);
+            opened.truth = recording->truth();
+            opened.recording = recording;
+        } else if (source.isStack()) {
+            opened.frames = readStack(source.path);
+        } else {
+            opened.recording = openRecording(pathBytes(source.path), source.options);
+        }
+        opened.source = std::move(source);
+        return opened;
+    }
+
+    std::vector<InjectedLine> linesOf(const std::vector<Source::Injection> &injections)
+    {
+        std::vector<InjectedLine> lines;
+        for (const Source::Injection &injection : injections)
+            lines.push_back(injection.line);
+        return lines;
+    }
+
+} // namespace
+
+QString Source::name() const
+{
+    return fileLabel(path);
+}
+
+bool Source::isStack() const
+{
+    return !isSimulated() && path.endsWith(QLatin1String(".npy"), Qt::CaseInsensitive);
+}
+
+QString gridPathOf(const QString &stackPath)
+{
+    return stackPath.chopped(4) + QStringLiteral(".grid.json");
+}
+
+Source sourceOf(const QString &path, const OpenOptions &options)
+{
+    Source source;
+    source.path = path;
+    source.options = options;
+    if (path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive))
+        readScene(path, source);
+    return source;
+}
+
+OpenedSource openSource(const Source &source)
+{
+    OpenedSource opened = openBase(source);
+    if (source.injections.empty())
+        return opened;
+    if (!opened.recording)
+        throw Error("recording.injected", "lines are added to the samples of a recording; this is of frames");
+    checkInjections(linesOf(source.injections), opened.recording->info(), "recording.injected");
+    for (const Source::Injection &injection : source.injections)
+        opened = withInjection(opened, injection);
+    return opened;
+}
+
+AnalysisSettings firstSettings(const OpenedSource &opened)
+{
+    const bool isPings = opened.frames && opened.frames->grid().axes.size() > 1;
+    return isPings ? preset("sonar").settings : AnalysisSettings();
+}
+
+std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context,
+                                        const Analysis *previous, const PictureSink &pictures, CalibrationDepth depth)
+{
+    return opened.frames ? analyse(opened.frames, settings, context, previous)
+                         : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
+                                                 previous, pictures, depth);
+}
+
+OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)
+{
+    OpenedSource result = opened;
+    const auto recording =
+        std::make_shared<InjectedRecording>(opened.recording, std::vector{injection.line}, injection.channel, injection.seed);
+    const Truth added = recording->truth();
+    result.recording = recording;
+    result.source.injections.push_back(injection);
+    result.truth.lines.insert(result.truth.lines.end(), added.lines.begin(), added.lines.end());
+    return result;
+}
+
+bool needsRawOptions(const QString &path, const OpenOptions &options)
+{
+    const std::string name = pathBytes(path);
+    return options.rawType.empty() && !(options.rawRateHz > 0.0) && isRegularFile(path) && rawTypeOfExtension(name)
+           && !AudioRecording::recognises(name);
+}
+
+} // namespace faintline

@@ -1,0 +1,138 @@
+#include "app/help/KeysOverlay.h"
+
+#include "app/help/keySections.h"
+#include "widgets/base/Theme.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QKeyEvent>
+#include <QPainter>
+
+#include <algorithm>
+#include <vector>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int rowHeight = 23;
+    constexpr int titleHeight = 34;
+    constexpr int keyWidth = 165;
+    constexpr int columnWidth = 440;
+    constexpr int margin = 28;
+    constexpr int gap = 14; ///< between the view's own and the rest
+
+    int heightOf(const std::vector<KeySection> &sections)
+    {
+        int height = 0;
+        for (const KeySection &section : sections)
+            height += titleHeight + rowHeight * static_cast<int>(section.entries.size());
+        return height;
+    }
+
+    void paintColumn(QPainter &painter, const std::vector<KeySection> &sections, QPoint at, const Theme::Colours &colours)
+    {
+        for (const KeySection &section : sections) {
+            painter.setFont(Theme::boldFont(14));
+            painter.setPen(colours.accent);
+            painter.drawText(QRect(at, QSize(columnWidth, titleHeight)), Qt::AlignLeft | Qt::AlignVCenter,
+                             section.title);
+            at.ry() += titleHeight;
+            for (const KeySection::Entry &entry : section.entries) {
+                painter.setFont(Theme::boldFont());
+                painter.setPen(colours.text);
+                painter.drawText(QRect(at, QSize(keyWidth, rowHeight)), Qt::AlignLeft | Qt::AlignVCenter,
+                                 entry.keys);
+                painter.setFont(Theme::font());
+                painter.drawText(QRect(at.x() + keyWidth, at.y(), columnWidth - keyWidth, rowHeight),
+                                 Qt::AlignLeft | Qt::AlignVCenter, entry.does);
+                at.ry() += rowHeight;
+            }
+        }
+    }
+
+} // namespace
+
+KeysOverlay::KeysOverlay(QWidget *window) : QWidget(window)
+{
+    setFocusPolicy(Qt::StrongFocus);
+    setAccessibleName(tr("Keys and mouse"));
+    window->installEventFilter(this);
+    hide();
+}
+
+void KeysOverlay::toggle(const QString &view)
+{
+    m_view = view;
+    if (isVisible())
+        return close();
+    m_previousFocus = QApplication::focusWidget();
+    setGeometry(parentWidget()->rect());
+    raise();
+    show();
+    setFocus();
+}
+
+void KeysOverlay::close()
+{
+    hide();
+    if (m_previousFocus)
+        m_previousFocus->setFocus();
+}
+
+bool KeysOverlay::event(QEvent *event)
+{
+    if (event->type() == QEvent::ShortcutOverride)
+        event->accept(); // while the sheet is up, keys are for the sheet
+    return QWidget::event(event);
+}
+
+void KeysOverlay::paintEvent(QPaintEvent *)
+{
+    const Theme::Colours &colours = Theme::colours(*this);
+    // What the view has for itself stands above, in two halves; what holds everywhere below.
+    const KeySection own = keysOfView(m_view);
+    const auto rows = static_cast<std::ptrdiff_t>(own.entries.size() + 1) / 2;
+    const KeySection halves[2]{{own.title, {own.entries.begin(), own.entries.begin() + rows}},
+                               {QString(), {own.entries.begin() + rows, own.entries.end()}}};
+    const int ownHeight = own.entries.empty() ? 0 : heightOf({halves[0]}) + gap;
+    const auto general = generalKeys(m_view);
+    const QSize size(2 * columnWidth + 3 * margin, ownHeight + std::max(heightOf(general[0]), heightOf(general[1])) + 2 * margin);
+    const QRect sheet(QPoint((width() - size.width()) / 2, std::max(0, (height() - size.height()) / 2)), size);
+
+    QPainter painter(this);
+    painter.fillRect(rect(), QColor(0, 0, 0, 120));
+    painter.fillRect(sheet, palette().color(QPalette::Window));
+    painter.setPen(colours.frame);
+    painter.drawRect(sheet.adjusted(0, 0, -1, -1));
+    for (int i = 0; i < 2; ++i) {
+        const QPoint column = sheet.topLeft() + QPoint(margin + i * (columnWidth + margin), margin);
+        if (ownHeight > 0)
+            paintColumn(painter, {halves[i]}, column, colours);
+        paintColumn(painter, general[static_cast<std::size_t>(i)], column + QPoint(0, ownHeight), colours);
+    }
+    if (ownHeight > 0) {
+        painter.setPen(colours.frame);
+        painter.drawLine(sheet.left() + margin, sheet.top() + margin + ownHeight - gap / 2, sheet.right() - margin,
+                         sheet.top() + margin + ownHeight - gap / 2);
+    }
+}
+
+void KeysOverlay::keyPressEvent(QKeyEvent *)
+{
+    close();
+}
+
+void KeysOverlay::mousePressEvent(QMouseEvent *)
+{
+    close();
+}
+
+bool KeysOverlay::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == parentWidget() && event->type() == QEvent::Resize)
+        setGeometry(parentWidget()->rect());
+    return QWidget::eventFilter(watched, event);
+}
+
+} // namespace faintline

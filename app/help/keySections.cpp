@@ -1,0 +1,216 @@
+#include "app/help/keySections.h"
+
+#include <QApplication>
+#include <QStringList>
+
+namespace faintline {
+
+namespace {
+
+    struct Entry {
+        const char *keys;
+        const char *does;
+    };
+    struct Section {
+        const char *title;
+        std::vector<Entry> entries;
+    };
+
+    QString tr(const char *text)
+    {
+        return QApplication::translate("keySections", text);
+    }
+
+    KeySection spoken(const Section &section)
+    {
+        KeySection result{tr(section.title), {}};
+        for (const Entry &entry : section.entries)
+            result.entries.push_back({tr(entry.keys), tr(entry.does)});
+        return result;
+    }
+
+    const Section &mouse()
+    {
+        static const Section section{"Mouse on a waterfall",
+                                     {{"Wheel", "scroll time"},
+                                      {"Shift + wheel", "scroll frequency"},
+                                      {"Ctrl + wheel", "zoom about the pointer"},
+                                      {"Wheel on an axis", "zoom that axis"},
+                                      {"Drag", "pan"},
+                                      {"Shift + drag", "zoom to a box"},
+                                      {"Click", "place the cursor"},
+                                      {"Ctrl + click", "on the peak nearby; M's corners too"},
+                                      {"Double-click", "go to the event there"}}};
+        return section;
+    }
+
+    const Section &look()
+    {
+        static const Section section{"Look",
+                                     {{"0", "show all"},
+                                      {"Backspace", "zoom back"},
+                                      {"Arrows", "move the cursor by a cell, with Ctrl by ten"},
+                                      {"O", "next orientation"},
+                                      {"C", "next colour map"},
+                                      {"[  ]", "black level down, up"},
+                                      {"{  }", "white level down, up"},
+                                      {"A", "automatic range"},
+                                      {"V   Shift + V", "next output layer; over the statistic"},
+                                      {"S", "state space under the cursor, and its law"}}};
+        return section;
+    }
+
+    const Section &detect()
+    {
+        static const Section section{"Detect",
+                                     {{",  .", "threshold down, up by a quarter nat"},
+                                      {"N   Shift + N", "next, previous event"},
+                                      {"Y  X  U", "accept, reject the event; undecided"},
+                                      {"E   G   Shift + G", "note on it; merge, separate several"},
+                                      {"W", "why detected, or why not"},
+                                      {"Ctrl + D", "draw a line by hand"},
+                                      {"Ctrl + B", "keep as A, to compare others with it"},
+                                      {"M   B", "measure a box; annotate it"},
+                                      {"K", "cursor to the peak nearby"},
+                                      {"H", "harmonics of the cursor's frequency"},
+                                      {"I", "sidebands: drag one, or Alt + Left, Right"},
+                                      {"Space", "play"},
+                                      {"J  L", "one frame, ping or stage back, forward"},
+                                      {"Ctrl + R", "run again"},
+                                      {"Escape", "stop, or clear what is marked"}}};
+        return section;
+    }
+
+    const Section &pings()
+    {
+        static const Section section{"Sonar pings",
+                                     {{"P", "from above, or range over bearing"},
+                                      {"J  L", "one ping back, forward"},
+                                      {"Space   Shift + Space", "play, play backwards"}}};
+        return section;
+    }
+
+    const Section &file()
+    {
+        static const Section section{"File and help",
+                                     {{"Ctrl + O", "open; or drop a file on the window"},
+                                      {"Ctrl + S", "save the session"},
+                                      {"Ctrl + Z   Ctrl + Y", "undo, redo a setting"},
+                                      {"Ctrl + K", "find a command by name"},
+                                      {"F1   ?", "these keys"},
+                                      {"Shift + F1", "the equation of the view"},
+                                      {"F5", "presentation"},
+                                      {"Ctrl + Q", "quit"}}};
+        return section;
+    }
+
+    Section waterfall(const char *title)
+    {
+        Section section = mouse();
+        section.title = title;
+        section.entries.insert(section.entries.end(), look().entries.begin(), look().entries.end());
+        return section;
+    }
+
+    const std::vector<std::pair<QStringList, Section>> &viewSections()
+    {
+        static const std::vector<std::pair<QStringList, Section>> all{
+            {{"input"}, waterfall("Here: the input waterfall")},
+            {{"output"}, waterfall("Here: the statistic's waterfall")},
+            {{"histories"}, waterfall("Here: range and bearing against time")},
+            {{"map", "polar"},
+             {"Here: a ping's map",
+              {{"P", "from above, or range over bearing"},
+               {"J  L", "one ping back, forward"},
+               {"Space   Shift + Space", "play, play backwards"},
+               {"Click, arrows", "place, move the cursor"},
+               {"Ctrl + wheel", "zoom about the pointer"},
+               {"Drag", "pan"},
+               {"0   Backspace", "show all, zoom back"},
+               {"S", "state space under the cursor, and its law"},
+               {"V   Shift + V", "next output layer; over the statistic"},
+               {"Y  X  U", "accept, reject the track here; undecided"}}}},
+            {{"threshold"},
+             {"Here: the threshold curve",
+              {{"Drag anywhere", "move the threshold"},
+               {",  .", "threshold down, up by a quarter nat"},
+               {"Right button", "nats, Pfa per cell, false alarms/h"}}}},
+            {{"events"},
+             {"Here: the table of events",
+              {{"N   Shift + N", "next, previous event"},
+               {"Enter, click", "go to the event"},
+               {"Click on a title", "sort by it"},
+               {"Y  X  U", "accept, reject; undecided"},
+               {"E   G   Shift + G", "note; merge, separate several"},
+               {"In the filter", "f>1000 stat>25 open: all must hold"}}}},
+            {{"pd", "asn", "prior", "latency"},
+             {"Here: a chart",
+              {{"Left  Right", "from point to point of a curve"},
+               {"Up  Down", "from curve to curve"},
+               {"Click, Enter", "on a measured point: what is behind it"},
+               {"Boxes of the key", "show and hide curves"}}}},
+            {{"slice"}, waterfall("Here: a slice through the states")},
+            {{"sweep"},
+             {"Here: a sweep",
+              {{"Left  Right", "from value to value"},
+               {"Up  Down", "from curve to curve"},
+               {"Click, Enter", "on a value: take it over"}}}},
+            {{"compare"},
+             {"Here: A against B",
+              {{"Ctrl + B", "keep as A"}, {"Ctrl + Shift + B", "swap A and B"}, {"Click on an event", "go there"}}}},
+            {{"walk", "sequential"},
+             {"Here: the sequential test",
+              {{"Click on a walk", "follow this test"},
+               {"Up  Down", "the test before, after it"},
+               {"J  L", "one stage back, forward"},
+               {"Ctrl + T", "this panel"}}}},
+            {{"stopping"},
+             {"Here: when tests stop",
+              {{"Click on a bar", "a test that stopped at this stage"}, {"J  L", "one stage back, forward"}}}},
+            {{"posterior", "scan"},
+             {"Here: one test's stage", {{"J  L", "one stage back, forward"}, {"The slider", "any stage"}}}},
+            {{"profile", "regulation"},
+             {"Here: a chart along time",
+              {{"Wheel", "scroll time"},
+               {"Ctrl + wheel", "zoom in time"},
+               {"Drag", "pan"},
+               {"Click", "place the cursor"}}}},
+            {{"why"},
+             {"Here: the ladder",
+              {{"Click in a picture", "explain the cell there"}, {"Arrows in a picture", "and of its neighbours"}}}},
+            {{"hand"},
+             {"Here: drawing by hand",
+              {{"Press in the input", "a new point"},
+               {"Drag a point", "move it; the numbers follow"},
+               {"Right click on it", "take it away"},
+               {"Alt + U", "a point at the cursor"}}}},
+        };
+        return all;
+    }
+
+    bool saysAllOfAWaterfall(const QString &view)
+    {
+        return view == QLatin1String("input") || view == QLatin1String("output") || view == QLatin1String("histories")
+               || view == QLatin1String("slice");
+    }
+
+} // namespace
+
+KeySection keysOfView(const QString &view)
+{
+    for (const auto &[views, section] : viewSections())
+        if (views.contains(view))
+            return spoken(section);
+    return {};
+}
+
+std::array<std::vector<KeySection>, 2> generalKeys(const QString &view)
+{
+    if (saysAllOfAWaterfall(view))
+        return {{{spoken(detect())}, {spoken(pings()), spoken(file())}}};
+    if (view == QLatin1String("map"))
+        return {{{spoken(mouse()), spoken(look())}, {spoken(detect()), spoken(file())}}};
+    return {{{spoken(mouse()), spoken(look())}, {spoken(detect()), spoken(pings()), spoken(file())}}};
+}
+
+} // namespace faintline

@@ -1,0 +1,247 @@
+#include "app/lessons/LessonPanel.h"
+
+#include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
+
+#include <QButtonGroup>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QRadioButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QSignalBlocker>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int plainSize = 14;
+    constexpr int largeSize = 26; ///< read from the last row
+
+    /// A choice whose words wrap: a radio button would not wrap its own.
+    QWidget *choiceRow(QRadioButton *button, QLabel *words)
+    {
+        auto *row = new QWidget;
+        auto *layout = new QHBoxLayout(row);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setSpacing(8);
+        layout->addWidget(button, 0, Qt::AlignTop);
+        layout->addWidget(words, 1);
+        return row;
+    }
+
+} // namespace
+
+LessonPanel::LessonPanel(QWidget *parent)
+    : QWidget(parent), m_title(plainLabel()), m_place(new QLabel), m_progress(new QProgressBar), m_area(new QScrollArea),
+      m_back(new QPushButton(tr("Bac&k"))), m_next(new QPushButton(tr("Ne&xt"))), m_leave(new QPushButton(tr("Leave")))
+{
+    m_title->setWordWrap(true);
+    m_progress->setTextVisible(false);
+    m_progress->setFixedHeight(4);
+    m_progress->setAccessibleName(tr("How far the lesson is"));
+    m_area->setWidgetResizable(true);
+    m_area->setFrameShape(QFrame::NoFrame);
+    m_area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_area->setAccessibleName(tr("The lesson's text"));
+    m_leave->setFlat(true);
+    connect(m_back, &QPushButton::clicked, this, &LessonPanel::backRequested);
+    connect(m_next, &QPushButton::clicked, this, &LessonPanel::nextRequested);
+    connect(m_leave, &QPushButton::clicked, this, &LessonPanel::leaveRequested);
+
+    auto *way = new QHBoxLayout;
+    way->addWidget(m_leave);
+    way->addStretch(1);
+    way->addWidget(m_back);
+    way->addWidget(m_next);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(12, 8, 12, 8);
+    layout->setSpacing(6);
+    layout->addWidget(m_title);
+    layout->addWidget(m_place);
+    layout->addWidget(m_progress);
+    layout->addWidget(m_area, 1);
+    layout->addLayout(way);
+}
+
+QFont LessonPanel::font(bool isBold) const
+{
+    const int size = m_isLarge ? largeSize : plainSize;
+    return isBold ? Theme::boldFont(size) : Theme::font(size);
+}
+
+QLabel *LessonPanel::paragraph(const QString &text, bool isBold)
+{
+    auto *label = new QLabel(text);
+    label->setTextFormat(Qt::PlainText);
+    label->setWordWrap(true);
+    label->setFont(font(isBold));
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    label->setFocusPolicy(Qt::NoFocus);
+    return label;
+}
+
+void LessonPanel::setStep(const Lesson &lesson, int step)
+{
+    m_lesson = lesson;
+    m_step = step;
+    m_isDone = false;
+    fill();
+}
+
+void LessonPanel::setLarge(bool isLarge)
+{
+    constexpr int largeWidth = 500; // some thirty letters a line
+    setMinimumWidth(isLarge ? largeWidth : 0);
+    if (std::exchange(m_isLarge, isLarge) == isLarge || m_step < 0)
+        return;
+    const int chosen = choice();
+    const bool wasDone = m_isDone;
+    fill();
+    m_isDone = wasDone;
+    if (chosen >= 0) {
+        const QSignalBlocker blocker(m_choices);
+        m_choices->button(chosen)->setChecked(true);
+        showAnswer(chosen);
+    }
+    showState();
+}
+
+void LessonPanel::fill()
+{
+    const LessonStep &step = m_lesson.steps[static_cast<std::size_t>(m_step)];
+    const int count = static_cast<int>(m_lesson.steps.size());
+    m_title->setText(m_lesson.title);
+    m_title->setFont(Theme::boldFont(m_isLarge ? largeSize : plainSize));
+    m_place->setText(tr("Step %1 of %2").arg(m_step + 1).arg(count));
+    m_place->setFont(Theme::font(m_isLarge ? 20 : 12));
+    for (QPushButton *button : {m_back, m_next, m_leave})
+        button->setFont(Theme::font(m_isLarge ? 20 : 13));
+    m_progress->setRange(0, count);
+    m_progress->setValue(m_step + 1);
+    m_next->setText(m_step + 1 == count ? tr("F&inish") : tr("Ne&xt"));
+    m_back->setEnabled(m_step > 0);
+
+    m_choices = nullptr;
+    m_why = m_task = m_then = nullptr;
+    auto *page = new QWidget;
+    auto *column = new QVBoxLayout(page);
+    column->setContentsMargins(0, 4, 6, 4);
+    column->setSpacing(m_isLarge ? 12 : 9);
+    column->addWidget(paragraph(step.title, true));
+    column->addWidget(paragraph(step.text));
+    if (step.question) {
+        column->addWidget(paragraph(step.question->text, true));
+        m_choices = new QButtonGroup(page);
+        for (int i = 0; i < step.question->choices.size(); ++i) {
+            auto *button = new QRadioButton;
+            auto *words = paragraph(step.question->choices[i]);
+            words->setTextInteractionFlags(Qt::NoTextInteraction);
+            words->setBuddy(button);
+            button->setAccessibleName(step.question->choices[i]);
+            button->setFont(font(false));
+            button->setFixedHeight(QFontMetrics(font(false)).height()); // beside the first line
+            m_choices->addButton(button, i);
+            column->addWidget(choiceRow(button, words));
+        }
+        m_why = paragraph({});
+        m_why->hide();
+        column->addWidget(m_why);
+        connect(m_choices, &QButtonGroup::idClicked, this, [this](int chosen) {
+            showAnswer(chosen);
+            emit answered(chosen);
+        });
+    }
+    if (!step.task.isEmpty()) {
+        m_task = paragraph({}, true);
+        m_then = paragraph(step.then);
+        column->addWidget(m_task);
+        column->addWidget(m_then);
+    }
+    column->addStretch(1);
+    m_area->setWidget(page);
+    m_area->verticalScrollBar()->setValue(0);
+    showState();
+}
+
+int LessonPanel::choice() const
+{
+    return m_choices ? m_choices->checkedId() : -1;
+}
+
+void LessonPanel::showAnswer(int chosen)
+{
+    const LessonQuestion &question = *m_lesson.steps[static_cast<std::size_t>(m_step)].question;
+    m_why->setText(
+        (chosen == question.answer ? tr("Right. ") : tr("It is “%1”. ").arg(question.choices[question.answer]))
+        + question.why);
+    m_why->show();
+    QTimer::singleShot(0, m_why, [this] { m_area->ensureWidgetVisible(m_why); });
+}
+
+void LessonPanel::setDone(bool isDone)
+{
+    m_isDone = isDone;
+    showState();
+    if (isDone && m_then && !m_then->text().isEmpty())
+        QTimer::singleShot(0, m_then, [this] { m_area->ensureWidgetVisible(m_then); });
+}
+
+void LessonPanel::setWaiting(bool isWaiting)
+{
+    m_isWaiting = isWaiting;
+    showState();
+}
+
+void LessonPanel::showState()
+{
+    if (m_step < 0)
+        return;
+    const LessonStep &step = m_lesson.steps[static_cast<std::size_t>(m_step)];
+    const Theme::Colours &colours = Theme::colours(*this);
+    if (m_choices)
+        for (QAbstractButton *button : m_choices->buttons()) {
+            QPalette palette = this->palette();
+            if (palette.color(QPalette::Window).lightness() < 128)
+                palette.setColor(QPalette::Base,
+                                 colours.frame.lighter(170)); // dark on dark, nobody would see where to click
+            button->setPalette(palette);
+        }
+    if (m_task) {
+        m_task->setText((m_isDone ? QStringLiteral("✓ ") : QStringLiteral("→ ")) + step.task);
+        QPalette palette = this->palette();
+        palette.setColor(QPalette::WindowText, m_isDone ? colours.faintText : colours.accent);
+        m_task->setPalette(palette);
+        m_then->setVisible(m_isDone && !step.then.isEmpty());
+    }
+    m_place->setText(m_isWaiting ? tr("Step %1 of %2 · computing …").arg(m_step + 1).arg(m_lesson.steps.size())
+                                 : tr("Step %1 of %2").arg(m_step + 1).arg(m_lesson.steps.size()));
+    m_next->setDefault(step.task.isEmpty() || m_isDone);
+}
+
+QString LessonPanel::text() const
+{
+    QStringList all{m_title->text()};
+    if (m_area->widget())
+        for (const QLabel *label : m_area->widget()->findChildren<QLabel *>())
+            if (!label->isHidden())
+                all << label->text();
+    return all.join(QLatin1Char('\n'));
+}
+
+void LessonPanel::changeEvent(QEvent *event)
+{
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange)
+        showState();
+}
+
+} // namespace faintline

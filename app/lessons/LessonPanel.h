@@ -1,0 +1,79 @@
+#pragma once
+
+#include "app/lessons/Lesson.h"
+
+#include <QWidget>
+
+class QAbstractButton;
+class QButtonGroup;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QScrollArea;
+
+namespace faintline {
+
+/// A lesson's page: what it says, its question with the choices, what to do, and the way back and on. It knows nothing of the window.
+///
+/// The answer to a question, and what is said after a task, stand there only once the choice is made and the task is done.
+class LessonPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit LessonPanel(QWidget *parent = nullptr);
+
+    void setStep(const Lesson &lesson, int step);
+    void setDone(bool isDone);       ///< the task
+    void setWaiting(bool isWaiting); ///< the window is not there yet
+    /// For those who sit farther away.
+    void setLarge(bool isLarge);
+
+    int step() const { return m_step; }
+    int choice() const; ///< -1: none yet
+    bool isDone() const { return m_isDone; }
+    QString text() const; ///< all that can be read, for tests and screen readers
+
+    QPushButton *back() const { return m_back; }
+    QPushButton *next() const { return m_next; }
+    QPushButton *leave() const { return m_leave; }
+    QButtonGroup *choices() const { return m_choices; }
+
+    QSize sizeHint() const override { return {310, 420}; }
+
+signals:
+    void backRequested();
+    void nextRequested();
+    void leaveRequested();
+    void answered(int choice);
+
+protected:
+    void changeEvent(QEvent *event) override;
+
+private:
+    void fill();
+    void showAnswer(int choice);
+    void showState();
+    QLabel *paragraph(const QString &text, bool isBold = false);
+    QFont font(bool isBold) const;
+
+    Lesson m_lesson;
+    int m_step = -1;
+    bool m_isDone = false;
+    bool m_isWaiting = false;
+    bool m_isLarge = false;
+
+    QLabel *m_title;
+    QLabel *m_place;
+    QProgressBar *m_progress;
+    QScrollArea *m_area;
+    QPushButton *m_back;
+    QPushButton *m_next;
+    QPushButton *m_leave;
+    QButtonGroup *m_choices = nullptr; ///< of the step shown; null without a question
+    QLabel *m_why = nullptr;
+    QLabel *m_task = nullptr;
+    QLabel *m_then = nullptr;
+};
+
+} // namespace faintline

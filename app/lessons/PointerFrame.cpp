@@ -1,0 +1,77 @@
+#include "app/lessons/PointerFrame.h"
+
+#include "widgets/base/Theme.h"
+
+#include <QAbstractScrollArea>
+#include <QEvent>
+#include <QPainter>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int lineWidth = 3;
+    constexpr int room = 4; ///< between what is framed and the frame's outer edge
+
+} // namespace
+
+PointerFrame::PointerFrame(QWidget *window) : QWidget(window)
+{
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setFocusPolicy(Qt::NoFocus);
+    window->installEventFilter(this); // its layout brings its own to the front
+    hide();
+}
+
+void PointerFrame::pointAt(QWidget *target)
+{
+    for (QWidget *each = m_target; each && each != parentWidget(); each = each->parentWidget())
+        each->removeEventFilter(this);
+    m_target = target;
+    for (QWidget *each = m_target; each && each != parentWidget(); each = each->parentWidget())
+        each->installEventFilter(this);
+    follow();
+}
+
+void PointerFrame::follow()
+{
+    const bool isThere =
+        m_target && m_target->window() == window() && m_target->isVisible() && !m_target->visibleRegion().isEmpty();
+    setVisible(isThere);
+    if (!isThere)
+        return;
+    QRect round = QRect(m_target->mapTo(parentWidget(), QPoint()), m_target->size()).adjusted(-room, -room, room, room);
+    for (QWidget *around = m_target->parentWidget(); around && around != parentWidget(); around = around->parentWidget())
+        if (const auto *area = qobject_cast<QAbstractScrollArea *>(around)) // of a form that scrolls, no more than is in sight
+            round &= QRect(area->viewport()->mapTo(parentWidget(), QPoint()), area->viewport()->size());
+    setGeometry(round.intersected(parentWidget()->rect()));
+    raise();
+}
+
+void PointerFrame::paintEvent(QPaintEvent *)
+{
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const double half = 0.5 * lineWidth;
+    painter.setPen(QPen(Theme::colours(*this).accent, lineWidth));
+    painter.drawRoundedRect(QRectF(rect()).adjusted(half, half, -half, -half), 4.0, 4.0);
+}
+
+bool PointerFrame::eventFilter(QObject *watched, QEvent *event)
+{
+    switch (event->type()) {
+    case QEvent::Resize:
+    case QEvent::Move:
+    case QEvent::Show:
+    case QEvent::Hide:
+    case QEvent::ParentChange:
+    case QEvent::LayoutRequest:
+        QMetaObject::invokeMethod(this, &PointerFrame::follow, Qt::QueuedConnection); // once it is where it goes
+        break;
+    default:
+        break;
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+} // namespace faintline

@@ -1,0 +1,376 @@
+#include "app/lessons/lessonMeasures.h"
+
+#include "app/workspace/PingBench.h"
+#include "app/panels/WhyPanel.h"
+#include "app/views/WindowParts.h"
+#include "app/views/WindowViews.h"
+#include "app/workspace/Workbench.h"
+#include "base/Error.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <regex>
+
+namespace faintline {
+
+namespace {
+
+    using Value = std::optional<FieldValue>;
+    using Measure = std::function<Value(WindowParts &)>;
+
+    /// A measure of what was analysed.
+    template <class F>
+    Measure ofAnalysis(F f)
+    {
+        return [f](WindowParts &window) -> Value {
+            const auto &analysis = window.document().analysis();
+            return analysis ? Value(f(*analysis)) : std::nullopt;
+        };
+    }
+
+    template <class F>
+    Measure ofCursor(F f)
+    {
+        return [f](WindowParts &window) -> Value {
+            const auto &cursor = window.document().viewport().cursor();
+            return cursor && window.document().analysis() && !window.document().hasPings() ? Value(f(window, *cursor))
+                                                                                           : std::nullopt;
+        };
+    }
+
+    template <class F>
+    Measure ofPlace(F f)
+    {
+        return [f](WindowParts &window) -> Value {
+            return window.document().hasPings() ? Value(f(window.pingBench().viewports().place())) : std::nullopt;
+        };
+    }
+
+    double mean(const std::vector<float> &values)
+    {
+        return values.empty() ? 0.0
+                              : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    }
+
+    double windowSeconds(const Analysis &analysis)
+    {
+        const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get());
+        return frames ? frames->spectrogram().windowSamples() / analysis.recording->info().sampleRateHz
+                      : analysis.time().step;
+    }
+
+    double shareAboveTwice(const Analysis &analysis)
+    {
+        constexpr Index mostFrames = 256;
+        const auto cells = static_cast<std::size_t>(analysis.grid().size());
+        std::vector<float> y(cells);
+        const Index count = std::min(mostFrames, analysis.time().count);
+        std::size_t above = 0;
+        for (Index i = 0; i < count; ++i) {
+            analysis.frames->read(i * analysis.time().count / count, 1, y);
+            above +=
+                static_cast<std::size_t>(std::count_if(y.begin(), y.end(), [](float value) { return value > 2.0f; }));
+        }
+        return static_cast<double>(above) / static_cast<double>(cells * static_cast<std::size_t>(count));
+    }
+
+    double peak(const WindowParts &, const Document &document)
+    {
+        double largest = 0.0;
+        for (const Event &event : document.shownEvents())
+            largest = std::max(largest, event.statistic);
+        return largest;
+    }
+
+    // ---- truth and tracks ----------------------------------------------------------------------------------------------------
+
+    /// The cell that the truth's line or target fills in a frame; nothing where it is not there.
+    std::optional<Index> truthCell(const Document &document, std::size_t line, Index frame)
+    {
+        const Analysis &analysis = *document.analysis();
+        if (document.hasPings()) {
+            const auto &targets = document.pingTruth().targets;
+            const Index cell = line < targets.size() ? targets[line].cellAt(frame) : -1;
+            return cell < 0 ? std::nullopt : std::optional(cell);
+        }
+        const auto &lines = document.truth().lines;
+        const double seconds = analysis.time().value(static_cast<double>(frame));
+        if (line >= lines.size() || seconds < lines[line].startSeconds || seconds > lines[line].endSeconds)
+            return {};
+        return analysis.grid().axes.front().nearest(lines[line].frequencyAt(seconds));
+    }
+
+    bool isNear(const Grid &grid, Index a, Index b)
+    {
+        constexpr Index reach = 3;
+        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {
+            const Axis &along = grid.axes[axis];
+            Index distance = std::abs(grid.coordinates(a)[axis] - grid.coordinates(b)[axis]);
+            if (along.cyclic)
+                distance = std::min(distance, along.count - distance);
+            if (distance > reach)
+                return false;
+        }
+        return true;
+    }
+
+    struct Following {
+        double share = 0.0;
+        int tracks = 0;
+        double peak = 0.0; ///< largest statistic of them
+        std::optional<double> seconds;
+    };
+
+    Following following(const Document &document, std::size_t line)
+    {
+        const Analysis &analysis = *document.analysis();
+        std::vector<bool> isThere(static_cast<std::size_t>(analysis.time().count));
+        std::vector<bool> isFollowed(isThere.size());
+        for (Index frame = 0; frame < analysis.time().count; ++frame)
+            isThere[static_cast<std::size_t>(frame)] = truthCell(document, line, frame).has_value();
+        const auto first = std::find(isThere.begin(), isThere.end(), true) - isThere.begin();
+        Following result;
+        for (const Track &track : document.shownTracks()) {
+            int together = 0;
+            for (const TrackPoint &point : track.points)
+                if (const auto cell = truthCell(document, line, point.frame);
+                    cell && isNear(analysis.grid(), *cell, point.cell)) {
+                    isFollowed[static_cast<std::size_t>(point.frame)] = true;
+                    ++together;
+                }
+            if (2 * together <= std::ssize(track.points))
+                continue;
+            ++result.tracks;
+            result.peak = std::max(result.peak, track.peakStatistic);
+            const double seconds = static_cast<double>(track.detectFrame - first) * analysis.time().step;
+            result.seconds = std::min(seconds, result.seconds.value_or(seconds));
+        }
+        const auto there = std::count(isThere.begin(), isThere.end(), true);
+        result.share = there ? static_cast<double>(std::count(isFollowed.begin(), isFollowed.end(), true))
+                                   / static_cast<double>(there)
+                             : 0.0;
+        return result;
+    }
+
+    /// "line.2.followed" and its like.
+    Value lineMeasure(WindowParts &window, const std::string &name)
+    {
+        static const std::regex pattern("line\\.([1-9])\\.(followed|tracks|seconds|peak)");
+        std::smatch parts;
+        if (!window.document().analysis() || !std::regex_match(name, parts, pattern))
+            return {};
+        const Following found = following(window.document(), static_cast<std::size_t>(std::stoi(parts[1])) - 1);
+        if (parts[2] == "followed")
+            return found.share;
+        if (parts[2] == "tracks")
+            return static_cast<double>(found.tracks);
+        if (parts[2] == "peak")
+            return found.peak;
+        return found.seconds ? Value(*found.seconds) : std::nullopt;
+    }
+
+    bool isLineMeasure(const std::string &name)
+    {
+        static const std::regex pattern("line\\.([1-9])\\.(followed|tracks|seconds|peak)");
+        return std::regex_match(name, pattern);
+    }
+
+    // ---- sequential tests ----------------------------------------------------------------------------------------------------
+
+    Measure meanStages(bool hasTarget)
+    {
+        return [hasTarget](WindowParts &window) -> Value {
+            double sum = 0.0;
+            int count = 0;
+            for (const auto &[run, result] : window.sequentialTests().walks())
+                if (run.hasTarget == hasTarget) {
+                    sum += static_cast<double>(result.stages);
+                    ++count;
+                }
+            return count ? Value(sum / count) : std::nullopt;
+        };
+    }
+
+    Value wrongWalks(WindowParts &window)
+    {
+        int wrong = 0;
+        for (const auto &[run, result] : window.sequentialTests().walks())
+            wrong += result.decision == (run.hasTarget ? SprtDecision::H0 : SprtDecision::H1);
+        return static_cast<double>(wrong);
+    }
+
+    /// Mean over the steps of the path that the ladder shows.
+    Value lnTransitionOfPath(WindowParts &window)
+    {
+        const auto &explanation = window.why().explanation();
+        if (!explanation || explanation->steps.size() < 2)
+            return {};
+        double sum = 0.0;
+        for (auto step = explanation->steps.begin() + 1; step != explanation->steps.end(); ++step)
+            sum += step->lnTransition;
+        return sum / static_cast<double>(explanation->steps.size() - 1);
+    }
+
+    const SequentialTests::Walk *selectedWalk(WindowParts &window)
+    {
+        const auto &tests = window.sequentialTests();
+        return tests.selected() < 0 ? nullptr : &tests.walks()[static_cast<std::size_t>(tests.selected())];
+    }
+
+    const std::map<std::string, Measure> &measures()
+    {
+        static const std::map<std::string, Measure> table{
+            {"cursor.seconds",
+             [](WindowParts &window) -> Value {
+                 if (window.document().hasPings())
+                     return window.pingBench().viewports().place().seconds;
+                 const auto &cursor = window.document().viewport().cursor();
+                 return cursor ? Value(cursor->seconds) : std::nullopt;
+             }},
+            {"cursor.hz", ofCursor([](WindowParts &, const Viewport::Point &at) { return at.hz; })},
+            {"cursor.range", ofPlace([](const PingViewports::Place &place) { return place.range; })},
+            {"cursor.bearing", ofPlace([](const PingViewports::Place &place) { return place.bearing; })},
+            {"level", ofCursor([](WindowParts &window, const Viewport::Point &at) {
+                 return window.workbench().input()->valueAt(at.seconds, at.hz).value_or(-1e9);
+             })},
+            {"statistic", ofCursor([](WindowParts &window, const Viewport::Point &at) {
+                 return window.workbench().output()->valueAt(at.seconds, at.hz).value_or(-1e9);
+             })},
+            {"visible.seconds",
+             [](WindowParts &window) -> Value { return window.document().viewport().time().width(); }},
+            {"visible.hz",
+             [](WindowParts &window) -> Value { return window.document().viewport().frequency().width(); }},
+            {"frameSeconds", ofAnalysis([](const Analysis &analysis) { return analysis.time().step; })},
+            {"binHz", ofAnalysis([](const Analysis &analysis) { return analysis.grid().axes.front().step; })},
+            {"windowSeconds", ofAnalysis(windowSeconds)},
+            {"aboveTwice", ofAnalysis(shareAboveTwice)},
+            {"threshold", [](WindowParts &window) -> Value { return window.document().shownThreshold(); }},
+            {"events",
+             [](WindowParts &window) -> Value { return static_cast<double>(window.document().shownEvents().size()); }},
+            {"peak", [](WindowParts &window) -> Value { return peak(window, window.document()); }},
+            {"resetFraction",
+             ofAnalysis([](const Analysis &analysis) { return 1.0 - mean(analysis.continuedFraction); })},
+            {"lnK", ofAnalysis([](const Analysis &analysis) { return mean(analysis.lnK); })},
+            {"walks.noise", meanStages(false)},
+            {"walks.target", meanStages(true)},
+            {"walks.wrong", wrongWalks},
+            {"walks.fixed",
+             [](WindowParts &window) -> Value {
+                 const auto size = window.sequentialTests().fixedSize();
+                 return size ? Value(static_cast<double>(*size)) : std::nullopt;
+             }},
+            {"survey.saved",
+             [](WindowParts &window) -> Value {
+                 const auto &survey = window.sequentialTests().survey();
+                 return survey ? Value(survey->saving()) : std::nullopt;
+             }},
+            {"why.lnP", lnTransitionOfPath},
+            {"falseAlarmsPerHour", ofAnalysis([](const Analysis &analysis) {
+                 return analysis.calibration
+                            ? analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour
+                            : 0.0;
+             })},
+            {"walks.selected",
+             [](WindowParts &window) -> Value {
+                 const auto *walk = selectedWalk(window);
+                 return walk ? Value(std::string(walk->first.hasTarget ? "target" : "noise")) : std::nullopt;
+             }},
+            {"walks.stage",
+             [](WindowParts &window) -> Value { return static_cast<double>(window.sequentialTests().stage()); }},
+            {"walks.stages",
+             [](WindowParts &window) -> Value {
+                 const auto *walk = selectedWalk(window);
+                 return walk ? Value(static_cast<double>(walk->second.stages)) : std::nullopt;
+             }},
+        };
+        return table;
+    }
+
+    bool begins(const std::string &name, const char *prefix)
+    {
+        return name.rfind(prefix, 0) == 0;
+    }
+
+    const Field<ScanTest> *testField(const std::string &name)
+    {
+        const auto &fields = ScanTest::fields();
+        const auto found =
+            std::find_if(fields.begin(), fields.end(), [&](const auto &field) { return "test." + field.name == name; });
+        return found == fields.end() ? nullptr : &*found;
+    }
+
+    std::optional<double> numberOf(const FieldValue &value)
+    {
+        if (const auto *number = std::get_if<double>(&value))
+            return *number;
+        if (const auto *number = std::get_if<int>(&value))
+            return *number;
+        if (const auto *flag = std::get_if<bool>(&value))
+            return *flag ? 1.0 : 0.0;
+        if (const auto *numbers = std::get_if<std::vector<double>>(&value); numbers && !numbers->empty())
+            return numbers->front(); // of a law h: h(0)
+        return {};
+    }
+
+    bool holds(WindowParts &window, const LessonCondition::Part &part)
+    {
+        const Value value = lessonMeasure(window, part.measure);
+        if (!value)
+            return false;
+        if (!part.text.empty())
+            return formatFieldValue(*value) == part.text;
+        const auto number = numberOf(*value);
+        return number && *number >= part.low && *number <= part.high;
+    }
+
+} // namespace
+
+Value lessonMeasure(WindowParts &window, const std::string &name)
+{
+    if (const auto found = measures().find(name); found != measures().end())
+        return found->second(window);
+    if (isLineMeasure(name))
+        return lineMeasure(window, name);
+    if (begins(name, "view.")) {
+        const QWidget *view = window.views().named(QString::fromStdString(name.substr(5)));
+        return view && view->isVisible() && !view->visibleRegion().isEmpty() ? 1.0 : 0.0;
+    }
+    if (const auto *field = testField(name))
+        return field->get(window.sequentialTests().test());
+    return settingField(name).get(window.document().settings());
+}
+
+void checkMeasure(const std::string &name, const std::string &where)
+{
+    const bool isView =
+        begins(name, "view.") && WindowViews::names().contains(QString::fromStdString(name.substr(5)));
+    if (isView || measures().contains(name) || isLineMeasure(name) || testField(name))
+        return;
+    try {
+        settingField(name);
+    } catch (const Error &) {
+        throw Error(where, "is no measure and no setting");
+    }
+}
+
+bool holds(WindowParts &window, const LessonCondition &condition)
+{
+    return std::all_of(condition.parts.begin(), condition.parts.end(),
+                       [&](const auto &part) { return holds(window, part); });
+}
+
+std::string failure(WindowParts &window, const LessonCondition &condition)
+{
+    for (const LessonCondition::Part &part : condition.parts)
+        if (!holds(window, part)) {
+            const Value value = lessonMeasure(window, part.measure);
+            return part.measure + " is " + (value ? formatFieldValue(*value) : "nothing");
+        }
+    return {};
+}
+
+} // namespace faintline

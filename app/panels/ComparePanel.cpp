@@ -1,0 +1,412 @@
+#include "app/panels/ComparePanel.h"
+
+#include "app/base/statisticUnit.h"
+#include "evaluate/differencePicture.h"
+#include "widgets/waterfall/ColourBar.h"
+#include "widgets/base/Theme.h"
+#include "widgets/waterfall/WaterfallView.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+#include "widgets/base/settingWords.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    using In = ComparedEvent::In;
+
+    enum Column { InColumn, Onset, Place, DetectedA, DetectedB, StatisticA, StatisticB, ColumnCount };
+
+    /// A cell that shows one thing and sorts by another; cells without a number come last.
+    class Cell : public QTableWidgetItem
+    {
+    public:
+        Cell(const QString &text, double value) : QTableWidgetItem(text), m_value(value)
+        {
+            setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+        }
+
+        bool operator<(const QTableWidgetItem &other) const override { return m_value < static_cast<const Cell &>(other).m_value; }
+
+    private:
+        double m_value;
+    };
+
+    constexpr double nothing = 1e300;
+
+    QString nameOf(In in)
+    {
+        return in == In::A ? QStringLiteral("A") : in == In::B ? QStringLiteral("B") : QObject::tr("both");
+    }
+
+    /// "Design SNR 0.5 → 0.25", with words for choices and a dash where one of the two has no such setting.
+    QString inWords(const SettingDifference &difference)
+    {
+        const auto value = [&](const std::string &text) {
+            const QString word = QString::fromStdString(text);
+            if (word.isEmpty())
+                return QStringLiteral("–");
+            return difference.field.kind == FieldKind::Choice ? choiceLabel(word) : word;
+        };
+        const QString name = QString::fromStdString(difference.field.name);
+        const QString label = name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector")) : settingLabel(name);
+        const QString unit = difference.field.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(difference.field.unit);
+        return QStringLiteral("%1 %2 → %3%4").arg(label, value(difference.a), value(difference.b), unit);
+    }
+
+    const Track *trackOf(const Analysis &analysis, int id)
+    {
+        const auto found =
+            std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [id](const Track &track) { return track.id == id; });
+        return found == analysis.tracks.end() ? nullptr : &*found;
+    }
+
+    /// The box of time and of the last axis that a track fills.
+    Viewport::Box boxOf(const Track &track, const Analysis &analysis)
+    {
+        const Axis &time = analysis.time();
+        const Axis &last = analysis.grid().axes.back();
+        double low = 1e300, high = -1e300;
+        for (const TrackPoint &point : track.points) {
+            const double value = last.value(static_cast<double>(point.cell % last.count));
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+        return {{time.value(static_cast<double>(track.onsetFrame)), time.value(static_cast<double>(track.endFrame))}, {low, high}};
+    }
+
+} // namespace
+
+ComparePanel::ComparePanel(Document &document, AnalysisController &controller, Comparer &comparer, QWidget *parent)
+    : QWidget(parent), m_document(document), m_controller(controller), m_comparer(comparer),
+      m_picture(new WaterfallView(tr("B − A (nat)"))),
+      m_picturePane(buildPicture()), m_sentence(plainLabel()), m_differences(new QLabel), m_keep(new QPushButton(tr("Keep as A"))),
+      m_swap(new QPushButton(tr("Swap"))), m_goTo(new QPushButton(tr("Go to A"))), m_compute(new QPushButton(tr("Compute A here"))),
+      m_filters{new QToolButton, new QToolButton, new QToolButton}, m_table(new QTableWidget(0, ColumnCount))
+{
+    buildTable();
+    auto *splitter = new QSplitter(Qt::Horizontal);
+    splitter->addWidget(m_picturePane);
+    splitter->addWidget(buildList());
+    splitter->setSizes({500, 560});
+    splitter->setChildrenCollapsible(false);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(buildWords());
+    layout->addWidget(splitter, 1);
+
+    connect(&comparer, &Comparer::changed, this, &ComparePanel::follow);
+    connect(&comparer, &Comparer::keptChanged, this, &ComparePanel::follow);
+    connect(&comparer, &Comparer::costChanged, this, &ComparePanel::showWords);
+    connect(&comparer, &Comparer::progressed, this, [this](double fraction, const QString &what) {
+        m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+    });
+    connect(&comparer, &Comparer::failed, this, [this](const Error &error) { m_sentence->setText(messageText(error.what())); });
+    connect(&document, &Document::analysisChanged, this, &ComparePanel::updateButtons);
+    follow();
+}
+
+QWidget *ComparePanel::buildPicture()
+{
+    auto *bar = new ColourBar;
+    bar->attach(m_picture);
+    m_picture->setObjectName(QStringLiteral("difference"));
+    m_picture->setViewport(&m_document.viewport());
+    m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red") : QStringLiteral("ice-fire"));
+    m_picture->setMinimumSize(150, 90);
+    auto *pane = new QWidget;
+    auto *layout = new QHBoxLayout(pane);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_picture, 1);
+    layout->addWidget(bar);
+    return pane;
+}
+
+QWidget *ComparePanel::buildWords()
+{
+    for (QLabel *label : {m_sentence, m_differences}) {
+        label->setWordWrap(true);
+        label->setTextFormat(Qt::PlainText);
+        label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    }
+    m_sentence->setAccessibleName(tr("Comparison"));
+    m_differences->setAccessibleName(tr("Settings in which A and B differ"));
+    auto *words = new QWidget;
+    auto *layout = new QVBoxLayout(words);
+    layout->setContentsMargins(8, 4, 8, 2);
+    layout->setSpacing(2);
+    layout->addWidget(m_sentence);
+    layout->addWidget(m_differences);
+    return words;
+}
+
+QWidget *ComparePanel::buildList()
+{
+    auto *list = new QWidget;
+    auto *layout = new QVBoxLayout(list);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(buildButtons());
+    layout->addWidget(m_table, 1);
+    return list;
+}
+
+QWidget *ComparePanel::buildButtons()
+{
+    auto *row = new QWidget;
+    auto *layout = new QHBoxLayout(row);
+    layout->setContentsMargins(8, 2, 8, 4);
+    layout->setSpacing(6);
+    for (QPushButton *button : {m_keep, m_swap, m_goTo, m_compute})
+        layout->addWidget(button);
+    layout->addStretch(1);
+    m_keep->setToolTip(tr("What is shown now becomes A, settings and results (Ctrl+B)"));
+    m_swap->setToolTip(tr("A's settings become the current ones, and these A"));
+    m_goTo->setToolTip(tr("Make A's settings the current ones; undo goes back"));
+    m_compute->setToolTip(tr("A was kept while something else was open: compute it on what is open now"));
+    for (const In in : {In::Both, In::A, In::B}) {
+        QToolButton *filter = m_filters[static_cast<int>(in)];
+        filter->setCheckable(true);
+        filter->setChecked(true);
+        filter->setToolTip(in == In::Both ? tr("List the events that both have found")
+                                          : tr("List the events that only %1 has found").arg(nameOf(in)));
+        connect(filter, &QToolButton::toggled, this, &ComparePanel::showEvents);
+        layout->addWidget(filter);
+    }
+    connect(m_keep, &QPushButton::clicked, this, &ComparePanel::keep);
+    connect(m_swap, &QPushButton::clicked, this, &ComparePanel::swap);
+    connect(m_goTo, &QPushButton::clicked, this, &ComparePanel::goToA);
+    connect(m_compute, &QPushButton::clicked, &m_comparer, &Comparer::computeHere);
+    return row;
+}
+
+void ComparePanel::buildTable()
+{
+    m_table->verticalHeader()->hide();
+    m_table->verticalHeader()->setDefaultSectionSize(22);
+    m_table->horizontalHeader()->setHighlightSections(false);
+    m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    m_table->horizontalHeader()->setStretchLastSection(true);
+    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
+    m_table->setSelectionMode(QAbstractItemView::SingleSelection);
+    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_table->setShowGrid(false);
+    m_table->setFrameShape(QFrame::NoFrame);
+    m_table->setAccessibleName(tr("Events of A and B"));
+    m_table->setSortingEnabled(true);
+    m_table->sortByColumn(Onset, Qt::AscendingOrder);
+    connect(m_table, &QTableWidget::cellClicked, this, [this](int row) { goTo(row); });
+    connect(m_table, &QTableWidget::cellActivated, this, [this](int row) { goTo(row); });
+}
+
+QString ComparePanel::sentence() const
+{
+    return m_sentence->text();
+}
+
+QString ComparePanel::differences() const
+{
+    return m_differences->text();
+}
+
+void ComparePanel::showEvent(QShowEvent *event)
+{
+    QWidget::showEvent(event);
+    m_comparer.setActive(true);
+}
+
+void ComparePanel::hideEvent(QHideEvent *event)
+{
+    QWidget::hideEvent(event);
+    m_comparer.setActive(false);
+}
+
+void ComparePanel::changeEvent(QEvent *event)
+{
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange)
+        m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red") : QStringLiteral("ice-fire"));
+}
+
+void ComparePanel::keep()
+{
+    m_comparer.keep();
+}
+
+void ComparePanel::swap()
+{
+    if (m_comparer.kept())
+        m_controller.setSettings(m_comparer.exchange(), tr("Swap A and B"));
+}
+
+void ComparePanel::goToA()
+{
+    if (m_comparer.kept())
+        m_controller.setSettings(m_comparer.kept()->settings, tr("Go to A"));
+}
+
+void ComparePanel::follow()
+{
+    showPicture();
+    showEvents();
+    showWords();
+    updateButtons();
+}
+
+void ComparePanel::updateButtons()
+{
+    const bool hasA = m_comparer.kept() != nullptr;
+    m_keep->setEnabled(m_document.analysis() != nullptr);
+    m_swap->setEnabled(hasA && m_comparer.isOfWhatIsOpen());
+    m_goTo->setEnabled(hasA && !m_document.isEmpty());
+    m_compute->setVisible(hasA && !m_document.isEmpty() && !m_comparer.isOfWhatIsOpen());
+}
+
+void ComparePanel::showPicture()
+{
+    const auto &result = m_comparer.result();
+    m_picturePane->setVisible(!m_document.hasPings());
+    m_picture->setEmptySentence(m_comparer.kept() ? tr("The difference appears here when A and B are of the same recording.")
+                                                  : tr("Keep what you see as A (Ctrl+B), then change any setting."));
+    if (!result || !result->difference)
+        return m_picture->setPicture(nullptr, {});
+    const bool isPlain = haveCommonUnit(*result->a, *result->b);
+    m_picture->setStatisticUnit(tr("nat"), isPlain ? tr("B − A (nat)") : tr("B − A, rarity (nat)"));
+    m_picturePane->setToolTip(isPlain ? tr("How much farther above its threshold B lies than A. Blue: A is ahead; red: B is ahead.")
+                                      : tr("How much rarer than at its threshold B is on noise than A: their statistics have other "
+                                           "units, their false-alarm probabilities can be compared. Blue: A is ahead; red: B is ahead."));
+    m_picture->setPicture(result->difference, result->b->grid().axes.back());
+}
+
+void ComparePanel::showEvents()
+{
+    const auto &result = m_comparer.result();
+    const Comparison none;
+    const Comparison &comparison = result ? result->comparison : none;
+    for (const In in : {In::A, In::B, In::Both})
+        m_filters[static_cast<int>(in)]->setText(in == In::Both ? tr("both %1").arg(comparison.count(in))
+                                                                : tr("%1 %2").arg(nameOf(in)).arg(comparison.count(in)));
+    m_table->setSortingEnabled(false);
+    m_table->setRowCount(0);
+    if (result) {
+        const Axis &place = result->b->grid().axes.back();
+        const QString unitA = statisticUnit(result->a->settings), unitB = statisticUnit(result->b->settings);
+        const QString placeName = place.unit == "Hz" ? tr("Frequency") : labelText(place.name, mostUnitLetters);
+        m_table->setHorizontalHeaderLabels({tr("In"), tr("Onset"), placeName,
+                                            tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
+        m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("When A detected it"));
+        m_table->horizontalHeaderItem(DetectedB)->setToolTip(tr("When B detected it"));
+        m_table->horizontalHeaderItem(StatisticA)->setToolTip(tr("Its largest statistic in A, %1").arg(unitA));
+        m_table->horizontalHeaderItem(StatisticB)->setToolTip(tr("Its largest statistic in B, %1").arg(unitB));
+        for (std::size_t i = 0; i < comparison.events.size(); ++i) {
+            const ComparedEvent &compared = comparison.events[i];
+            if (!m_filters[static_cast<int>(compared.in())]->isChecked())
+                continue;
+            const Event &event = compared.event();
+            const double step = result->b->time().step;
+            const int row = m_table->rowCount();
+            m_table->setRowCount(row + 1);
+            const auto set = [&](int column, const QString &text, double value) { m_table->setItem(row, column, new Cell(text, value)); };
+            const auto time = [&](const std::optional<Event> &side) { return side ? secondsText(side->detectSeconds, step) : QString(); };
+            const auto nats = [&](const std::optional<Event> &side) { return side ? numberText(side->statistic, 1) : QString(); };
+            set(InColumn, nameOf(compared.in()), static_cast<double>(compared.in()));
+            m_table->item(row, InColumn)->setData(Qt::UserRole, static_cast<int>(i));
+            m_table->item(row, InColumn)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+            set(Onset, secondsText(event.onsetSeconds, step), event.onsetSeconds);
+            set(Place,
+                place.unit == "Hz" ? hertzText(event.position.back(), place.step)
+                                   : numberText(event.position.back(), 1) + QLatin1Char(' ') + labelText(place.unit, mostUnitLetters),
+                event.position.back());
+            set(DetectedA, time(compared.a), compared.a ? compared.a->detectSeconds : nothing);
+            set(DetectedB, time(compared.b), compared.b ? compared.b->detectSeconds : nothing);
+            set(StatisticA, nats(compared.a), compared.a ? compared.a->statistic : nothing);
+            set(StatisticB, nats(compared.b), compared.b ? compared.b->statistic : nothing);
+        }
+    }
+    m_table->setSortingEnabled(true);
+
+    if (result)
+        m_picture->setTracks(tracksAlone(*result), result->b->time());
+}
+
+/// What one of the two has missed: that is what one looks for. A's only where both lie on the same axes.
+std::vector<Track> ComparePanel::tracksAlone(const Comparer::Result &result) const
+{
+    const bool haveSameAxes = result.a->time() == result.b->time() && result.a->grid() == result.b->grid();
+    std::vector<Track> alone;
+    for (const ComparedEvent &compared : result.comparison.events) {
+        if (compared.in() == In::Both || !m_filters[static_cast<int>(compared.in())]->isChecked() || (!compared.b && !haveSameAxes))
+            continue;
+        if (const Track *track = trackOf(compared.b ? *result.b : *result.a, compared.event().id))
+            alone.push_back(*track);
+    }
+    return alone;
+}
+
+QString ComparePanel::costText() const
+{
+    const auto &cost = m_comparer.cost();
+    if (!cost)
+        return {};
+    const auto seconds = [](double value) { return numberText(value, value < 10.0 ? 2 : value < 100.0 ? 1 : 0); };
+    return tr(" An hour of recording takes A %1 s and B %2 s of a processor core.").arg(seconds(cost->a), seconds(cost->b));
+}
+
+void ComparePanel::showWords()
+{
+    const auto &result = m_comparer.result();
+    if (!result) {
+        m_differences->clear();
+        if (!m_comparer.kept())
+            m_sentence->setText(tr("Keep what you see as A, then change the detector or any setting: the difference, and what only one of "
+                                   "the two has found, appear here."));
+        else
+            m_sentence->setText(m_comparer.isOfWhatIsOpen() ? tr("Comparing …") : tr("A was kept while something else was open."));
+        return;
+    }
+    const Comparison &comparison = result->comparison;
+    m_sentence->setText(tr("A finds %1, B %2: %3 in both, %4 only in A, %5 only in B.")
+                            .arg(result->a->tracks.size())
+                            .arg(result->b->tracks.size())
+                            .arg(comparison.count(In::Both))
+                            .arg(comparison.count(In::A))
+                            .arg(comparison.count(In::B))
+                        + costText());
+    QStringList words;
+    for (const SettingDifference &difference : result->settings)
+        words << inWords(difference);
+    m_differences->setText(words.isEmpty() ? tr("A and B have the same settings: change any, and see here what it does.")
+                                           : tr("From A to B: %1.").arg(words.join(QStringLiteral("; "))));
+}
+
+void ComparePanel::goTo(int row)
+{
+    const auto &result = m_comparer.result();
+    const QTableWidgetItem *item = m_table->item(row, InColumn);
+    if (!result || !item)
+        return;
+    const ComparedEvent &compared = result->comparison.events[static_cast<std::size_t>(item->data(Qt::UserRole).toInt())];
+    if (compared.b)
+        return emit eventActivated(compared.b->id);
+    const Track *track = trackOf(*result->a, compared.a->id);
+    if (!track || m_document.hasPings())
+        return;
+    m_document.viewport().reveal(boxOf(*track, *result->a));
+    m_document.viewport().setCursor({compared.a->detectSeconds, compared.a->position.back()});
+}
+
+} // namespace faintline

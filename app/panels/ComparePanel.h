@@ -1,0 +1,79 @@
+#pragma once
+
+#include "app/control/AnalysisController.h"
+#include "app/control/Comparer.h"
+
+#include <QWidget>
+
+class QLabel;
+class QPushButton;
+class QTableWidget;
+class QToolButton;
+
+namespace faintline {
+
+class WaterfallView;
+
+/// A against B: the difference of their statistics on the viewport that all pictures share, what both have found and what only one has, in
+/// which settings they differ, and what each costs. A click on a line of the list goes there.
+class ComparePanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    ComparePanel(Document &document, AnalysisController &controller, Comparer &comparer, QWidget *parent = nullptr);
+
+    WaterfallView *picture() const { return m_picture; }
+    QTableWidget *table() const { return m_table; }
+    QString sentence() const;    ///< what there is to see, or why nothing
+    QString differences() const; ///< of the settings
+    QPushButton *swapButton() const { return m_swap; }
+    QPushButton *goToButton() const { return m_goTo; }
+    QPushButton *computeButton() const { return m_compute; }
+
+    QSize sizeHint() const override { return {900, 300}; }
+
+public slots:
+    void keep(); ///< what is seen becomes A
+    void swap();
+    void goToA();
+
+signals:
+    void eventActivated(int id); ///< of the document's own
+
+protected:
+    void showEvent(QShowEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
+    void changeEvent(QEvent *event) override;
+
+private:
+    QWidget *buildPicture();
+    QWidget *buildWords();
+    QWidget *buildList();
+    QWidget *buildButtons();
+    void buildTable();
+    void follow();
+    void showPicture();
+    void showEvents();
+    void showWords();
+    void updateButtons();
+    void goTo(int row);
+    QString costText() const;
+    std::vector<Track> tracksAlone(const Comparer::Result &result) const;
+
+    Document &m_document;
+    AnalysisController &m_controller;
+    Comparer &m_comparer;
+    WaterfallView *m_picture;
+    QWidget *m_picturePane;
+    QLabel *m_sentence;
+    QLabel *m_differences;
+    QPushButton *m_keep;
+    QPushButton *m_swap;
+    QPushButton *m_goTo;
+    QPushButton *m_compute;
+    QToolButton *m_filters[3]; ///< A, B, both
+    QTableWidget *m_table;
+};
+
+} // namespace faintline

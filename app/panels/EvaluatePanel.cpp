@@ -1,0 +1,204 @@
+#include "app/panels/EvaluatePanel.h"
+
+#include "app/document/Document.h"
+#include "app/panels/ExperimentForm.h"
+#include "app/panels/StartColumn.h"
+#include "evaluate/campaignCharts.h"
+#include "spectrum/Spectrogram.h"
+#include "widgets/plot/ChartPlot.h"
+#include "widgets/base/quantities.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QTabWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    Chart chartOf(const std::vector<CurvePoint> &points)
+    {
+        Chart chart{"Detection probability", "SNR (dB)", "Pd", false, false, {}};
+        for (const CurvePoint &point : points) {
+            if (chart.curves.empty() || chart.curves.back().name != point.detector)
+                chart.curves.push_back({point.detector, Curve::Kind::Measured, {}});
+            chart.curves.back().points.push_back({point.snrDb, point.pd, point.interval});
+        }
+        return chart;
+    }
+
+} // namespace
+
+EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments, QWidget *parent)
+    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new ExperimentForm),
+      m_column(new StartColumn(m_form, tr("Progress of the experiment"), tr("Run this experiment; the window stays free meanwhile"))),
+      m_tabs(new QTabWidget), m_pd(new ChartPlot), m_roc(new ChartPlot), m_snr(new QComboBox)
+{
+    auto *rocPage = new QWidget;
+    auto *rocTop = new QHBoxLayout;
+    rocTop->setContentsMargins(8, 4, 8, 0);
+    rocTop->addWidget(new QLabel(tr("at")));
+    rocTop->addWidget(m_snr);
+    rocTop->addStretch(1);
+    m_snr->setAccessibleName(tr("SNR of the ROC curves"));
+    auto *rocLayout = new QVBoxLayout(rocPage);
+    rocLayout->setContentsMargins(0, 0, 0, 0);
+    rocLayout->setSpacing(0);
+    rocLayout->addLayout(rocTop);
+    rocLayout->addWidget(m_roc, 1);
+    m_tabs->addTab(m_pd, tr("Pd against SNR"));
+    m_tabs->addTab(rocPage, tr("ROC"));
+    m_tabs->setDocumentMode(true);
+    m_pd->setInvitation(tr("click to see one of its trials"));
+    for (ChartPlot *plot : {m_pd, m_roc})
+        plot->setEmptySentence(tr("Choose lines and detectors, then press Start: the curves grow here."));
+
+    auto *layout = new QHBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_column);
+    layout->addWidget(m_tabs, 1);
+
+    connect(m_column, &StartColumn::startRequested, this, &EvaluatePanel::start);
+    connect(m_column, &StartColumn::cancelRequested, this, &EvaluatePanel::cancel);
+    connect(m_form, &ExperimentForm::changed, this, &EvaluatePanel::followForm);
+    connect(m_snr, &QComboBox::activated, this, [this] {
+        if (const Experiments::Entry *entry = m_experiments.entry(m_shown))
+            showRoc(*entry);
+    });
+    connect(m_tabs, &QTabWidget::currentChanged, this, [this] {
+        if (const Experiments::Entry *entry = m_experiments.entry(m_shown))
+            showRoc(*entry);
+    });
+    connect(m_pd, &ChartPlot::pointActivated, this, [this](std::size_t curve, std::size_t point) {
+        if (const Experiments::Entry *entry = m_experiments.entry(m_shown); entry && entry->campaign)
+            emit trialRequested(m_shown, curve, point);
+    });
+    connect(&experiments, &Experiments::changed, this, &EvaluatePanel::follow);
+    connect(&experiments, &Experiments::removed, this, [this](int id) {
+        if (id == m_shown)
+            show(0);
+    });
+    connect(&document, &Document::shownThresholdChanged, this, [this] {
+        if (const Experiments::Entry *entry = m_experiments.entry(m_shown); entry && entry->campaign && isVisible())
+            showOperatingPoint(*entry);
+    });
+    connect(&document, &Document::analysisChanged, this, &EvaluatePanel::followDocument);
+    connect(&document, &Document::opened, this, &EvaluatePanel::followDocument);
+    connect(&document, &Document::settingsChanged, this, &EvaluatePanel::followDocument);
+    followForm();
+}
+
+void EvaluatePanel::followDocument()
+{
+    double windowSeconds = 0.0;
+    double recordingSeconds = 0.0;
+    if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
+        if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get())) {
+            windowSeconds =
+                static_cast<double>(frames->spectrogram().windowSamples()) / analysis->recording->info().sampleRateHz;
+            recordingSeconds = static_cast<double>(frames->time().count) * frames->time().step;
+        }
+    m_form->setCurrent(m_document.usedSettings(), windowSeconds, recordingSeconds);
+}
+
+void EvaluatePanel::followForm()
+{
+    m_column->setStartable(m_form->obstacle().isEmpty());
+}
+
+void EvaluatePanel::start()
+{
+    if (const QString why = m_form->obstacle(); !why.isEmpty())
+        return emit failed(Error("experiment", why.toStdString()));
+    const bool isInRecording = m_form->isInRecording();
+    if (isInRecording && !m_document.recording())
+        return emit failed(Error("experiment", "needs a recording to add lines to, and none is open"));
+    const QString source = m_document.source().name();
+    show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()),
+                                             m_form->injection(m_document.source().path), m_document.recording())
+                       : m_experiments.start(m_form->name(), m_form->lines()));
+}
+
+void EvaluatePanel::cancel()
+{
+    m_experiments.cancel(m_shown);
+}
+
+void EvaluatePanel::show(int id)
+{
+    m_shown = id;
+    if (const Experiments::Entry *entry = m_experiments.entry(id)) {
+        fillSnrs(*entry);
+        return follow(id);
+    }
+    m_pd->setChart({});
+    m_roc->setChart({});
+    m_column->clearState();
+}
+
+void EvaluatePanel::follow(int id)
+{
+    const Experiments::Entry *entry = m_experiments.entry(id);
+    if (id != m_shown || !entry)
+        return;
+    m_column->showState(*entry);
+    showPd(*entry);
+    showRoc(*entry);
+}
+
+void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
+{
+    m_snr->clear();
+    if (!entry.campaign)
+        return;
+    const std::vector<double> snrs = snrsOf(entry.campaign->experiment);
+    for (const double db : snrs)
+        m_snr->addItem(tr("%1 dB").arg(numberText(db, db == std::floor(db) ? 0 : 1)));
+    m_snr->setCurrentIndex(static_cast<int>(snrs.size() / 2));
+}
+
+void EvaluatePanel::showPd(const Experiments::Entry &entry)
+{
+    m_pd->setInvitation(entry.campaign ? tr("click to see one of its trials") : QString());
+    m_pdChart = entry.imported ? chartOf(*entry.imported) : entry.campaign ? pdChart(*entry.campaign) : Chart();
+    showOperatingPoint(entry);
+}
+
+/// Follows the threshold under the user's finger, on curves that are there.
+void EvaluatePanel::showOperatingPoint(const Experiments::Entry &entry)
+{
+    const auto shown = [](Chart chart, const std::optional<Curve> &extra) {
+        if (extra)
+            chart.curves.push_back(*extra);
+        return chart;
+    };
+    const bool hasThreshold = entry.campaign && m_document.analysis();
+    const AnalysisSettings &settings = m_document.settings();
+    const double threshold = m_document.shownThreshold();
+    m_pd->setChart(shown(m_pdChart, hasThreshold ? pdAtOperatingPoint(*entry.campaign, settings, threshold) : std::nullopt));
+    if (m_tabs->currentIndex() == 1 && m_snr->currentIndex() >= 0)
+        m_roc->setChart(shown(m_rocChart, hasThreshold ? operatingPoint(*entry.campaign, shownSnr(), settings, threshold) : std::nullopt));
+}
+
+std::size_t EvaluatePanel::shownSnr() const
+{
+    return static_cast<std::size_t>(std::max(m_snr->currentIndex(), 0));
+}
+
+/// Only while it is looked at: it costs more than Pd.
+void EvaluatePanel::showRoc(const Experiments::Entry &entry)
+{
+    if (m_tabs->currentIndex() != 1)
+        return;
+    m_rocChart = entry.campaign && m_snr->currentIndex() >= 0 ? rocChart(*entry.campaign, shownSnr()) : Chart();
+    m_roc->setChart(m_rocChart);
+    showOperatingPoint(entry);
+}
+
+} // namespace faintline

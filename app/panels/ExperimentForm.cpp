@@ -1,0 +1,287 @@
+#include "app/panels/ExperimentForm.h"
+
+#include "evaluate/peers.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double mostSnrs = 60.0;
+
+    QDoubleSpinBox *number(double value, double low, double high, double step, int decimals, const QString &suffix,
+                           const QString &toolTip)
+    {
+        auto *box = new QDoubleSpinBox;
+        box->setRange(low, high);
+        box->setSingleStep(step);
+        box->setDecimals(decimals);
+        box->setValue(value);
+        box->setSuffix(suffix);
+        box->setToolTip(toolTip);
+        box->setAccessibleName(toolTip);
+        box->setMinimumWidth(40);
+        return box;
+    }
+
+    QSpinBox *count(int value, int low, int high, const QString &toolTip)
+    {
+        auto *box = new QSpinBox;
+        box->setRange(low, high);
+        box->setValue(value);
+        box->setToolTip(toolTip);
+        box->setAccessibleName(toolTip);
+        return box;
+    }
+
+    /// Frames of a block and signals that fit: Billon's geometry, made longer for longer lines.
+    void fitBlocks(LineExperiment &lines)
+    {
+        const int needed = static_cast<int>(std::ceil((lines.durationWindows + 50.0) * lines.stepsPerWindow));
+        if (needed <= lines.blockFrames)
+            return;
+        lines.blockFrames = needed;
+        lines.frames = needed * 3 + needed / 2;
+    }
+
+} // namespace
+
+ExperimentForm::ExperimentForm(QWidget *parent)
+    : QWidget(parent), m_noise(new QComboBox), m_lowestDb(number(-5, -40, 40, 1, 1, tr(" dB"), tr("Lowest SNR"))),
+      m_highestDb(number(3, -40, 40, 1, 1, tr(" dB"), tr("Highest SNR"))),
+      m_stepDb(number(1, 0.1, 20, 0.5, 1, tr(" dB"), tr("Step between SNRs"))),
+      m_duration(number(100, 1, 5000, 10, 0, tr(" T_FT"), tr("How long a line lasts, in windows"))),
+      m_drift(number(0, -5, 5, 0.05, 3, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
+      m_wander(number(0, 0, 20, 0.5, 2, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
+      m_wanderTime(number(15, 1, 1000, 1, 0, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
+      m_falseAlarms(number(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour that all detectors are set to"))),
+      m_runs(count(20, 1, 100000, tr("Runs of 30 lines each in simulated noise; lines one by one in a recording"))),
+      m_seed(count(1, 0, 2147483647, tr("Seed: the same one gives the same bytes"))), m_meaning(plainLabel())
+{
+    m_noise->addItem(tr("in simulated noise"));
+    m_noise->addItem(tr("in this recording"));
+    m_noise->setAccessibleName(tr("Noise that the lines are in"));
+    m_noise->setToolTip(
+        tr("White noise as in Billon 2005, or the noise of what is open: then one line at a time is added to it"));
+
+    auto *detectors = new QGridLayout;
+    detectors->setVerticalSpacing(2);
+    std::vector<Contestant> list = peers(1.0);
+    m_detectors.push_back(new QCheckBox(tr("current settings")));
+    for (const Contestant &one : list)
+        m_detectors.push_back(new QCheckBox(QString::fromStdString(one.name)));
+    for (std::size_t i = 0; i < m_detectors.size(); ++i) {
+        m_detectors[i]->setChecked(i == 1 || i == 3 || i == 5);
+        detectors->addWidget(m_detectors[i], static_cast<int>(i / 2), static_cast<int>(i % 2));
+        connect(m_detectors[i], &QCheckBox::toggled, this, &ExperimentForm::changed);
+    }
+    m_detectors[0]->setToolTip(tr("The detector and model of the pipeline, as they are set now"));
+
+    auto *snr = new QHBoxLayout;
+    snr->setSpacing(4);
+    snr->addWidget(m_lowestDb, 1);
+    snr->addWidget(new QLabel(tr("to")));
+    snr->addWidget(m_highestDb, 1);
+    snr->addWidget(new QLabel(tr("by")));
+    snr->addWidget(m_stepDb, 1);
+    auto *wander = new QHBoxLayout;
+    wander->setSpacing(4);
+    wander->addWidget(m_wander, 1);
+    wander->addWidget(new QLabel(tr("over")));
+    wander->addWidget(m_wanderTime, 1);
+    auto *runs = new QHBoxLayout;
+    runs->setSpacing(4);
+    runs->addWidget(m_runs, 1);
+    runs->addWidget(new QLabel(tr("seed")));
+    runs->addWidget(m_seed, 1);
+    for (QDoubleSpinBox *box : {m_lowestDb, m_highestDb, m_stepDb})
+        box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+
+    auto *form = new QFormLayout(this);
+    form->setContentsMargins(8, 6, 8, 6);
+    form->setVerticalSpacing(4);
+    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
+    form->addRow(tr("Lines"), m_noise);
+    form->addRow(tr("SNR"), snr);
+    form->addRow(tr("Duration"), m_duration);
+    form->addRow(tr("Drift"), m_drift);
+    form->addRow(tr("Wander"), wander);
+    form->addRow(tr("Runs"), runs);
+    form->addRow(tr("False alarms"), m_falseAlarms);
+    form->addRow(tr("Detectors"), detectors);
+    form->addRow(m_meaning);
+    m_meaning->setWordWrap(true);
+    QPalette faint = m_meaning->palette();
+    faint.setColor(QPalette::WindowText, Theme::colours(*this).faintText);
+    m_meaning->setPalette(faint);
+    m_meaning->setFont(Theme::font(12));
+
+    connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::changed);
+    for (QDoubleSpinBox *box :
+         {m_lowestDb, m_highestDb, m_stepDb, m_duration, m_drift, m_wander, m_wanderTime, m_falseAlarms})
+        connect(box, &QDoubleSpinBox::valueChanged, this, &ExperimentForm::changed);
+    for (QSpinBox *box : {m_runs, m_seed})
+        connect(box, &QSpinBox::valueChanged, this, &ExperimentForm::changed);
+    connect(m_noise, &QComboBox::currentIndexChanged, this, &ExperimentForm::fitDuration);
+    connect(this, &ExperimentForm::changed, this, &ExperimentForm::showMeaning);
+    showMeaning();
+}
+
+void ExperimentForm::setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds)
+{
+    m_settings = settings;
+    m_windowSeconds = windowSeconds;
+    m_recordingSeconds = recordingSeconds;
+    if (windowSeconds <= 0.0)
+        m_noise->setCurrentIndex(0);
+    m_noise->setEnabled(windowSeconds > 0.0);
+    fitDuration();
+    emit changed();
+}
+
+/// In a recording a line has to fit, with noise on either side.
+void ExperimentForm::fitDuration()
+{
+    if (isInRecording() && m_duration->value() * m_windowSeconds > 0.5 * m_recordingSeconds)
+        m_duration->setValue(std::floor(0.5 * m_recordingSeconds / m_windowSeconds));
+}
+
+bool ExperimentForm::isInRecording() const
+{
+    return m_noise->currentIndex() == 1;
+}
+
+void ExperimentForm::setInRecording(bool isInRecording)
+{
+    m_noise->setCurrentIndex(isInRecording ? 1 : 0);
+}
+
+std::vector<Contestant> ExperimentForm::chosen() const
+{
+    std::vector<Contestant> result;
+    if (m_detectors.front()->isChecked()) {
+        Contestant current{"current: " + std::string(detectorNames[m_settings.detector.index()]), {}};
+        current.settings.model = m_settings.model;
+        current.settings.detector = m_settings.detector;
+        result.push_back(std::move(current));
+    }
+    const std::vector<Contestant> all = peers(m_duration->value());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (m_detectors[i + 1]->isChecked())
+            result.push_back(all[i]);
+    return result;
+}
+
+std::vector<double> ExperimentForm::snrDb() const
+{
+    std::vector<double> result;
+    for (int i = 0; static_cast<double>(i) < mostSnrs; ++i) {
+        const double db = m_lowestDb->value() + i * m_stepDb->value();
+        if (db > m_highestDb->value() + 1e-9)
+            break;
+        result.push_back(std::round(db * 1e6) / 1e6);
+    }
+    return result;
+}
+
+LineExperiment ExperimentForm::lines() const
+{
+    LineExperiment lines;
+    lines.seed = m_seed->value();
+    lines.runs = m_runs->value();
+    lines.snrDb = snrDb();
+    lines.durationWindows = m_duration->value();
+    lines.driftCellsPerWindow = m_drift->value();
+    lines.wanderCells = m_wander->value();
+    lines.wanderWindows = m_wanderTime->value();
+    lines.detectors = chosen();
+    fitBlocks(lines);
+    return lines;
+}
+
+InjectionExperiment ExperimentForm::injection(const QString &recording) const
+{
+    InjectionExperiment injection;
+    injection.recording = recording.toStdString();
+    injection.seed = m_seed->value();
+    injection.trials = m_runs->value();
+    injection.snrDb = snrDb();
+    injection.durationSeconds = m_duration->value() * m_windowSeconds;
+    injection.driftHzPerSecond = m_drift->value() / (m_windowSeconds * m_windowSeconds);
+    injection.wanderHz = m_wander->value() / m_windowSeconds;
+    injection.wanderSeconds = m_wanderTime->value() * m_windowSeconds;
+    injection.falseAlarmsPerHour = m_falseAlarms->value();
+    injection.settings = m_settings;
+    injection.detectors = chosen();
+    return injection;
+}
+
+QString ExperimentForm::name() const
+{
+    QStringList detectors;
+    for (const Contestant &one : chosen())
+        detectors << QString::fromStdString(one.name);
+    const auto db = [](double value) { return numberText(value, value == std::floor(value) ? 0 : 1); };
+    return tr("%1 · %2 … %3 dB · %4 T_FT%5")
+        .arg(detectors.join(QStringLiteral(", ")), db(m_lowestDb->value()), db(m_highestDb->value()),
+             numberText(m_duration->value(), 0),
+             m_wander->value() > 0.0 ? tr(" · wander %1").arg(numberText(m_wander->value(), 1)) : QString());
+}
+
+QString ExperimentForm::obstacle() const
+{
+    if (chosen().empty())
+        return tr("Choose at least one detector.");
+    if (snrDb().empty())
+        return tr("The highest SNR lies below the lowest.");
+    if (!isInRecording()) {
+        try {
+            checkExperiment(lines());
+        } catch (const Error &error) {
+            return messageText(error.what());
+        }
+    }
+    return {};
+}
+
+void ExperimentForm::showMeaning()
+{
+    m_falseAlarms->setEnabled(isInRecording());
+    QString text;
+    if (isInRecording() && m_windowSeconds > 0.0)
+        text = tr("Here T_FT = %1 s: lines of %2, at %3 false alarms per hour.")
+                   .arg(m_windowSeconds, 0, 'g', 3)
+                   .arg(secondsText(m_duration->value() * m_windowSeconds, 0.1), powerText(m_falseAlarms->value(), 3));
+    else
+        text =
+            tr("%1 lines per SNR; one false alarm per block of noise.").arg(m_runs->value() * lines().signalsPerRun());
+    const QString why = obstacle();
+    m_meaning->setText(why.isEmpty() ? text : why);
+}
+
+void ExperimentForm::setQuick(int runs, const QStringList &detectors, double lowestDb, double highestDb, double stepDb)
+{
+    m_runs->setValue(runs);
+    m_lowestDb->setValue(lowestDb);
+    m_highestDb->setValue(highestDb);
+    m_stepDb->setValue(stepDb);
+    for (QCheckBox *box : m_detectors)
+        box->setChecked(detectors.contains(box->text()));
+}
+
+} // namespace faintline

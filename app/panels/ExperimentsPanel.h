@@ -1,0 +1,49 @@
+#pragma once
+
+#include "app/control/Experiments.h"
+#include "base/Error.h"
+
+#include <QMap>
+#include <QWidget>
+
+class QPushButton;
+class QTableWidget;
+
+namespace faintline {
+
+/// The list of experiments: what runs, waits and is done; look at one again, stop it, take one in from a file or write it out.
+class ExperimentsPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit ExperimentsPanel(Experiments &experiments, QWidget *parent = nullptr);
+
+    /// Takes in the runs of a campaign or the points of a curve; returns the experiment's id. Throws Error.
+    int importFile(const QString &path);
+    /// A campaign's curve or a reproduction's tables and pictures; what there is decides. Throws Error.
+    void exportTo(int id, const QString &path) const;
+
+    QSize sizeHint() const override { return {520, 200}; }
+
+signals:
+    void showRequested(int id);
+    void failed(const faintline::Error &error);
+
+private:
+    int selected() const;
+    void add(int id);
+    void follow(int id);
+    void followSelection();
+    void chooseImport();
+    void chooseExport();
+
+    Experiments &m_experiments;
+    QTableWidget *m_table;
+    QPushButton *m_show;
+    QPushButton *m_cancel;
+    QPushButton *m_remove;
+    QPushButton *m_export;
+};
+
+} // namespace faintline

@@ -1,0 +1,271 @@
+#include "app/panels/HandLinePanel.h"
+
+#include "app/workspace/Workbench.h"
+#include "base/logmath.h"
+#include "widgets/waterfall/HandLine.h"
+#include "widgets/plot/StripPlot.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QHideEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    /// Hides what is under it until one has made up one's mind.
+    class Cover : public QWidget
+    {
+    public:
+        Cover(QWidget *over, const QString &sentence) : QWidget(over), m_sentence(sentence)
+        {
+            over->installEventFilter(this);
+            setGeometry(over->rect());
+            setAccessibleName(sentence);
+            show();
+        }
+
+    protected:
+        void paintEvent(QPaintEvent *) override
+        {
+            QPainter painter(this);
+            painter.fillRect(rect(), palette().color(QPalette::Window));
+            painter.setPen(Theme::colours(*this).faintText);
+            painter.setFont(Theme::font(15));
+            painter.drawText(rect().adjusted(24, 0, -24, 0), Qt::AlignCenter | Qt::TextWordWrap, m_sentence);
+        }
+        bool eventFilter(QObject *watched, QEvent *event) override
+        {
+            if (event->type() == QEvent::Resize)
+                setGeometry(parentWidget()->rect());
+            return QWidget::eventFilter(watched, event);
+        }
+
+    private:
+        QString m_sentence;
+    };
+
+    QString snrText(const PathEvidence &evidence)
+    {
+        return evidence.snr() > 0.0 ? HandLinePanel::tr("%1 dB").arg(numberText(dbFromRatio(evidence.snr()), 1))
+                                    : HandLinePanel::tr("none");
+    }
+
+} // namespace
+
+HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *parent)
+    : QWidget(parent), m_document(document), m_workbench(workbench), m_line(new HandLine(*workbench.input())),
+      m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))),
+      m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("&Take one back"))),
+      m_clear(new QPushButton(tr("&Clear"))), m_sentence(plainLabel()), m_table(new QTableWidget(3, 3))
+{
+    m_draw->setCheckable(true);
+    m_draw->setToolTip(
+        tr("Press into the input picture to make a point, drag points, take them away with the right button"));
+    m_cover->setCheckable(true);
+    m_cover->setToolTip(tr("Predict, then reveal: statistic, tracks and truth are hidden until you uncover them"));
+    m_add->setToolTip(tr("The keyboard's way to draw: move the cursor with the arrows, and press this"));
+    m_sentence->setWordWrap(true);
+    m_sentence->setTextFormat(Qt::PlainText);
+    m_table->setHorizontalHeaderLabels({tr("Frames"), tr("Σ λ (nat)"), tr("SNR")});
+    m_table->horizontalHeaderItem(1)->setToolTip(tr("Evidence: the sum of the log-likelihood ratios along the path"));
+    m_table->horizontalHeaderItem(2)->setToolTip(
+        tr("In one frame: mean power along the path over the noise's, less one"));
+    m_table->setVerticalHeaderLabels({tr("You, all of it"), tr("You, where both are"), tr("The detector there")});
+    m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+    m_table->verticalHeader()->setDefaultSectionSize(22);
+    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_table->setFocusPolicy(Qt::ClickFocus);
+    m_table->setFrameShape(QFrame::NoFrame);
+    m_table->setFixedHeight(m_table->horizontalHeader()->sizeHint().height() + 3 * 22 + 2);
+    m_table->setAccessibleName(tr("Evidence along your line and along the detector's path"));
+
+    auto *buttons = new QGridLayout;
+    buttons->addWidget(m_draw, 0, 0);
+    buttons->addWidget(m_cover, 0, 1);
+    buttons->addWidget(m_add, 1, 0);
+    buttons->addWidget(m_remove, 1, 1);
+    buttons->addWidget(m_clear, 2, 0);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(8, 6, 8, 6);
+    layout->addLayout(buttons);
+    layout->addWidget(m_table);
+    layout->addWidget(m_sentence);
+    layout->addStretch(1);
+
+    connect(m_draw, &QPushButton::toggled, this, [this](bool isOn) {
+        m_line->setActive(isOn);
+        showSentence();
+    });
+    connect(m_cover, &QPushButton::toggled, this, &HandLinePanel::setCovered);
+    connect(m_clear, &QPushButton::clicked, m_line, &HandLine::clear);
+    connect(m_remove, &QPushButton::clicked, m_line, &HandLine::removeLast);
+    connect(m_add, &QPushButton::clicked, this, [this] {
+        if (const auto &cursor = m_document.viewport().cursor())
+            m_line->add(*cursor);
+    });
+    connect(m_line, &HandLine::changed, this, &HandLinePanel::update);
+    connect(&document, &Document::analysisChanged, this, &HandLinePanel::update);
+    connect(&document, &Document::opened, this, [this] {
+        m_line->clear();
+        m_cover->setChecked(false);
+    });
+    connect(&m_runner, &JobRunner::finished, this, &HandLinePanel::settled);
+    showSentence();
+}
+
+QString HandLinePanel::sentence() const
+{
+    return m_sentence->text();
+}
+
+HandLinePanel::Comparison HandLinePanel::compare(const Analysis &analysis, const std::vector<PolylinePoint> &line,
+                                                 const RunContext &context)
+{
+    Comparison result;
+    const std::vector<PathCell> own = cellsAlong(analysis, line);
+    result.own = evidenceAlong(analysis, own, context);
+    std::vector<PathCell> ownThere;
+    std::vector<PathCell> detector;
+    for (const Track &track : analysis.tracks) {
+        std::vector<PathCell> mine;
+        std::vector<PathCell> theirs;
+        auto at = own.begin();
+        for (const TrackPoint &point : track.points) {
+            at = std::find_if(at, own.end(), [&](const PathCell &cell) { return cell.frame >= point.frame; });
+            if (at != own.end() && at->frame == point.frame) {
+                mine.push_back(*at);
+                theirs.push_back({point.frame, point.cell});
+            }
+        }
+        const auto apart = [](const std::vector<PathCell> &a, const std::vector<PathCell> &b) {
+            double sum = 0.0;
+            for (std::size_t i = 0; i < a.size(); ++i)
+                sum += std::abs(static_cast<double>(a[i].cell - b[i].cell));
+            return a.empty() ? 0.0 : sum / static_cast<double>(a.size());
+        };
+        // Of tracks side by side the nearer one; a long one beats a scrap.
+        const bool isBetter = mine.size() > 2 * ownThere.size()
+                              || (2 * mine.size() > ownThere.size() && apart(mine, theirs) < apart(ownThere, detector));
+        if (mine.empty() || !isBetter)
+            continue;
+        result.track = track.id;
+        result.meanHz = apart(mine, theirs) * analysis.grid().axes.back().step;
+        ownThere = std::move(mine);
+        detector = std::move(theirs);
+    }
+    result.frames = std::ssize(detector);
+    result.ownThere = evidenceAlong(analysis, ownThere, context);
+    result.detector = evidenceAlong(analysis, detector, context);
+    return result;
+}
+
+void HandLinePanel::update()
+{
+    const auto &analysis = m_document.analysis();
+    if (!analysis || m_document.hasPings() || m_line->points().empty()) {
+        m_comparison.reset();
+        m_table->clearContents();
+        showSentence();
+        emit settled();
+        return;
+    }
+    std::vector<PolylinePoint> line;
+    for (const Viewport::Point &point : m_line->points())
+        line.push_back({point.seconds, point.hz});
+    m_runner.start([this, analysis, line = std::move(line)](const RunContext &context) -> JobRunner::Delivery {
+        const Comparison comparison = compare(*analysis, line, context);
+        return [this, comparison] { show(comparison); };
+    });
+}
+
+void HandLinePanel::show(const Comparison &comparison)
+{
+    m_comparison = comparison;
+    const PathEvidence *rows[] = {&comparison.own, &comparison.ownThere, &comparison.detector};
+    for (int row = 0; row < 3; ++row) {
+        const bool isShown = row == 0 || (comparison.track && !isCovered());
+        const QString texts[] = {QString::number(rows[row]->frames), numberText(rows[row]->logLikelihoodRatio, 1),
+                                 snrText(*rows[row])};
+        for (int column = 0; column < 3; ++column) {
+            auto *item = new QTableWidgetItem(isShown ? texts[column] : QString());
+            item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+            m_table->setItem(row, column, item);
+        }
+    }
+    showSentence();
+}
+
+void HandLinePanel::showSentence()
+{
+    if (!m_comparison) {
+        m_sentence->setText(
+            m_document.hasPings()
+                ? tr("Lines are drawn through recordings, not through pings.")
+                : tr("Press Draw and drag a line through the input, where you think a signal is. Cover the statistic "
+                     "first, and it is a prediction."));
+        return;
+    }
+    const Comparison &both = *m_comparison;
+    if (isCovered())
+        return m_sentence->setText(
+            tr("Your line gathers %1 nat in %2 frames. Reveal shows what the detector made of it.")
+                .arg(numberText(both.own.logLikelihoodRatio, 1))
+                .arg(both.own.frames));
+    if (!both.track)
+        return m_sentence->setText(tr("The detector has no track in these frames."));
+    const double ahead = both.ownThere.logLikelihoodRatio - both.detector.logLikelihoodRatio;
+    m_sentence->setText(tr("In the %1 frames that you share with track %2 you are %3 nat %4, and %5 away from it on "
+                           "average. The detector's "
+                           "statistic has ln P and ln K of every step besides its Σ λ.")
+                            .arg(both.frames)
+                            .arg(both.track)
+                            .arg(numberText(std::abs(ahead), 1), ahead > 0.0 ? tr("ahead of it") : tr("behind it"),
+                                 hertzText(both.meanHz, 0.1)));
+}
+
+void HandLinePanel::setCovered(bool isCovered)
+{
+    for (QWidget *&cover : m_covers) {
+        delete cover;
+        cover = nullptr;
+    }
+    WaterfallView &input = *m_workbench.input();
+    for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer})
+        input.setLayer(layer, !isCovered);
+    if (isCovered) {
+        m_covers[0] =
+            new Cover(m_workbench.outputPane(), tr("Where is the line? Draw it through the input, then reveal."));
+        m_covers[1] = new Cover(m_workbench.statisticPlot(), {});
+        m_draw->setChecked(true);
+    }
+    m_cover->setChecked(isCovered);
+    m_cover->setText(isCovered ? tr("Reveal the &statistic") : tr("Cover the &statistic"));
+    if (m_comparison)
+        show(*m_comparison);
+    showSentence();
+}
+
+/// Out of sight it takes no clicks and hides nothing.
+void HandLinePanel::hideEvent(QHideEvent *event)
+{
+    QWidget::hideEvent(event);
+    if (window()->isVisible() && !event->spontaneous()) {
+        m_draw->setChecked(false);
+        m_cover->setChecked(false);
+    }
+}
+
+} // namespace faintline

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "analysis/pathEvidence.h"
+#include "app/document/Document.h"
+#include "app/base/JobRunner.h"
+
+#include <QWidget>
+
+#include <optional>
+
+class QLabel;
+class QPushButton;
+class QTableWidget;
+
+namespace faintline {
+
+class HandLine;
+class Workbench;
+
+/// Beat the detector: a line drawn by hand through the input, and what the data say about it, beside the detector's path in the same frames.
+///
+/// *Predict, then reveal*: while it is covered, the statistic, tracks and truth are out of sight; the learner draws where the line is, and
+/// reveals. Numbers follow while a vertex is dragged; the newest line wins.
+class HandLinePanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    /// The detector's path that has most frames in common with the line, and both in these frames.
+    struct Comparison {
+        PathEvidence own;      ///< all of the line
+        int track = 0;         ///< 0: no track in these frames
+        Index frames = 0;      ///< they have in common
+        PathEvidence ownThere; ///< the line in them
+        PathEvidence detector;
+        double meanHz = 0.0; ///< how far apart they are on average
+    };
+
+    HandLinePanel(Document &document, Workbench &workbench, QWidget *parent = nullptr);
+
+    HandLine &line() { return *m_line; }
+    QPushButton *drawButton() const { return m_draw; }
+    QPushButton *coverButton() const { return m_cover; }
+    QPushButton *addButton() const { return m_add; }
+    QPushButton *clearButton() const { return m_clear; }
+    bool isCovered() const { return m_covers[0] != nullptr; }
+    bool isBusy() const { return m_runner.isRunning(); }
+    const std::optional<Comparison> &comparison() const { return m_comparison; }
+    QString sentence() const;
+
+    /// Throws Cancelled.
+    static Comparison compare(const Analysis &analysis, const std::vector<PolylinePoint> &line,
+                              const RunContext &context = {});
+
+    QSize sizeHint() const override { return {320, 300}; }
+
+public slots:
+    void setCovered(bool isCovered);
+
+signals:
+    void settled();
+
+protected:
+    void hideEvent(QHideEvent *event) override;
+
+private:
+    void update();
+    void show(const Comparison &comparison);
+    void showSentence();
+
+    Document &m_document;
+    Workbench &m_workbench;
+    HandLine *m_line;
+    QPushButton *m_draw;
+    QPushButton *m_cover;
+    QPushButton *m_add;
+    QPushButton *m_remove;
+    QPushButton *m_clear;
+    QLabel *m_sentence;
+    QTableWidget *m_table;
+    QWidget *m_covers[2]{nullptr, nullptr}; ///< over the statistic and its chart
+    std::optional<Comparison> m_comparison;
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline

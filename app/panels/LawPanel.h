@@ -1,0 +1,58 @@
+#pragma once
+
+#include "app/document/Document.h"
+
+#include <QWidget>
+
+#include <vector>
+
+class QLabel;
+class QVBoxLayout;
+
+namespace faintline {
+
+class LawPlot;
+class Sight;
+
+/// The laws of the model's changes of rate, one for each that the settings hold, to be dragged; what they mean in words below.
+class LawPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit LawPanel(const Document &document, QWidget *parent = nullptr);
+
+    int plotCount() const { return static_cast<int>(m_laws.size()); }
+    LawPlot *plot(int number) const { return m_laws[static_cast<std::size_t>(number)].plot; }
+    QString sentence() const;
+
+signals:
+    /// A law was dragged: the setting of that name should be this.
+    void lawRequested(const QString &field, const std::vector<double> &law);
+
+private:
+    /// A law of the settings, and the axes of the model that it moves.
+    struct Law {
+        QString field; ///< empty: fixed
+        QString title;
+        std::vector<double> values;
+        int mostChange = 0;
+        std::vector<std::size_t> axes;
+        LawPlot *plot = nullptr;
+    };
+
+    std::vector<Law> lawsOf(const Analysis &analysis) const;
+    void show();
+    void sayWhatItMeans();
+    QString driftWords(const Analysis &analysis) const;
+    QString snrWords(const Analysis &analysis) const;
+
+    const Document &m_document;
+    std::vector<Law> m_laws;
+    QVBoxLayout *m_plots;
+    QLabel *m_sentence;
+    Sight *m_sight;
+    bool m_isSaid = false; ///< what the laws as they are mean
+};
+
+} // namespace faintline

@@ -1,0 +1,195 @@
+#include "app/panels/NoiseFitPanel.h"
+
+#include "analysis/Calibration.h"
+#include "app/document/Document.h"
+#include "app/base/Sight.h"
+#include "app/base/readingTable.h"
+#include "widgets/plot/ChartPlot.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int bandCount = 6;
+    constexpr double rarest = 1e-4; ///< beyond it a ratio would rest on a handful of cells
+    constexpr std::int64_t mostCells = 20'000'000;
+    constexpr double fewest = 10.0; ///< values beyond a quantile that is drawn
+
+    QString bandText(const FittedBand &band, const Axis &axis)
+    {
+        if (axis.unit != "Hz") {
+            const int decimals = decimalsFor((band.high - band.low) / 10.0);
+            return QObject::tr("%1 … %2 %3")
+                .arg(numberText(band.low, decimals), numberText(band.high, decimals), labelText(axis.unit, mostUnitLetters));
+        }
+        const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
+        const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
+        return QObject::tr("%1 … %2 %3")
+            .arg(numberText(band.low / unit.hz, decimals), numberText(band.high / unit.hz, decimals), unit.name);
+    }
+
+    /// Bins at 0 Hz and at half the rate which are no noise of that law, and are kept from the detector.
+    Index blindCells(const Analysis &analysis)
+    {
+        const SelectionSettings &selection = analysis.settings.selection;
+        if (!analysis.recording || analysis.recording->info().isComplex || selection.lowHz < selection.highHz)
+            return 0;
+        const std::vector<double> &cells = analysis.settings.decide.inhibitCells;
+        const double half = cells.empty() ? 0.0 : cells.back();
+        return static_cast<Index>(std::ceil(half * frameGeometry(analysis.settings.spectrogram).binsPerCell)) + 1;
+    }
+
+    Chart chartOf(const std::vector<FittedBand> &bands, const Axis &axis)
+    {
+        Chart chart{"Normalised noise against its law", "quantile of the law e^(-y)", "measured y", false, false, {}};
+        double longest = 1.0;
+        for (const FittedBand &band : bands) {
+            Curve curve{bandText(band, axis).toStdString(), Curve::Kind::Measured, {}};
+            for (double x = 0.5; static_cast<double>(band.law.count()) * std::exp(-x) >= fewest; x += 0.5) {
+                curve.points.push_back({x, band.law.quantile(std::exp(-x)), {}});
+                longest = std::max(longest, x);
+            }
+            chart.curves.push_back(std::move(curve));
+        }
+        chart.curves.push_back({"the law", Curve::Kind::Theory, {{0.0, 0.0, {}}, {longest, longest, {}}}});
+        return chart;
+    }
+
+    constexpr double notable = 3.0; ///< times a Pfa
+
+    /// Noise a little too strong adds up faster than resets take away; a ratio would only tell how small the Pfa was.
+    bool growsWithoutEnd(const MisfitPfa &pfa)
+    {
+        return pfa.actual > 0.1;
+    }
+
+    QString pfaText(const MisfitPfa &pfa)
+    {
+        return growsWithoutEnd(pfa) ? NoiseFitPanel::tr("grows") : QStringLiteral("× ") + powerText(pfa.ratio(), 3);
+    }
+
+} // namespace
+
+NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_sentence(plainLabel()),
+      m_plot(new ChartPlot), m_table(new QTableWidget(0, 4)), m_sight(new Sight(*this))
+{
+    m_sentence->setWordWrap(true);
+    m_sentence->setText(tr("Open a recording to measure its noise."));
+    m_sentence->setContentsMargins(8, 6, 8, 4);
+    m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
+    m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
+    m_table->horizontalHeaderItem(2)->setToolTip(
+        tr("Kolmogorov and Smirnov's distance to e^(-y), and its 95 % limit for as many independent values"));
+    m_table->horizontalHeaderItem(3)->setToolTip(
+        tr("How much likelier this band's noise exceeds a threshold in a cell than noise of the law itself: at the "
+           "threshold's own false-alarm "
+           "probability, or at 10⁻⁴ where that is smaller than can be vouched for"));
+    makeReadingTable(*m_table, 22);
+    m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    m_table->horizontalHeader()->setStretchLastSection(true);
+    m_table->setAccessibleName(tr("Fit of the noise, band by band"));
+    auto *splitter = new QSplitter(Qt::Vertical);
+    splitter->addWidget(m_plot);
+    splitter->addWidget(m_table);
+    splitter->setSizes({260, 170});
+    splitter->setChildrenCollapsible(false);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_sentence);
+    layout->addWidget(splitter, 1);
+
+    connect(m_sight, &Sight::came, this, &NoiseFitPanel::measure);
+    connect(&document, &Document::analysisChanged, this, &NoiseFitPanel::measure);
+    connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
+        m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+    });
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        m_sentence->setText(messageText(error.what()));
+        emit settled();
+    });
+    connect(&m_runner, &JobRunner::finished, this, &NoiseFitPanel::settled);
+}
+
+QString NoiseFitPanel::sentence() const
+{
+    return m_sentence->text();
+}
+
+void NoiseFitPanel::measure()
+{
+    const auto &analysis = m_document.analysis();
+    if (!analysis || !m_sight->isOn() || m_measured == analysis)
+        return;
+    m_measured = analysis;
+    m_runner.start([this, analysis](const RunContext &context) -> JobRunner::Delivery {
+        Fit fit{analysis, {}, {}};
+        const FrameGeometry geometry =
+            analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
+        fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4), mostCells, blindCells(*analysis));
+        if (analysis->settings.model.motion == Motion::Slopes) // a sonar's targets move on two axes, these cells lie on one
+            fit.pfa = misfitPfa(fit.bands, analysis->settings,
+                            std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
+                            context.part(0.4, 1.0));
+        return [this, fit = std::move(fit)] { show(fit); };
+    });
+}
+
+void NoiseFitPanel::show(const Fit &fit)
+{
+    const Axis &axis = fit.analysis->grid().axes.back();
+    m_plot->setChart(chartOf(fit.bands, axis));
+    m_table->setRowCount(static_cast<int>(fit.bands.size()));
+    for (int row = 0; row < m_table->rowCount(); ++row) {
+        const FittedBand &band = fit.bands[static_cast<std::size_t>(row)];
+        const QStringList texts{bandText(band, axis), numberText(band.law.mean(), 3),
+                                 tr("%1 %2 %3")
+                                     .arg(numberText(band.law.distance(), 4),
+                                          band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
+                                          numberText(NoiseLaw::distanceLimit(band.independent), 4)),
+                                 fit.pfa.empty() ? QStringLiteral("–") : pfaText(fit.pfa[static_cast<std::size_t>(row)])};
+        fillRow(*m_table, row, texts, 1);
+    }
+    say(fit);
+}
+
+void NoiseFitPanel::say(const Fit &fit)
+{
+    const auto misfits =
+        std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
+    if (fit.pfa.empty())
+        return m_sentence->setText((misfits == 0 ? tr("All bands follow the law.")
+                                                 : tr("%1 of %2 bands depart from the law; targets in them do so too.")
+                                                       .arg(misfits)
+                                                       .arg(fit.bands.size()))
+                                   + QLatin1Char(' ') + tr("What misfits do to Pfa is reckoned for slope sets only."));
+    const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
+                                        [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
+    const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());
+    const bool isHarmless = misfits == 0 && worst->ratio() < notable;
+    const QString law = misfits > 0 ? tr("%1 of %2 bands depart from the law; lines in them do so too.").arg(misfits).arg(fit.bands.size())
+                        : isHarmless ? tr("All bands follow the law.")
+                                     : tr("All bands follow the law but for their tails, in which lines are too.");
+    const QString ratio = powerText(worst->ratio(), 3);
+    const QString nominal = powerText(worst->nominal);
+    QString alarms = tr("Taken as noise, %1 would give %2 times a Pfa of %3 per cell.").arg(band, ratio, nominal);
+    if (growsWithoutEnd(*worst))
+        alarms = tr("Taken as noise, %1 would let D grow without end: nearly every cell above the threshold.").arg(band);
+    else if (isHarmless)
+        alarms = tr("Where it gives a Pfa of %1 per cell, these give at most %2 times that (%3).").arg(nominal, ratio, band);
+    m_sentence->setText(law + QLatin1Char(' ') + alarms);
+}
+
+} // namespace faintline

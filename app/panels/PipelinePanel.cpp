@@ -1,0 +1,199 @@
+#include "app/panels/PipelinePanel.h"
+
+#include "app/control/AnalysisController.h"
+#include "analysis/chooseWindow.h"
+#include "analysis/slopeUnit.h"
+#include "spectrum/NoiseNormaliser.h"
+#include "widgets/forms/SettingsForm.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+#include "widgets/base/settingWords.h"
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    /// "WAV, int16 · 12 kHz · 15 s"
+    QString summary(const RecordingInfo &info)
+    {
+        QStringList parts{labelText(
+            info.container == info.sampleType ? info.container : info.container + ", " + info.sampleType)};
+        parts << hertzText(info.sampleRateHz, 1e-3 * info.sampleRateHz)
+              << secondsText(info.durationSeconds(), 1e-2 * info.durationSeconds());
+        if (info.channelCount > 1)
+            parts << QObject::tr("%1 channels").arg(info.channelCount);
+        return parts.join(QStringLiteral(" · "));
+    }
+
+    /// "60 pings, every 40 s · 2500 range × 20 bearing"
+    QString summary(const NormalisedFrames &frames)
+    {
+        QStringList axes;
+        for (const Axis &axis : frames.grid().axes)
+            axes << QStringLiteral("%1 %2").arg(axis.count).arg(labelText(axis.name, mostUnitLetters));
+        const QString kind = axes.size() > 1 ? QObject::tr("pings") : QObject::tr("frames");
+        return QObject::tr("%1 %2, every %3 s · %4")
+            .arg(frames.time().count)
+            .arg(kind)
+            .arg(frames.time().step, 0, 'g', 4)
+            .arg(axes.join(QStringLiteral(" × ")));
+    }
+
+    double windowSeconds(const Spectrogram &spectrogram)
+    {
+        return spectrogram.windowSamples() / spectrogram.recording().info().sampleRateHz;
+    }
+
+} // namespace
+
+PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller, QWidget *parent)
+    : QWidget(parent), m_document(document), m_controller(controller), m_recording(new QLabel), m_preset(new QComboBox),
+      m_window(new QComboBox), m_top(new QFormLayout), m_form(new SettingsForm)
+{
+    m_recording->setWordWrap(true);
+    m_recording->setTextFormat(Qt::RichText);
+    m_preset->addItem(tr("Own settings"));
+    for (const Preset &preset : presets()) {
+        m_preset->addItem(QString::fromStdString(preset.name));
+        m_preset->setItemData(m_preset->count() - 1, QString::fromStdString(preset.sentence), Qt::ToolTipRole);
+    }
+    m_preset->setAccessibleName(tr("Preset"));
+    m_preset->setToolTip(tr("A starting point for a kind of recording"));
+
+    m_window->setObjectName(QStringLiteral("windowChoice"));
+    m_window->setAccessibleName(tr("Window"));
+    m_window->setToolTip(tr("Windows that were tried on this recording, with the number of tracks each one found"));
+
+    m_top->setContentsMargins(10, 5, 10, 3);
+    m_top->setHorizontalSpacing(10);
+    m_top->addRow(m_recording);
+    m_top->addRow(tr("&Preset"), m_preset);
+    m_top->addRow(tr("&Window"), m_window);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addLayout(m_top);
+    layout->addWidget(m_form, 1);
+
+    connect(m_preset, &QComboBox::activated, this, &PipelinePanel::applyPreset);
+    connect(m_window, &QComboBox::activated, this, &PipelinePanel::applyWindow);
+    connect(m_form, &SettingsForm::settingEdited, this, [this](const QString &name, const FieldValue &value) {
+        m_controller.edit(name, value, tr("Change “%1”").arg(settingLabel(name)));
+    });
+    connect(m_form, &SettingsForm::resetRequested, this,
+            [this] { m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings")); });
+    connect(&document, &Document::opened, this, &PipelinePanel::showRecording);
+    connect(&document, &Document::opened, this, [this] {
+        m_choice.reset();
+        showSettings();
+    });
+    connect(&document, &Document::settingsChanged, this, &PipelinePanel::showSettings);
+    connect(&document, &Document::analysisChanged, this, &PipelinePanel::showNotes);
+    connect(&controller, &AnalysisController::failed, this, &PipelinePanel::showError);
+    showRecording();
+    showSettings();
+}
+
+void PipelinePanel::showRecording()
+{
+    if (m_document.isEmpty())
+        return m_recording->setText(tr("Nothing is open."));
+    const QString words = m_document.frames() ? summary(*m_document.frames()) : summary(m_document.recording()->info());
+    m_recording->setText(
+        QStringLiteral("<b>%1</b><br>%2").arg(m_document.source().name().toHtmlEscaped(), words.toHtmlEscaped()));
+}
+
+void PipelinePanel::showSettings()
+{
+    m_form->setSettings(m_document.settings());
+    m_form->setHzPerSecondOfABinAFrame(
+        m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings().spectrogram, m_document.recording()->info()) : 0.0);
+    for (const char *stage : {"selection", "spectrogram", "noise"})
+        m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
+    m_form->setSectionShown(QStringLiteral("conventional"), m_document.hasPings());
+    const auto isTaken = [this](const Preset &preset) {
+        return withSelection(preset.settings) == m_document.settings();
+    };
+    const auto taken = std::find_if(presets().begin(), presets().end(), isTaken);
+    m_preset->setCurrentIndex(taken == presets().end() ? 0 : static_cast<int>(taken - presets().begin()) + 1);
+    showWindows();
+}
+
+void PipelinePanel::showWindows()
+{
+    m_window->clear();
+    if (m_choice && m_choice->trials.size() > 1) {
+        const auto seconds = [&](std::size_t trial) { return QString::number(m_choice->trials[trial].windowSeconds, 'g', 4); };
+        m_window->addItem(tr("From the recording: %1 s").arg(seconds(m_choice->chosen)));
+        for (std::size_t i = 0; i < m_choice->trials.size(); ++i)
+            m_window->addItem(tr("%1 s, %n track(s)", nullptr, static_cast<int>(m_choice->trials[i].tracks)).arg(seconds(i)));
+        const auto taken = std::find_if(m_choice->trials.begin(), m_choice->trials.end(), [this](const WindowTrial &trial) {
+            return inWindowOf(trial, m_document.settings()) == m_document.settings();
+        });
+        if (leavesWindowToRecording(m_document.analysedSettings()))
+            m_window->setCurrentIndex(0);
+        else
+            m_window->setCurrentIndex(taken == m_choice->trials.end() ? -1 : static_cast<int>(taken - m_choice->trials.begin()) + 1);
+    }
+    m_window->setVisible(m_window->count() > 0);
+    m_top->labelForField(m_window)->setVisible(m_window->count() > 0);
+}
+
+void PipelinePanel::showNotes()
+{
+    const Analysis &analysis = *m_document.analysis();
+    m_form->clearErrors();
+    if (analysis.choice)
+        m_choice = analysis.choice;
+    showWindows();
+    if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()))
+        m_form->setNote(QStringLiteral("spectrogram.windowSeconds"),
+                        analysis.choice ? QString::fromStdString(windowChoiceWords(*analysis.choice))
+                                        : tr("%1 s").arg(windowSeconds(frames->spectrogram()), 0, 'g', 4));
+    const ModelSettings &used = analysis.settings.model;
+    if (!analysis.choice || used == m_document.analysedSettings().model)
+        return;
+    m_form->setNote(QStringLiteral("model.lowestSlope"), tr("%1 bins/frame in this window").arg(used.lowestSlope));
+    m_form->setNote(QStringLiteral("model.highestSlope"), tr("%1 bins/frame in this window").arg(used.highestSlope));
+}
+
+void PipelinePanel::showError(const Error &error)
+{
+    // "model.snr = -3" names a field.
+    const QString name = QString::fromStdString(error.where()).section(QLatin1Char(' '), 0, 0);
+    if (m_form->editor(name))
+        m_form->setError(name, messageText(error.why()));
+}
+
+void PipelinePanel::applyPreset(int index)
+{
+    if (index == 0)
+        return showSettings();
+    m_controller.setSettings(withSelection(presets()[static_cast<std::size_t>(index - 1)].settings),
+                             tr("Take preset “%1”").arg(m_preset->itemText(index)));
+}
+
+void PipelinePanel::applyWindow(int index)
+{
+    const WindowTrial &trial = m_choice->trials[index == 0 ? m_choice->automatic : static_cast<std::size_t>(index - 1)];
+    AnalysisSettings settings = inWindowOf(trial, m_document.settings());
+    if (index == 0)
+        settings.spectrogram.windowSeconds = 0.0;
+    m_controller.setSettings(settings, tr("Take window “%1”").arg(m_window->itemText(index)));
+}
+
+AnalysisSettings PipelinePanel::withSelection(AnalysisSettings settings) const
+{
+    settings.selection = m_document.settings().selection;
+    return settings;
+}
+
+} // namespace faintline

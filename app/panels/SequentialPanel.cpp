@@ -1,0 +1,477 @@
+#include "app/panels/SequentialPanel.h"
+
+#include "app/document/Document.h"
+#include "app/panels/ScanTestForm.h"
+#include "app/panels/TrajectoryPage.h"
+#include "app/document/saveView.h"
+#include "app/panels/sequentialSentences.h"
+#include "exchange/sequentialCsv.h"
+#include "exchange/writeChart.h"
+#include "widgets/plot/BarPlot.h"
+#include "widgets/plot/CellPicture.h"
+#include "widgets/plot/ChartPlot.h"
+#include "widgets/plot/WalkPlot.h"
+
+#include <QFileDialog>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QMenu>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    QLabel *sentenceLabel()
+    {
+        auto *label = new QLabel;
+        label->setTextFormat(Qt::PlainText);
+        label->setWordWrap(true);
+        label->setContentsMargins(8, 2, 8, 4);
+        label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+        return label;
+    }
+
+    QSplitter *sideBySide(QWidget *left, QWidget *right, int leftShare, int rightShare)
+    {
+        auto *splitter = new QSplitter(Qt::Horizontal);
+        splitter->setChildrenCollapsible(false);
+        splitter->addWidget(left);
+        splitter->addWidget(right);
+        splitter->setStretchFactor(0, leftShare);
+        splitter->setStretchFactor(1, rightShare);
+        return splitter;
+    }
+
+    /// Views above one another, close together.
+    QWidget *column(std::initializer_list<QWidget *> widgets)
+    {
+        auto *page = new QWidget;
+        auto *layout = new QVBoxLayout(page);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setSpacing(0);
+        for (QWidget *widget : widgets)
+            layout->addWidget(widget, qobject_cast<QLabel *>(widget) ? 0 : 1);
+        return page;
+    }
+
+} // namespace
+
+SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
+    : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm), m_start(new QPushButton(tr("Run"))),
+      m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the recording’s view"))),
+      m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
+      m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()),
+      m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()),
+      m_runText(new QLabel), m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
+{
+    m_tabs->setDocumentMode(true);
+    m_tabs->setMinimumWidth(280); // the window must not grow for charts that are not looked at
+    m_tabs->addTab(buildWalks(), tr("Walks"));
+    addView(&m_trajectory->posterior(), tr("Posterior and trajectory"), [this] { return m_trajectory->posteriorNumbers(); });
+    addView(&m_trajectory->scan(), tr("Scan"), [this] { return m_trajectory->scanNumbers(); });
+    m_tabs->addTab(m_trajectory, tr("Trajectory and scan"));
+    m_tabs->addTab(buildCurves(), tr("Stages against SNR"));
+    m_tabs->addTab(buildPrior(), tr("Against the prior"));
+    m_tabs->addTab(buildSectors(), tr("Sectors"));
+    auto *saveMenu = new QMenu(this);
+    for (const View &view : m_views)
+        saveMenu->addAction(tr("%1…").arg(view.title), this, [this, view] { save(view); });
+    auto *saveButton = new QToolButton;
+    saveButton->setText(tr("Save"));
+    saveButton->setToolTip(tr("Save a view as PNG, SVG or PDF, or its numbers as CSV"));
+    saveButton->setMenu(saveMenu);
+    saveButton->setPopupMode(QToolButton::InstantPopup);
+    saveButton->setAutoRaise(true);
+    m_tabs->setCornerWidget(saveButton);
+
+    auto *right = new QVBoxLayout;
+    right->setSpacing(0);
+    right->addWidget(m_tabs, 1);
+    right->addWidget(buildRunRow());
+    auto *layout = new QHBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(buildLeft());
+    layout->addLayout(right, 1);
+    connectTests();
+    connect(&document, &Document::analysisChanged, this, &SequentialPanel::followDocument);
+    connect(&document, &Document::opened, this, &SequentialPanel::followDocument);
+    followDocument();
+    restart();
+}
+
+// ---- building -------------------------------------------------------------------------------------------------------
+
+QWidget *SequentialPanel::buildLeft()
+{
+    auto *area = new QScrollArea;
+    area->setWidget(m_form);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_progress->setRange(0, 1000);
+    m_progress->setTextVisible(false);
+    m_progress->setFixedHeight(8);
+    m_progress->setAccessibleName(tr("Progress of the sequential tests"));
+    m_state->setTextFormat(Qt::PlainText);
+    m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_start->setToolTip(tr("Run tests on simulated radar scans with these settings; the window stays free meanwhile"));
+    m_onSelection->setToolTip(tr("One test on the recording's frames and frequencies in view, with α, β and the cut-off from above and the "
+                                 "signal model of the pipeline"));
+    connect(m_start, &QPushButton::clicked, this, &SequentialPanel::run);
+    connect(m_cancel, &QPushButton::clicked, &m_tests, &SequentialTests::cancel);
+    connect(m_onSelection, &QPushButton::clicked, this, &SequentialPanel::startOnSelection);
+
+    auto *left = new QWidget;
+    left->setFixedWidth(290);
+    auto *buttons = new QHBoxLayout;
+    buttons->setSpacing(6);
+    buttons->addWidget(m_start, 1);
+    buttons->addWidget(m_cancel, 1);
+    auto *below = new QVBoxLayout;
+    below->setContentsMargins(8, 2, 8, 4);
+    below->setSpacing(3);
+    below->addLayout(buttons);
+    below->addWidget(m_onSelection);
+    below->addWidget(m_progress);
+    below->addWidget(m_state);
+    auto *layout = new QVBoxLayout(left);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(area, 1);
+    layout->addLayout(below);
+    return left;
+}
+
+void SequentialPanel::addView(QWidget *widget, const QString &title, std::function<std::string()> csv)
+{
+    m_views.push_back({widget, title, std::move(csv)});
+    widget->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(widget, &QWidget::customContextMenuRequested, this, [this, view = m_views.back()](const QPoint &at) {
+        QMenu menu;
+        menu.addAction(tr("Save picture or numbers…"), this, [this, view] { save(view); });
+        menu.exec(view.widget->mapToGlobal(at));
+    });
+}
+
+QWidget *SequentialPanel::buildWalks()
+{
+    m_walk->setEmptySentence(tr("Press Run: tests of noise and of targets walk here until they are sure."));
+    m_stopping->setEmptySentence(tr("When the tests stop is counted here."));
+    m_stopping->setTitles(tr("stages taken"), tr("tests"));
+    m_stopping->setAccessibleName(tr("How many tests stopped after each stage"));
+    addView(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    addView(m_stopping, tr("Stopping times"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
+    connect(m_walk, &WalkPlot::walkActivated, &m_tests, &SequentialTests::select);
+    connect(m_walk, &MarkedPlot::activated, this, [this](double x) { m_tests.setStage(std::lround(x)); });
+    connect(m_stopping, &BarPlot::barActivated, this, &SequentialPanel::selectStoppedAt);
+    return sideBySide(m_walk, m_stopping, 3, 2);
+}
+
+QWidget *SequentialPanel::buildCurves()
+{
+    for (ChartPlot *plot : {m_asn, m_variation, m_prior})
+        plot->setEmptySentence(tr("Press Run: the curve grows here."));
+    addView(m_asn, tr("Stages against SNR"), [this] { return chartCsv(m_asn->chart()); });
+    addView(m_variation, tr("Coefficient of variation"), [this] { return chartCsv(m_variation->chart()); });
+    return m_curvesPage = column({sideBySide(m_asn, m_variation, 3, 2), m_curvesText});
+}
+
+QWidget *SequentialPanel::buildPrior()
+{
+    addView(m_prior, tr("Stages against the prior"), [this] { return chartCsv(m_prior->chart()); });
+    return m_priorPage = column({m_prior, m_priorText});
+}
+
+QWidget *SequentialPanel::buildSectors()
+{
+    m_sectors->setEmptySentence(tr("How long the beam dwells on each sector appears here."));
+    m_sectors->setTitles(tr("sector"), tr("dwell, mean stages a look"));
+    m_sectors->setAccessibleName(tr("Dwell time on each sector"));
+    addView(m_sectors, tr("Sectors"),
+            [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
+    return m_sectorsPage = column({m_sectors, m_sectorsText});
+}
+
+QWidget *SequentialPanel::buildRunRow()
+{
+    m_runText->setTextFormat(Qt::PlainText);
+    m_runText->setWordWrap(true);
+    m_runText->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_slider->setFixedWidth(150);
+    m_slider->setAccessibleName(tr("Stage"));
+    m_slider->setToolTip(tr("Stage that is looked at (J, L)"));
+    connect(m_slider, &QSlider::valueChanged, this, [this](int stage) { m_tests.setStage(stage); });
+    auto *row = new QWidget;
+    auto *layout = new QHBoxLayout(row);
+    layout->setContentsMargins(8, 3, 8, 4);
+    layout->addWidget(m_runText, 1);
+    layout->addWidget(m_stageText);
+    layout->addWidget(m_slider);
+    return row;
+}
+
+void SequentialPanel::connectTests()
+{
+    connect(&m_tests, &SequentialTests::restarted, this, &SequentialPanel::restart);
+    connect(&m_tests, &SequentialTests::busyChanged, this, &SequentialPanel::showBusy);
+    connect(&m_tests, &SequentialTests::progressed, this, [this](double fraction, const QString &what) {
+        m_progress->setValue(static_cast<int>(1000.0 * fraction));
+        m_state->setText(what);
+    });
+    connect(&m_tests, &SequentialTests::walksChanged, this, &SequentialPanel::showWalks);
+    connect(&m_tests, &SequentialTests::fixedSizeChanged, this, &SequentialPanel::showWalks);
+    connect(&m_tests, &SequentialTests::selectionChanged, this, &SequentialPanel::showSelection);
+    connect(&m_tests, &SequentialTests::stageChanged, this, &SequentialPanel::showStage);
+    connect(&m_tests, &SequentialTests::inspectionChanged, this, [this] { m_runText->setText(runSentence(m_tests)); });
+    connect(&m_tests, &SequentialTests::curvesChanged, this, &SequentialPanel::showCurves);
+    connect(&m_tests, &SequentialTests::surveyChanged, this, &SequentialPanel::showSectors);
+    connect(&m_tests, &SequentialTests::failed, this, &SequentialPanel::failed);
+}
+
+// ---- starting -------------------------------------------------------------------------------------------------------
+
+void SequentialPanel::run()
+{
+    start(m_form->test());
+}
+
+void SequentialPanel::start(const ScanTest &test)
+{
+    m_form->setTest(test);
+    try {
+        m_tests.start(test);
+    } catch (const Error &error) {
+        m_form->showError(error);
+        emit failed(error);
+    }
+}
+
+void SequentialPanel::startOnSelection()
+{
+    const auto &analysis = m_document.analysis();
+    if (!analysis)
+        return;
+    const Viewport::Box &visible = m_document.viewport().visible();
+    const Axis &time = analysis->time();
+    const Axis &frequency = analysis->grid().axes.back();
+    SequentialTests::Selection selection;
+    selection.name = m_document.source().name();
+    selection.frames = analysis->frames;
+    selection.model = analysis->settings.model;
+    selection.firstFrame = time.nearest(visible.time.low + 0.5 * time.step);
+    selection.frameCount = time.nearest(visible.time.high - 0.5 * time.step) - selection.firstFrame + 1;
+    selection.firstCell = frequency.nearest(visible.frequency.low + 0.5 * frequency.step);
+    selection.cellCount = frequency.nearest(visible.frequency.high - 0.5 * frequency.step) - selection.firstCell + 1;
+    try {
+        m_tests.start(selection, m_form->test().sprt);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void SequentialPanel::restart()
+{
+    showBusy(m_tests.isRunning());
+    m_trajectory->clear();
+    const QString none = tr("Curves and sectors are simulated: press Run.");
+    for (ChartPlot *plot : {m_asn, m_variation, m_prior})
+        plot->setEmptySentence(m_tests.isOfScans() ? tr("Press Run: the curve grows here.") : none);
+    m_sectors->setEmptySentence(m_tests.isOfScans() ? tr("How long the beam dwells on each sector appears here.") : none);
+    showWalks();
+    showSelection();
+    showStage();
+    showCurves();
+    showSectors();
+}
+
+void SequentialPanel::showBusy(bool isBusy)
+{
+    m_cancel->setEnabled(isBusy);
+    if (isBusy) {
+        m_state->setText(tr("starting"));
+        return m_progress->setValue(0);
+    }
+    m_progress->setValue(m_tests.isFixedSizeKnown() || (!m_tests.isOfScans() && !m_tests.isEmpty()) ? 1000 : 0);
+    m_state->setText(m_tests.isEmpty() ? QString() : m_progress->value() == 1000 ? tr("done") : tr("stopped; the rest is not there"));
+}
+
+void SequentialPanel::followDocument()
+{
+    const auto &analysis = m_document.analysis();
+    m_onSelection->setEnabled(analysis && analysis->grid().axes.size() == 1 && analysis->settings.model.motion == Motion::Slopes);
+}
+
+// ---- showing --------------------------------------------------------------------------------------------------------
+
+void SequentialPanel::showWalks()
+{
+    std::vector<WalkPlot::Walk> walks;
+    for (const auto &[run, result] : m_tests.walks())
+        walks.push_back({result.lnLambda, result.decision, m_tests.isOfScans() ? std::optional(run.hasTarget) : std::nullopt,
+                         result.isForced});
+    m_walk->setWalks(std::move(walks));
+    m_walk->setTest(m_tests.test().sprt, m_tests.fixedSize());
+    m_walk->setSelected(m_tests.selected());
+    showStopping();
+}
+
+void SequentialPanel::showStopping()
+{
+    std::vector<BarPlot::Series> series{{tr("H0, noise only"), 0, {}}, {tr("H1, a target"), 1, {}}};
+    Index longest = 0;
+    for (const auto &[run, result] : m_tests.walks())
+        longest = std::max(longest, result.stages);
+    if (!m_tests.isOfScans())
+        longest = 0; // one test alone is no histogram
+    for (BarPlot::Series &one : series)
+        one.values.assign(static_cast<std::size_t>(longest), 0.0);
+    if (longest > 0)
+        for (const auto &[run, result] : m_tests.walks())
+            series[run.hasTarget ? 1 : 0].values[static_cast<std::size_t>(result.stages - 1)] += 1.0;
+    m_stopping->setBars(std::move(series), 1);
+    std::vector<MarkedPlot::Mark> marks;
+    if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
+        marks.push_back({static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
+    m_stopping->setMarks(std::move(marks));
+    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("When the tests stop is counted here.") : recordingNote(m_tests));
+}
+
+void SequentialPanel::selectStoppedAt(int stage)
+{
+    const auto count = static_cast<int>(m_tests.walks().size());
+    for (int step = 1; step <= count; ++step) {
+        const int walk = (std::max(0, m_tests.selected()) + step) % count;
+        if (m_tests.walks()[static_cast<std::size_t>(walk)].second.stages == stage)
+            return m_tests.select(walk);
+    }
+}
+
+void SequentialPanel::showSelection()
+{
+    m_walk->setSelected(m_tests.selected());
+    const bool hasRun = m_tests.selected() >= 0;
+    const Index stages = hasRun ? m_tests.walks()[static_cast<std::size_t>(m_tests.selected())].second.stages : 1;
+    m_stopping->setSelected(hasRun ? static_cast<int>(stages) : -1);
+    const QSignalBlocker blocker(m_slider);
+    m_slider->setRange(1, static_cast<int>(stages));
+    m_slider->setEnabled(hasRun && stages > 1);
+    m_runText->setText(runSentence(m_tests));
+}
+
+void SequentialPanel::showStage()
+{
+    const bool hasRun = m_tests.selected() >= 0;
+    const auto stage = static_cast<double>(m_tests.stage());
+    m_walk->setCursor(hasRun ? std::optional(stage) : std::nullopt);
+    const QSignalBlocker blocker(m_slider);
+    m_slider->setValue(static_cast<int>(m_tests.stage()));
+    m_stageText->setText(hasRun ? tr("stage %1 of %2").arg(m_tests.stage()).arg(m_slider->maximum()) : QString());
+}
+
+void SequentialPanel::showCurves()
+{
+    m_asn->setChart(stagesChart(m_tests.points()));
+    m_variation->setChart(variationChart(m_tests.points()));
+    m_prior->setChart(m_tests.prior() ? priorChart(*m_tests.prior()) : Chart());
+    m_curvesText->setText(curvesSentence(m_tests));
+    m_priorText->setText(priorSentence(m_tests));
+}
+
+void SequentialPanel::showSectors()
+{
+    const ScanTest &test = m_tests.test();
+    std::vector<BarPlot::Series> series{{tr("empty"), 0, {}}, {tr("with a target"), 1, {}}};
+    if (m_tests.survey()) {
+        for (BarPlot::Series &one : series)
+            one.values.assign(static_cast<std::size_t>(test.sectors), 0.0);
+        for (const SectorVisit &visit : m_tests.survey()->visits)
+            series[holdsTarget(test, visit.sector) ? 1 : 0].values[static_cast<std::size_t>(visit.sector)] +=
+                static_cast<double>(visit.result.stages) / test.rounds;
+    }
+    m_sectors->setBars(std::move(series), 1, true);
+    std::vector<MarkedPlot::Mark> marks;
+    if (m_tests.fixedSize()) {
+        marks.push_back({static_cast<double>(*m_tests.fixedSize()), false,
+                         tr("a test of fixed size: about %1").arg(*m_tests.fixedSize()), true});
+        m_sectors->setLeastHeight(static_cast<double>(*m_tests.fixedSize()));
+    } else {
+        m_sectors->setLeastHeight(0.0);
+    }
+    m_sectors->setMarks(std::move(marks));
+    m_sectorsText->setText(sectorsSentence(m_tests));
+}
+
+// ---- keys and files -------------------------------------------------------------------------------------------------
+
+/// Within the panel J and L step stages, not the recording's frames.
+bool SequentialPanel::event(QEvent *event)
+{
+    if (event->type() == QEvent::ShortcutOverride) {
+        const auto *key = static_cast<QKeyEvent *>(event);
+        if (key->modifiers() == Qt::NoModifier && (key->key() == Qt::Key_J || key->key() == Qt::Key_L)) {
+            event->accept();
+            return true;
+        }
+    }
+    return QWidget::event(event);
+}
+
+void SequentialPanel::keyPressEvent(QKeyEvent *event)
+{
+    if (event->modifiers() == Qt::NoModifier && (event->key() == Qt::Key_J || event->key() == Qt::Key_L))
+        return m_tests.setStage(m_tests.stage() + (event->key() == Qt::Key_L ? 1 : -1));
+    QWidget::keyPressEvent(event);
+}
+
+std::string SequentialPanel::provenance(const View &view) const
+{
+    Json json = {{"version", FAINTLINE_VERSION},
+                 {"chart", view.title.toStdString()},
+                 {"walk", m_tests.selected()},
+                 {"stage", m_tests.stage()},
+                 {"axis", m_trajectory->axis()}};
+    json["sequential"] = m_tests.isOfScans() ? writeFields(m_tests.test(), ScanTest::fields()) : writeFields(m_tests.test().sprt, SprtSettings::fields());
+    if (!m_tests.isOfScans()) {
+        const SequentialTests::Selection &selection = m_tests.selection();
+        json["recording"] = {{"name", selection.name.toStdString()}};
+        json["settings"] = Json::parse(settingsToJson(m_document.settings()));
+        json["firstFrame"] = selection.firstFrame;
+        json["frameCount"] = selection.frameCount;
+        json["firstCell"] = selection.firstCell;
+        json["cellCount"] = selection.cellCount;
+    }
+    return json.dump(2) + "\n";
+}
+
+void SequentialPanel::save(const View &view)
+{
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title), QStringLiteral("sequential.png"),
+                                                      saveViewFilter());
+    if (path.isEmpty())
+        return;
+    try {
+        saveTo(view, path);
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void SequentialPanel::saveTo(const View &view, const QString &path) const
+{
+    saveView(*view.widget, view.csv(), path, provenance(view));
+}
+
+} // namespace faintline

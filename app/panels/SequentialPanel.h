@@ -1,0 +1,127 @@
+#pragma once
+
+#include "app/control/SequentialTests.h"
+
+#include <QWidget>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QSlider;
+class QTabWidget;
+
+namespace faintline {
+
+class BarPlot;
+class ChartPlot;
+class Document;
+class ScanTestForm;
+class TrajectoryPage;
+class WalkPlot;
+
+/// Sequential tests to look into: the walks between their boundaries and when they stop, what one run thought of its target and what it
+/// received, stages against SNR and prior with their bounds, and what a survey of sectors saves.
+///
+/// J and L, or the slider, go from stage to stage of the selected run; a click on a walk selects it everywhere.
+class SequentialPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent = nullptr);
+
+    /// Takes over these settings and starts.
+    void start(const ScanTest &test);
+    void startOnSelection(); ///< of the recording: what its pictures show
+
+    ScanTestForm &form() { return *m_form; }
+    WalkPlot &walk() { return *m_walk; }
+    BarPlot &stopping() { return *m_stopping; }
+    ChartPlot &asn() { return *m_asn; }
+    ChartPlot &variation() { return *m_variation; }
+    ChartPlot &prior() { return *m_prior; }
+    TrajectoryPage &trajectory() { return *m_trajectory; }
+    BarPlot &sectors() { return *m_sectors; }
+    QWidget *curvesPage() { return m_curvesPage; } ///< with their sentence
+    QWidget *priorPage() { return m_priorPage; }
+    QWidget *sectorsPage() { return m_sectorsPage; }
+    QSlider &slider() { return *m_slider; }
+    QTabWidget &tabs() { return *m_tabs; }
+
+    /// A view and its numbers, for files.
+    struct View {
+        QWidget *widget;
+        QString title;
+        std::function<std::string()> csv;
+    };
+    const std::vector<View> &views() const { return m_views; }
+    /// As it is shown; numbers (.csv) with what makes them again beside them. Throws Error.
+    void saveTo(const View &view, const QString &path) const;
+
+    QSize sizeHint() const override { return {1000, 340}; }
+
+signals:
+    void failed(const faintline::Error &error);
+
+protected:
+    bool event(QEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+
+private:
+    QWidget *buildLeft();
+    QWidget *buildWalks();
+    QWidget *buildCurves();
+    QWidget *buildPrior();
+    QWidget *buildSectors();
+    QWidget *buildRunRow();
+    void addView(QWidget *widget, const QString &title, std::function<std::string()> csv);
+    void connectTests();
+
+    void run();
+    void restart();
+    void showBusy(bool isBusy);
+    void showWalks();
+    void showStopping();
+    void showSelection();
+    void showStage();
+    void showCurves();
+    void showSectors();
+    void selectStoppedAt(int stage);
+    void followDocument();
+    void save(const View &view);
+    std::string provenance(const View &view) const;
+
+    Document &m_document;
+    SequentialTests &m_tests;
+    std::vector<View> m_views;
+
+    ScanTestForm *m_form;
+    QPushButton *m_start;
+    QPushButton *m_cancel;
+    QPushButton *m_onSelection;
+    QProgressBar *m_progress;
+    QLabel *m_state;
+    QTabWidget *m_tabs;
+    WalkPlot *m_walk;
+    BarPlot *m_stopping;
+    TrajectoryPage *m_trajectory;
+    ChartPlot *m_asn;
+    ChartPlot *m_variation;
+    QLabel *m_curvesText;
+    QWidget *m_curvesPage = nullptr;
+    ChartPlot *m_prior;
+    QLabel *m_priorText;
+    QWidget *m_priorPage = nullptr;
+    BarPlot *m_sectors;
+    QLabel *m_sectorsText;
+    QWidget *m_sectorsPage = nullptr;
+    QLabel *m_runText;
+    QLabel *m_stageText;
+    QSlider *m_slider;
+};
+
+} // namespace faintline

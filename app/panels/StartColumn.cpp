@@ -1,0 +1,89 @@
+#include "app/panels/StartColumn.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace faintline {
+
+StartColumn::StartColumn(QWidget *form, const QString &progressName, const QString &startToolTip, QWidget *parent)
+    : QWidget(parent), m_start(new QPushButton(tr("Start"))), m_cancel(new QPushButton(tr("Cancel"))), m_progress(new QProgressBar),
+      m_state(new QLabel)
+{
+    constexpr int usualWidth = 330;
+    auto *area = new QScrollArea;
+    area->setWidget(form);
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setFixedWidth(std::max(usualWidth, form->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width()));
+    m_progress->setRange(0, 1000);
+    m_progress->setTextVisible(false);
+    m_progress->setFixedHeight(8);
+    m_progress->setAccessibleName(progressName);
+    m_state->setTextFormat(Qt::PlainText);
+    m_state->setWordWrap(true);
+    m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_cancel->setEnabled(false);
+    m_start->setToolTip(startToolTip);
+
+    auto *buttons = new QHBoxLayout;
+    buttons->setContentsMargins(8, 2, 8, 0);
+    buttons->setSpacing(6);
+    buttons->addWidget(m_start, 1);
+    buttons->addWidget(m_cancel, 1);
+    auto *status = new QVBoxLayout;
+    status->setContentsMargins(8, 2, 8, 4);
+    status->setSpacing(2);
+    status->addWidget(m_progress);
+    status->addWidget(m_state);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(area, 1);
+    layout->addLayout(buttons);
+    layout->addLayout(status);
+
+    connect(m_start, &QPushButton::clicked, this, &StartColumn::startRequested);
+    connect(m_cancel, &QPushButton::clicked, this, &StartColumn::cancelRequested);
+}
+
+void StartColumn::setStartable(bool isStartable)
+{
+    m_start->setEnabled(isStartable);
+}
+
+void StartColumn::clearState()
+{
+    m_progress->setValue(0);
+    m_state->clear();
+    m_cancel->setEnabled(false);
+}
+
+void StartColumn::showState(const Experiments::Entry &entry)
+{
+    m_cancel->setEnabled(entry.isOpen());
+    m_progress->setValue(static_cast<int>(1000.0 * entry.progress));
+    const int runs = entry.campaign ? runCount(entry.campaign->experiment) : 0;
+    const QString done = tr("%1 of %2 runs").arg(entry.runsDone()).arg(runs);
+    switch (entry.state) {
+    case Experiments::State::Waiting:
+        return m_state->setText(tr("waiting for the one before"));
+    case Experiments::State::Running:
+        return m_state->setText(entry.doing.isEmpty() ? done : done + QStringLiteral(" · ") + entry.doing);
+    case Experiments::State::Done:
+        return m_state->setText(entry.imported ? tr("imported: no trials behind its points") : tr("done, %1").arg(done));
+    case Experiments::State::Cancelled:
+        return m_state->setText(tr("cancelled after %1").arg(done));
+    case Experiments::State::Failed:
+        return m_state->setText(tr("failed: %1").arg(entry.failure));
+    }
+}
+
+} // namespace faintline

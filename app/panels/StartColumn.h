@@ -1,0 +1,36 @@
+#pragma once
+
+#include "app/control/Experiments.h"
+
+#include <QWidget>
+
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace faintline {
+
+/// The left of a panel that runs experiments: the form, what starts and cancels it, and how far it is.
+class StartColumn : public QWidget
+{
+    Q_OBJECT
+
+public:
+    StartColumn(QWidget *form, const QString &progressName, const QString &startToolTip, QWidget *parent = nullptr);
+
+    void setStartable(bool isStartable);
+    void showState(const Experiments::Entry &entry);
+    void clearState(); ///< nothing is shown
+
+signals:
+    void startRequested();
+    void cancelRequested();
+
+private:
+    QPushButton *m_start;
+    QPushButton *m_cancel;
+    QProgressBar *m_progress;
+    QLabel *m_state;
+};
+
+} // namespace faintline

@@ -1,0 +1,275 @@
+#include "app/panels/SweepForm.h"
+
+#include "base/Error.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/settingWords.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSpinBox>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double windowsOfALine = 60.0; ///< that a line lasts, at first
+    constexpr double windowsOfMargin = 30.0;
+
+    QDoubleSpinBox *number(double value, double low, double high, int decimals, const QString &suffix, const QString &toolTip)
+    {
+        auto *box = new QDoubleSpinBox;
+        box->setRange(low, high);
+        box->setDecimals(decimals);
+        box->setValue(value);
+        box->setSuffix(suffix);
+        box->setToolTip(toolTip);
+        box->setAccessibleName(toolTip);
+        box->setMinimumWidth(40);
+        return box;
+    }
+
+    QSpinBox *count(int value, int low, int high, const QString &toolTip)
+    {
+        auto *box = new QSpinBox;
+        box->setRange(low, high);
+        box->setValue(value);
+        box->setToolTip(toolTip);
+        box->setAccessibleName(toolTip);
+        return box;
+    }
+
+    QHBoxLayout *row(std::initializer_list<QWidget *> widgets)
+    {
+        auto *layout = new QHBoxLayout;
+        layout->setSpacing(4);
+        for (QWidget *widget : widgets)
+            layout->addWidget(widget, qobject_cast<QLabel *>(widget) ? 0 : 1);
+        return layout;
+    }
+
+    double numberOf(const QLineEdit &edit, const char *what)
+    {
+        const std::optional<double> value = parseNumber(edit.text().trimmed().toStdString());
+        if (!value)
+            throw Error(what, "must be a number");
+        return *value;
+    }
+
+    double asNumber(const FieldValue &value)
+    {
+        const auto *whole = std::get_if<int>(&value);
+        return whole ? *whole : std::get<double>(value);
+    }
+
+    QString text(double value)
+    {
+        return QString::number(value, 'g', 6);
+    }
+
+    /// "Threshold · Pfa per cell".
+    QString titleOf(const FieldInfo &field)
+    {
+        const QString name = QString::fromStdString(field.name);
+        const QString stage = stageLabel(name.section(QLatin1Char('.'), 0, 0)), label = settingLabel(name);
+        return stage == label ? label : stage + QStringLiteral(" · ") + label;
+    }
+
+} // namespace
+
+SweepForm::SweepForm(QWidget *parent)
+    : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit),
+      m_steps(count(6, 2, 60, tr("How many values"))), m_byFactors(new QCheckBox(tr("by factors"))), m_noise(new QComboBox),
+      m_snr(number(0, -40, 40, 1, tr(" dB"), tr("SNR of a line, in a rectangular window of the current length"))),
+      m_duration(number(30, 0.001, 1e6, 1, tr(" s"), tr("How long a line lasts"))),
+      m_margin(number(15, 0, 1e6, 1, tr(" s"), tr("Noise before and after a line, in which false alarms are counted"))),
+      m_drift(number(0, -1e6, 1e6, 3, tr(" Hz/s"), tr("Steady drift"))),
+      m_wander(number(0, 0, 1e6, 2, tr(" Hz"), tr("Standard deviation of the wander"))),
+      m_trials(count(40, 1, 100000, tr("Lines on which every value is tried"))),
+      m_seed(count(1, 0, 2147483647, tr("Seed: the same one gives the same bytes"))), m_meaning(plainLabel())
+{
+    m_parameter->setAccessibleName(tr("Setting to vary"));
+    m_parameter->setMaxVisibleItems(30);
+    m_parameter->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    m_parameter->setMinimumContentsLength(16);
+    m_from->setAccessibleName(tr("First value"));
+    m_to->setAccessibleName(tr("Last value"));
+    m_byFactors->setToolTip(tr("Equal factors from value to value instead of equal steps"));
+    m_noise->addItem(tr("in simulated noise"));
+    m_noise->addItem(tr("in this recording"));
+    m_noise->setAccessibleName(tr("Noise that the lines are in"));
+
+    auto *form = new QFormLayout(this);
+    form->setContentsMargins(8, 6, 8, 6);
+    form->setVerticalSpacing(4);
+    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
+    form->addRow(tr("Setting"), m_parameter);
+    form->addRow(tr("Values"), row({m_from, new QLabel(tr("to")), m_to}));
+    form->addRow(tr("Steps"), row({m_steps, m_byFactors}));
+    form->addRow(tr("Lines"), m_noise);
+    form->addRow(tr("SNR"), m_snr);
+    form->addRow(tr("Duration"), row({m_duration, new QLabel(tr("±")), m_margin}));
+    form->addRow(tr("Drift"), row({m_drift, new QLabel(tr("wander")), m_wander}));
+    form->addRow(tr("Trials"), row({m_trials, new QLabel(tr("seed")), m_seed}));
+    form->addRow(m_meaning);
+    m_meaning->setWordWrap(true);
+    m_meaning->setTextFormat(Qt::PlainText);
+    m_meaning->setFont(Theme::font(12));
+
+    fillParameters();
+    connect(m_parameter, &QComboBox::currentIndexChanged, this, &SweepForm::suggestRange);
+    for (QLineEdit *edit : {m_from, m_to})
+        connect(edit, &QLineEdit::textChanged, this, &SweepForm::changed);
+    for (QDoubleSpinBox *box : {m_snr, m_duration, m_margin, m_drift, m_wander})
+        connect(box, &QDoubleSpinBox::valueChanged, this, &SweepForm::changed);
+    for (QSpinBox *box : {m_steps, m_trials, m_seed})
+        connect(box, &QSpinBox::valueChanged, this, &SweepForm::changed);
+    connect(m_byFactors, &QCheckBox::toggled, this, &SweepForm::changed);
+    connect(m_noise, &QComboBox::currentIndexChanged, this, &SweepForm::changed);
+    connect(this, &SweepForm::changed, this, &SweepForm::showMeaning);
+    setParameter(QStringLiteral("decide.thresholdNats"));
+    suggestRange();
+}
+
+void SweepForm::setCurrent(const AnalysisSettings &settings, const QString &recording, double windowSeconds)
+{
+    const bool isOther = recording != m_recording || windowSeconds != m_windowSeconds;
+    const bool isOtherDetector = settings.detector.index() != m_settings.detector.index();
+    m_settings = settings;
+    m_recording = recording;
+    m_windowSeconds = windowSeconds;
+    m_noise->setEnabled(!recording.isEmpty());
+    if (recording.isEmpty())
+        m_noise->setCurrentIndex(0);
+    if (isOtherDetector)
+        fillParameters();
+    if (isOther && windowSeconds > 0.0) {
+        m_duration->setValue(windowsOfALine * windowSeconds);
+        m_margin->setValue(windowsOfMargin * windowSeconds);
+    }
+    emit changed();
+}
+
+/// The numbers that the chosen detector has.
+void SweepForm::fillParameters()
+{
+    const QString before = m_parameter->currentData().toString();
+    const QSignalBlocker blocker(m_parameter);
+    m_parameter->clear();
+    for (const Field<AnalysisSettings> &field : AnalysisSettings::fields())
+        if (isSweepable(field) && field.get(m_settings)) {
+            m_parameter->addItem(titleOf(field), QString::fromStdString(field.name));
+            m_parameter->setItemData(m_parameter->count() - 1, QString::fromStdString(field.sentence), Qt::ToolTipRole);
+        }
+    setParameter(before);
+}
+
+void SweepForm::setParameter(const QString &parameter)
+{
+    m_parameter->setCurrentIndex(std::max(m_parameter->findData(parameter), 0));
+}
+
+void SweepForm::setRange(double from, double to, int steps, bool isLogarithmic)
+{
+    m_from->setText(text(from));
+    m_to->setText(text(to));
+    m_steps->setValue(steps);
+    m_byFactors->setChecked(isLogarithmic);
+}
+
+void SweepForm::setLines(double snrDb, double durationSeconds, int trials)
+{
+    m_snr->setValue(snrDb);
+    m_duration->setValue(durationSeconds);
+    m_margin->setValue(0.5 * durationSeconds);
+    m_trials->setValue(trials);
+}
+
+const FieldInfo &SweepForm::field() const
+{
+    return settingField(m_parameter->currentData().toString().toStdString());
+}
+
+/// Round the value there is: threefold either way for what is above zero, some steps for whole numbers.
+void SweepForm::suggestRange()
+{
+    const FieldInfo &info = field();
+    const auto held = settingField(info.name).get(m_settings);
+    const double value = held ? asNumber(*held) : 0.0;
+    const auto within = [&](double wanted) { return std::clamp(wanted, info.minimum, info.maximum); };
+    if (info.name == "decide.thresholdNats")
+        setRange(6.0, 20.0, 8, false);
+    else if (info.kind == FieldKind::Integer)
+        setRange(within(value - 2.0), within(value + 2.0), 5, false);
+    else if (value > 0.0)
+        setRange(within(value / 4.0), within(value * 4.0), 5, true);
+    else
+        setRange(within(value - 1.0), within(value + 1.0), 5, false);
+    emit changed();
+}
+
+bool SweepForm::isInRecording() const
+{
+    return m_noise->currentIndex() == 1;
+}
+
+SweepExperiment SweepForm::experiment() const
+{
+    SweepExperiment sweep;
+    sweep.settings = m_settings;
+    sweep.settings.selection = isInRecording() ? m_settings.selection : SelectionSettings();
+    if (sweep.settings.spectrogram.windowSeconds == 0.0)
+        sweep.settings.spectrogram.windowSeconds = m_windowSeconds > 0.0 ? m_windowSeconds : 0.5;
+    sweep.parameter = field().name;
+    const double from = numberOf(*m_from, "from"), to = numberOf(*m_to, "to");
+    sweep.values = sweepValues(sweep.parameter, from, to, m_steps->value(), m_byFactors->isChecked());
+    sweep.recording = isInRecording() ? m_recording.toStdString() : std::string();
+    // In simulated noise as many cells as a window of 400 samples has, however long it is.
+    sweep.sampleRateHz = 400.0 / sweep.settings.spectrogram.windowSeconds;
+    sweep.seed = m_seed->value();
+    sweep.trials = m_trials->value();
+    sweep.snrDb = m_snr->value();
+    sweep.durationSeconds = m_duration->value();
+    sweep.marginSeconds = m_margin->value();
+    sweep.driftHzPerSecond = m_drift->value();
+    sweep.wanderHz = m_wander->value();
+    sweep.wanderSeconds = 0.5 * sweep.durationSeconds;
+    checkExperiment(sweep);
+    return sweep;
+}
+
+QString SweepForm::name() const
+{
+    const FieldInfo &info = field();
+    const QString unit = info.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(info.unit);
+    const QString where = isInRecording() ? tr("in the recording") : tr("simulated");
+    return tr("%1 %2 … %3%4, %5").arg(titleOf(info), m_from->text(), m_to->text(), unit, where);
+}
+
+void SweepForm::showMeaning()
+{
+    try {
+        const SweepExperiment sweep = experiment();
+        QStringList values;
+        for (const double value : sweep.values)
+            values << text(value);
+        m_meaning->setText(tr("%1. Each on %2 trials of %3 s%4.")
+                               .arg(values.join(QStringLiteral(", ")))
+                               .arg(sweep.trials)
+                               .arg(text(sweep.trialSeconds()),
+                                    sweep.recording.empty() ? tr(" of white noise, %1 Hz").arg(text(sweep.sampleRateHz)) : QString()));
+    } catch (const Error &error) {
+        m_meaning->setText(messageText(error.what()));
+    }
+}
+
+} // namespace faintline

@@ -1,0 +1,139 @@
+#include "app/panels/SweepPanel.h"
+
+#include "app/document/Document.h"
+#include "app/panels/StartColumn.h"
+#include "app/panels/SweepForm.h"
+#include "spectrum/NoiseNormaliser.h"
+#include "widgets/plot/ChartPlot.h"
+
+#include <QHBoxLayout>
+#include <QTabWidget>
+
+namespace faintline {
+
+SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidget *parent)
+    : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm),
+      m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values; the window stays free meanwhile"))),
+      m_tabs(new QTabWidget),
+      m_tradeOff(new ChartPlot), m_pd(new ChartPlot), m_falseAlarms(new ChartPlot), m_latency(new ChartPlot), m_cost(new ChartPlot)
+{
+    buildCharts();
+    auto *layout = new QHBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_column);
+    layout->addWidget(m_tabs, 1);
+
+    connect(m_column, &StartColumn::startRequested, this, &SweepPanel::start);
+    connect(m_column, &StartColumn::cancelRequested, this, &SweepPanel::cancel);
+    connect(&experiments, &Experiments::changed, this, &SweepPanel::follow);
+    connect(&experiments, &Experiments::removed, this, [this](int id) {
+        if (id == m_shown)
+            show(0);
+    });
+    connect(&document, &Document::analysisChanged, this, &SweepPanel::followDocument);
+    connect(&document, &Document::opened, this, &SweepPanel::followDocument);
+    connect(&document, &Document::settingsChanged, this, &SweepPanel::followDocument);
+    followDocument();
+}
+
+void SweepPanel::buildCharts()
+{
+    const std::pair<ChartPlot *, QString> pages[] = {{m_tradeOff, tr("Trade-off")},
+                                                     {m_pd, tr("Pd")},
+                                                     {m_falseAlarms, tr("False alarms")},
+                                                     {m_latency, tr("Latency")},
+                                                     {m_cost, tr("Cost")}};
+    for (const auto &[chart, title] : pages) {
+        m_tabs->addTab(chart, title);
+        chart->setEmptySentence(chart == m_cost ? tr("What each value costs is measured when the others are done.")
+                                                : tr("Choose a setting and its values, then press Start: what they are worth grows here."));
+        chart->setInvitation(tr("click to take this value"));
+        connect(chart, &ChartPlot::pointActivated, this, [this, chart = chart](std::size_t, std::size_t point) { choose(*chart, point); });
+    }
+    m_tabs->setDocumentMode(true);
+}
+
+void SweepPanel::followDocument()
+{
+    double windowSeconds = 0.0;
+    if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
+        if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()))
+            windowSeconds = frames->spectrogram().windowSamples() / analysis->recording->info().sampleRateHz;
+    m_form->setCurrent(m_document.usedSettings(), m_document.recording() ? m_document.source().path : QString(), windowSeconds);
+}
+
+void SweepPanel::start()
+{
+    try {
+        const SweepExperiment sweep = m_form->experiment();
+        show(m_experiments.start(m_form->name(), sweep, m_form->isInRecording() ? m_document.recording() : nullptr));
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void SweepPanel::cancel()
+{
+    m_experiments.cancel(m_shown);
+}
+
+void SweepPanel::show(int id)
+{
+    m_shown = id;
+    m_meter.cancel();
+    m_costOf = 0;
+    m_cost->setChart({});
+    if (m_experiments.entry(id))
+        return follow(id);
+    for (ChartPlot *chart : {m_tradeOff, m_pd, m_falseAlarms, m_latency})
+        chart->setChart({});
+    m_column->clearState();
+}
+
+void SweepPanel::follow(int id)
+{
+    const Experiments::Entry *entry = m_experiments.entry(id);
+    if (id != m_shown || !entry || !entry->campaign || !std::holds_alternative<SweepExperiment>(entry->campaign->experiment))
+        return;
+    m_column->showState(*entry);
+    showCharts(*entry);
+    if (entry->state == Experiments::State::Done && m_isMeasuringCost && m_costOf != id)
+        measureCost(*entry);
+}
+
+void SweepPanel::showCharts(const Experiments::Entry &entry)
+{
+    m_tradeOff->setChart(tradeOffChart(*entry.campaign));
+    m_pd->setChart(sweepChart(*entry.campaign, SweepMeasure::Pd));
+    m_falseAlarms->setChart(sweepChart(*entry.campaign, SweepMeasure::FalseAlarms));
+    m_latency->setChart(sweepChart(*entry.campaign, SweepMeasure::Latency));
+}
+
+void SweepPanel::measureCost(const Experiments::Entry &entry)
+{
+    m_costOf = entry.id;
+    m_meter.start([this, sweep = std::get<SweepExperiment>(entry.campaign->experiment),
+                   recording = entry.recording](const RunContext &context) -> JobRunner::Delivery {
+        const Chart chart = costChart(sweep, SweepTrials(sweep, recording, context.part(0.0, 0.1)).costs(context.part(0.1, 1.0)));
+        return [this, chart] { m_cost->setChart(chart); };
+    });
+}
+
+void SweepPanel::choose(const ChartPlot &chart, std::size_t point)
+{
+    const Experiments::Entry *entry = m_experiments.entry(m_shown);
+    if (!entry || !entry->campaign)
+        return;
+    const auto &sweep = std::get<SweepExperiment>(entry->campaign->experiment);
+    if (&chart == m_latency) {
+        // Values that never detected anything have no latency.
+        emit valueChosen(QString::fromStdString(sweep.parameter), m_latency->chart().curves.front().points[point].x);
+    } else if (&chart == m_cost) {
+        emit valueChosen(QString::fromStdString(sweep.parameter), sweep.values[point]);
+    } else if (const std::vector<SweepPoint> curve = sweepCurve(*entry->campaign); point < curve.size()) {
+        emit valueChosen(QString::fromStdString(sweep.parameter), curve[point].value);
+    }
+}
+
+} // namespace faintline

@@ -1,0 +1,114 @@
+#include "app/panels/TrialViewer.h"
+
+#include "app/panels/TrialWindow.h"
+#include "app/base/statisticUnit.h"
+#include "evaluate/campaignCharts.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+
+namespace faintline {
+
+namespace {
+
+    double snrOf(const Campaign &campaign, std::size_t snr)
+    {
+        return snrsOf(campaign.experiment)[snr];
+    }
+
+} // namespace
+
+TrialViewer::TrialViewer(const Experiments &experiments, QWidget *window) : m_experiments(experiments), m_parent(window)
+{
+    const auto end = [this] {
+        if (m_window)
+            m_window->setBusy(false);
+        emit busyChanged(false);
+    };
+    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
+    connect(&m_runner, &JobRunner::progressed, this, &TrialViewer::progressed);
+    connect(&m_runner, &JobRunner::finished, this, end);
+    connect(&m_runner, &JobRunner::cancelled, this, end);
+    connect(&m_runner, &JobRunner::failed, this, [this, end](const Error &error) {
+        emit failed(error);
+        end();
+    });
+}
+
+TrialViewer::~TrialViewer() = default;
+
+void TrialViewer::open(int experiment, std::size_t detector, std::size_t snr)
+{
+    const bool isSame = experiment == m_experiment && detector == m_detector && snr == m_snr;
+    m_experiment = experiment;
+    m_detector = detector;
+    m_snr = snr;
+    m_trial = isSame ? m_trial + 1 : 0;
+    start();
+}
+
+void TrialViewer::step(int trials, bool onlyMissed)
+{
+    const Experiments::Entry *entry = m_experiments.entry(m_experiment);
+    if (!entry || !entry->campaign)
+        return;
+    const auto all = trialsOf(*entry->campaign, m_detector, m_snr);
+    const auto count = std::ssize(all);
+    for (std::ptrdiff_t i = 1; i <= count; ++i) {
+        const std::ptrdiff_t next = ((m_trial + i * trials) % count + count) % count;
+        if (onlyMissed && all[static_cast<std::size_t>(next)].isDetected)
+            continue;
+        m_trial = next;
+        return start();
+    }
+}
+
+void TrialViewer::start()
+{
+    const Experiments::Entry *entry = m_experiments.entry(m_experiment);
+    if (!entry || !entry->campaign)
+        return;
+    const auto all = trialsOf(*entry->campaign, m_detector, m_snr);
+    if (all.empty())
+        return;
+    m_trial %= std::ssize(all);
+    if (m_window)
+        m_window->setBusy(true);
+    const TrialPlace place = all[static_cast<std::size_t>(m_trial)].place;
+    m_runner.start([this, campaign = *entry->campaign, trials = entry->trials, detector = m_detector, snr = m_snr,
+                    place](const RunContext &context) -> JobRunner::Delivery {
+        ShownTrial trial = showTrial(campaign, trials.get(), detector, snr, place, context);
+        return [this, trial = std::move(trial)] { show(trial); };
+    });
+}
+
+void TrialViewer::show(const ShownTrial &trial)
+{
+    const Experiments::Entry *entry = m_experiments.entry(m_experiment);
+    if (!entry || !entry->campaign)
+        return;
+    const Campaign &campaign = *entry->campaign;
+    const auto all = trialsOf(campaign, m_detector, m_snr);
+    const TrialOutcome &outcome = all[static_cast<std::size_t>(m_trial)];
+    const Contestant detector = detectorsOf(campaign.experiment)[m_detector];
+    const QString name = labelText(detector.name);
+    const QString db = numberText(snrOf(campaign, m_snr), 1);
+    const QString unit = statisticUnit(detector.settings);
+    const bool isLine = std::holds_alternative<LineExperiment>(campaign.experiment);
+    QString sentence = outcome.isDetected
+                           ? tr("%1 at %2 dB: detected. On the line D reaches %3 %5, the threshold is %4 %5.")
+                           : tr("%1 at %2 dB: missed. On the line D reaches only %3 %5, the threshold is %4 %5.");
+    sentence = sentence.arg(name, db, numberText(outcome.statistic, 2),
+                            numberText(shownThreshold(campaign, m_detector), 2), unit);
+    sentence += isLine ? tr(" Run %1, line %2; a window T_FT is drawn as one second, a resolution cell as one hertz.")
+                             .arg(outcome.place.run)
+                             .arg(outcome.place.signal)
+                       : tr(" Trial %1, injected into the recording.").arg(outcome.place.run);
+    if (!m_window) {
+        m_window = std::make_unique<TrialWindow>(m_parent);
+        connect(m_window.get(), &TrialWindow::stepRequested, this, &TrialViewer::step);
+    }
+    m_window->show(trial, tr("Trial %1 of %2 · %3 at %4 dB").arg(m_trial + 1).arg(all.size()).arg(name, db), sentence);
+    emit shown();
+}
+
+} // namespace faintline

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "app/control/Experiments.h"
+#include "app/base/JobRunner.h"
+#include "evaluate/showTrial.h"
+
+#include <QObject>
+
+#include <memory>
+
+class QWidget;
+
+namespace faintline {
+
+class TrialWindow;
+
+/// From a point of a curve to the trials behind it: makes one again on a worker and shows it in a window of its own.
+class TrialViewer : public QObject
+{
+    Q_OBJECT
+
+public:
+    TrialViewer(const Experiments &experiments, QWidget *window);
+    ~TrialViewer() override;
+
+    /// The first trial behind that point; asked again for the same point, the next.
+    void open(int experiment, std::size_t detector, std::size_t snr);
+    bool isBusy() const { return m_runner.isRunning(); }
+    TrialWindow *window() const { return m_window.get(); } ///< null until one was opened
+
+signals:
+    void progressed(double fraction, const QString &what);
+    void busyChanged(bool isBusy);
+    void shown();
+    void failed(const faintline::Error &error);
+
+private:
+    void step(int trials, bool onlyMissed);
+    void start();
+    void show(const ShownTrial &trial);
+
+    const Experiments &m_experiments;
+    QWidget *m_parent;
+    std::unique_ptr<TrialWindow> m_window;
+    int m_experiment = 0;
+    std::size_t m_detector = 0;
+    std::size_t m_snr = 0;
+    std::ptrdiff_t m_trial = 0;
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline

@@ -1,0 +1,286 @@
+#include "app/panels/WhyPanel.h"
+
+#include "app/document/Document.h"
+#include "app/base/Sight.h"
+#include "app/base/readingTable.h"
+#include "app/base/statisticUnit.h"
+#include "widgets/plot/ChartPlot.h"
+#include "widgets/pings/PingViewports.h"
+#include "widgets/base/axisWords.h"
+#include "widgets/base/labelText.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int pauseMs = 60;
+    constexpr std::size_t longestLadder = 2000; ///< steps; of a longer path the newest
+
+    QString signedText(double value)
+    {
+        return (value > 0.0 ? QStringLiteral("+") : QString()) + numberText(value, 2);
+    }
+
+    const StateSpace &spaceOf(const Explanation &explanation, const Analysis &analysis)
+    {
+        return analysis.bank.empty() ? analysis.model.space : analysis.bank[explanation.model].model.space;
+    }
+
+    Chart chartOf(const Explanation &explanation, const Axis &time)
+    {
+        Chart chart{"Evidence along the best path", "Time (s)", "Sum (nat)", false, false, {}};
+        Curve sum{"sum of all terms", Curve::Kind::Measured, {}};
+        for (const PathStep &step : explanation.steps)
+            sum.points.push_back({time.value(static_cast<double>(step.frame)), step.score, {}});
+        const double first = sum.points.front().x;
+        const double last = sum.points.back().x;
+        chart.curves.push_back(std::move(sum));
+        chart.curves.push_back({"threshold", Curve::Kind::Theory, {{first, explanation.threshold, {}}, {last, explanation.threshold, {}}}});
+        return chart;
+    }
+
+    QString axisText(const Axis &axis, double value)
+    {
+        if (axis.unit == "Hz")
+            return hertzText(value, axis.step);
+        return numberText(value, decimalsFor(axis.step)) + QLatin1Char(' ') + labelText(axis.unit, mostUnitLetters);
+    }
+
+    QString placeWords(const std::vector<double> &position, const Grid &grid)
+    {
+        QStringList words;
+        for (std::size_t axis = 0; axis < position.size(); ++axis)
+            words << axisText(grid.axes[axis], position[axis]);
+        return words.join(QStringLiteral(", "));
+    }
+
+    /// The rates of a state: "the state of slope 0.19 mHz/s".
+    QString rateWords(Index state, const Explanation &explanation, const Analysis &analysis)
+    {
+        const StateSpace &space = spaceOf(explanation, analysis);
+        const std::vector<double> rates = space.ratesOfPlane(space.planeOf(state));
+        QStringList words;
+        for (std::size_t axis = 0; axis < rates.size(); ++axis) {
+            const Axis &along = analysis.grid().axes[axis];
+            const double rate = rates[axis] * along.step / analysis.time().step;
+            words << (along.unit == "Hz" ? rateText(rate)
+                                         : QStringLiteral("%1 %2/s").arg(powerText(rate, 3), labelText(along.unit, mostUnitLetters)));
+        }
+        return QObject::tr("the state of %1").arg(words.join(QStringLiteral(", ")));
+    }
+
+    /// Follows "The path begins …".
+    QString resetWords(const ResetCause &reset)
+    {
+        switch (reset.kind) {
+        case ResetCause::Kind::Beginning:
+            return QObject::tr(", with the recording.");
+        case ResetCause::Kind::Background:
+            return std::isfinite(reset.lost)
+                ? QObject::tr(": going on from what came before would have begun %1 nat below the background.")
+                      .arg(numberText(reset.lost, 2))
+                : QObject::tr(": nothing that came before leads there.");
+        case ResetCause::Kind::Forgotten:
+            break;
+        }
+        return reset.track > 0
+            ? QObject::tr(": what came before, %1 nat, was forgotten with the start of track %2.")
+                  .arg(numberText(reset.lost, 2))
+                  .arg(reset.track)
+            : QObject::tr(": what came before, %1 nat, was forgotten.").arg(numberText(reset.lost, 2));
+    }
+
+} // namespace
+
+QString whySentence(const Explanation &explanation, const Analysis &analysis)
+{
+    double evidence = 0.0;
+    double transitions = 0.0;
+    double lnK = 0.0;
+    for (const PathStep &step : explanation.steps) {
+        evidence += step.logLikelihoodRatio;
+        transitions += step.lnTransition;
+        lnK += step.lnK;
+    }
+    const Axis &time = analysis.time();
+    const double margin = explanation.displayed - explanation.threshold;
+    QString words = QObject::tr("%1: D = %2 %7 at %3 and %4, %5 %7 %6 the threshold. ")
+                        .arg(explanation.isTracked ? QObject::tr("Followed by a track")
+                                                   : margin >= 0.0 ? QObject::tr("Detected") : QObject::tr("Not detected"),
+                             numberText(explanation.displayed, 2), secondsText(explanation.seconds, time.step),
+                             placeWords(explanation.position, analysis.grid()), numberText(std::abs(margin), 2),
+                             margin >= 0.0 ? QObject::tr("above") : QObject::tr("below"), statisticUnit(analysis.settings));
+    if (!isScoreOfPaths(analysis.settings.detector))
+        words += QObject::tr("The detector has no paths; this one, in nats, is its guide's, a sequential Markov detector's. ");
+    if (explanation.inhibitedFor)
+        words += *explanation.inhibitedFor > 0
+            ? QObject::tr("The data here are kept from the detector for track %1. ").arg(*explanation.inhibitedFor)
+        : *explanation.inhibitedFor < 0
+            ? QObject::tr("The data here are kept from the detector for a track that was dropped later. ")
+            : QObject::tr("No signal is looked for here: the data are kept from the detector. ");
+    const auto steps = explanation.steps.size();
+    const QString since = secondsText(time.value(static_cast<double>(explanation.steps.front().frame)), time.step);
+    words += steps == 1 ? QObject::tr("The path begins in this frame")
+                        : QObject::tr("The path has %1 steps and begins at %2").arg(steps).arg(since);
+    words += resetWords(explanation.reset) + QLatin1Char(' ');
+    if (explanation.otherState && std::isfinite(explanation.otherMargin))
+        words += QObject::tr("Runner-up: %1, %2 nat behind. ")
+                     .arg(rateWords(*explanation.otherState, explanation, analysis), numberText(explanation.otherMargin, 2));
+    words += QObject::tr("Evidence %1, transitions %2, ln K %3").arg(signedText(evidence), signedText(transitions), signedText(lnK));
+    if (explanation.offset != 0.0)
+        words += QObject::tr(", %1 %2")
+                     .arg(analysis.bank.empty() ? QObject::tr("K of the last frame") : QObject::tr("K and the model's threshold"),
+                          signedText(explanation.offset));
+    return words + QObject::tr(" make %1.").arg(numberText(explanation.statistic, 2));
+}
+
+WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
+    : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_plot(new ChartPlot),
+      m_ladder(new QTableWidget),
+      m_sight(new Sight(*this)), m_pause(new QTimer(this))
+{
+    m_sentence->setWordWrap(true);
+    m_sentence->setTextFormat(Qt::PlainText);
+    m_sentence->setContentsMargins(8, 6, 8, 4);
+    m_sentence->setText(tr("Click in a picture: here stands why there is a detection, or none."));
+    m_plot->setEmptySentence(tr("The evidence along the path appears here."));
+    makeReadingTable(*m_ladder, 20);
+    m_ladder->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    m_ladder->horizontalHeader()->setResizeContentsPrecision(200); // rows
+    m_ladder->setTextElideMode(Qt::ElideNone);
+    m_ladder->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    m_ladder->setAccessibleName(tr("The best path, newest step first"));
+    auto *splitter = new QSplitter(Qt::Vertical);
+    splitter->addWidget(m_plot);
+    splitter->addWidget(m_ladder);
+    splitter->setSizes({180, 240});
+    splitter->setChildrenCollapsible(false);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_sentence);
+    layout->addWidget(splitter, 1);
+
+    m_pause->setSingleShot(true);
+    m_pause->setInterval(pauseMs);
+    connect(m_pause, &QTimer::timeout, this, &WhyPanel::explainCursor);
+    connect(m_sight, &Sight::came, this, &WhyPanel::follow);
+    connect(&document.viewport(), &Viewport::cursorChanged, this, &WhyPanel::follow);
+    connect(&viewports, &PingViewports::placeChanged, this, &WhyPanel::follow);
+    connect(&document, &Document::analysisChanged, this, &WhyPanel::follow);
+    connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
+        constexpr qint64 longMs = 300;
+        if (m_began.elapsed() > longMs) // of millions of states, or far into a long recording, it takes seconds
+            m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
+    });
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        m_sentence->setText(messageText(error.what()));
+        emit settled();
+    });
+    connect(&m_runner, &JobRunner::finished, this, &WhyPanel::settled);
+}
+
+QString WhyPanel::sentence() const
+{
+    return m_sentence->text();
+}
+
+void WhyPanel::resizeEvent(QResizeEvent *event)
+{
+    constexpr int enoughForBoth = 400;
+    m_plot->setVisible(height() >= enoughForBoth);
+    QWidget::resizeEvent(event);
+}
+
+void WhyPanel::follow()
+{
+    if (!m_sight->isOn())
+        return;
+    m_runner.cancel(); // of the cell before: it would be taken for this one's
+    m_pause->start();
+}
+
+/// Why there is no ladder.
+void WhyPanel::say(const QString &sentence)
+{
+    m_runner.cancel();
+    m_explanation.reset();
+    m_ladder->setRowCount(0);
+    m_plot->setChart({});
+    m_sentence->setText(sentence);
+    emit settled();
+}
+
+void WhyPanel::explainCursor()
+{
+    const auto &analysis = m_document.analysis();
+    if (!analysis)
+        return emit settled();
+    const auto cursor = m_document.viewport().cursor();
+    const bool isLines = analysis->grid().axes.size() == 1;
+    if (!(isLines ? cursor.has_value() : m_document.hasPings()))
+        return emit settled();
+    if (!std::holds_alternative<SmdSettings>(analysis->settings.detector))
+        return say(tr("Only the sequential Markov detector decides along a path; choose it to see why."));
+    const PingViewports::Place place = m_viewports.place();
+    const double seconds = isLines ? cursor->seconds : place.seconds;
+    const std::vector<double> position = isLines ? std::vector<double>{cursor->hz} : std::vector<double>{place.range, place.bearing};
+    m_began.start();
+    m_runner.start([this, analysis, seconds, position](const RunContext &context) -> JobRunner::Delivery {
+        auto explanation = explain(*analysis, seconds, position, context);
+        return [this, analysis, explanation = std::move(explanation)] { show(explanation, *analysis); };
+    });
+}
+
+void WhyPanel::layColumns(const Analysis &analysis)
+{
+    QStringList names{tr("Time")};
+    for (const Axis &axis : analysis.grid().axes)
+        names << (axis.unit == "Hz" ? tr("f (%1)").arg(shownUnit(axis).name) : titleOf(axis));
+    const auto axes = static_cast<int>(analysis.grid().axes.size());
+    names << tr("λ") << tr("ln P") << tr("ln K") << tr("Sum") << tr("2nd");
+    m_ladder->setColumnCount(static_cast<int>(names.size()));
+    m_ladder->setHorizontalHeaderLabels(names);
+    m_ladder->horizontalHeaderItem(axes + 1)->setToolTip(tr("Evidence: log-likelihood ratio of the cell's power, nat"));
+    m_ladder->horizontalHeaderItem(axes + 2)->setToolTip(tr("Logarithm of the transition's probability, nat"));
+    m_ladder->horizontalHeaderItem(axes + 3)->setToolTip(tr("What going on is credited with, against starting afresh, nat"));
+    m_ladder->horizontalHeaderItem(axes + 4)->setToolTip(tr("Sum of all terms so far, nat above background"));
+    m_ladder->horizontalHeaderItem(axes + 5)->setToolTip(tr("How far the second best way into this step lay behind, nat"));
+}
+
+void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)
+{
+    m_explanation = explanation;
+    const Axis &time = analysis.time();
+    const Grid &grid = analysis.grid();
+    const StateSpace &space = spaceOf(explanation, analysis);
+    layColumns(analysis);
+    m_sentence->setText(whySentence(explanation, analysis));
+    m_plot->setChart(chartOf(explanation, time));
+    const std::size_t count = std::min(explanation.steps.size(), longestLadder);
+    m_ladder->setRowCount(static_cast<int>(count));
+    for (std::size_t row = 0; row < count; ++row) {
+        const PathStep &step = explanation.steps[explanation.steps.size() - 1 - row];
+        QStringList texts{secondsText(time.value(static_cast<double>(step.frame)), time.step)};
+        const std::vector<Index> cells = grid.coordinates(space.cellOf(step.state));
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const Axis &axis = grid.axes[i];
+            const double unit = shownUnit(axis).hz;
+            texts << numberText(axis.value(static_cast<double>(cells[i])) / unit, decimalsFor(axis.step / unit));
+        }
+        texts << signedText(step.logLikelihoodRatio) << numberText(step.lnTransition, 2) << signedText(step.lnK)
+              << numberText(step.score, 2) << (std::isfinite(step.runnerUp) ? numberText(-step.runnerUp, 2) : QStringLiteral("–"));
+        fillRow(*m_ladder, static_cast<int>(row), texts);
+    }
+}
+
+} // namespace faintline

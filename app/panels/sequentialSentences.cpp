@@ -1,0 +1,176 @@
+#include "app/panels/sequentialSentences.h"
+
+#include "analysis/lineSequentialModel.h"
+#include "app/control/SequentialTests.h"
+#include "widgets/base/quantities.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    QString tr(const char *text)
+    {
+        return QCoreApplication::translate("SequentialPanel", text);
+    }
+
+    QString percent(double share)
+    {
+        return numberText(100.0 * share, std::abs(share) < 0.1 ? 1 : 0) + QStringLiteral(" %");
+    }
+
+    QString decisionText(const SprtResult &result)
+    {
+        switch (result.decision) {
+        case SprtDecision::H1:
+            return result.isForced ? tr("the cut-off decides for a target") : tr("a target accepted");
+        case SprtDecision::H0:
+            return result.isForced ? tr("the cut-off decides for noise") : tr("noise only accepted");
+        case SprtDecision::Undecided:
+            break;
+        }
+        return tr("undecided");
+    }
+
+    QString trajectorySentence(const SequentialTests &tests)
+    {
+        const auto &inspection = tests.inspection();
+        if (!inspection || inspection->truth.empty() || inspection->test.result.trajectory.empty())
+            return {};
+        Index worst = 0;
+        Index last = 0;
+        for (std::size_t stage = 0; stage < inspection->test.result.trajectory.size(); ++stage) {
+            last = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                last = std::max(last, std::abs(inspection->test.result.trajectory[stage][axis] - inspection->truth[stage][axis]));
+            worst = std::max(worst, last);
+        }
+        if (worst == 0)
+            return tr(" Its trajectory is right at every stage.");
+        return tr(" Its trajectory is off by %1 at last and by %2 cells at most.").arg(last).arg(worst);
+    }
+
+    QString recordingSentence(const SequentialTests &tests)
+    {
+        const SequentialTests::Selection &selection = tests.selection();
+        const SprtResult &result = tests.walks().front().second;
+        const Axis &time = selection.frames->time();
+        QString text = tr("A line since the first frame in view, in %1 bins: %2 after %3 of %4 frames (%5), ln Λ = %6.")
+                           .arg(selection.cellCount)
+                           .arg(decisionText(result))
+                           .arg(result.stages)
+                           .arg(selection.frameCount)
+                           .arg(secondsText(static_cast<double>(result.stages) * time.step, time.step),
+                                numberText(result.lnLambda.empty() ? 0.0 : result.lnLambda.back(), 1));
+        if (result.decision == SprtDecision::H0)
+            text += tr(" That is final: of a line that starts later this test says nothing. Begin the view later to test again.");
+        return text;
+    }
+
+} // namespace
+
+QString runSentence(const SequentialTests &tests)
+{
+    if (tests.selected() < 0)
+        return {};
+    if (!tests.isOfScans())
+        return recordingSentence(tests);
+    const auto &[run, result] = tests.walks()[static_cast<std::size_t>(tests.selected())];
+    return tr("Run %1 %2: %3 after %4, ln Λ = %5.")
+               .arg(run.number + 1)
+               .arg(run.hasTarget ? tr("with a target") : tr("of noise only"), decisionText(result),
+                    result.stages == 1 ? tr("one stage") : tr("%1 stages").arg(result.stages), numberText(result.lnLambda.back(), 1))
+        + trajectorySentence(tests);
+}
+
+QString recordingNote(const SequentialTests &tests)
+{
+    QString text = tr("One test stops once: there is nothing to count.\nIt asks whether a line has been there since the first frame in view. “No target” "
+                      "is final: a line that starts later is not looked for.");
+    if (const Index every = tests.selection().frames ? framesApart(*tests.selection().frames) : 1; every > 1)
+        text += tr("\nWindows overlap and stages have to be independent: one frame in %1 counts, so α and β hold.").arg(every);
+    text += tr("\nα and β are those of a background that is right and of lines that move as the model says.");
+    return text;
+}
+
+QString curvesSentence(const SequentialTests &tests)
+{
+    const auto &points = tests.points();
+    const auto atDesign = std::find_if(points.begin(), points.end(), [](const ScanPoint &p) { return p.snrDb == p.designSnrDb; });
+    if (atDesign == points.end())
+        return {};
+    const ScanPoint &p = tests.test().designFollows ? points.back() : *atDesign;
+    const auto range = [](double low, double high) { return tr("%1 … %2").arg(numberText(low, 1), numberText(high, 1)); };
+    QString text = tr("At %1 dB: %2 stages on noise, bounds (8b) %3; %4 with a target, bounds (8a) %5. The bounds neglect by how far ln Λ "
+                      "overshoots its boundary")
+                       .arg(numberText(p.snrDb, 0), numberText(p.h0.stages.value, 1), range(p.bounds.h0Low, p.bounds.h0High),
+                            numberText(p.h1.stages.value, 1), range(p.bounds.h1Low, p.bounds.h1High));
+    QStringList above;
+    if (p.h0.stages.value > p.bounds.h0High)
+        above << tr("%1 on noise").arg(percent(p.h0.stages.value / p.bounds.h0High - 1.0));
+    if (p.h1.stages.value > p.bounds.h1High)
+        above << tr("%1 with a target").arg(percent(p.h1.stages.value / p.bounds.h1High - 1.0));
+    text += above.isEmpty() ? tr("; the simulated tests stay below the upper ones.")
+                            : tr(": the simulated tests exceed the upper ones by %1.").arg(above.join(tr(", ")));
+    if (tests.test().sprt.cutOffStage > 0)
+        text += tr(" Nor do they know of the cut-off.");
+    return text;
+}
+
+QString priorSentence(const SequentialTests &tests)
+{
+    if (!tests.prior())
+        return {};
+    const PriorCurve &curve = *tests.prior();
+    const QString what = tr("A line of %1 cells at %2 dB, from a known trajectory (left) to one of which nothing is known (right), "
+                            "without a cut-off.")
+                             .arg(curve.cells)
+                             .arg(numberText(tests.test().designSnrDb, 0));
+    const std::optional<Overshoot> over = overshoot(curve);
+    if (!over)
+        return what;
+    const QString how = over->h0 >= 0.0 && over->h1 >= 0.0
+                            ? tr(" At the right end the stages exceed the “upper bounds” by %1 on noise and %2 with a target")
+                            : tr(" At the right end the stages differ from the upper bounds by %1 on noise and %2 with a target");
+    return what + how.arg(percent(over->h0), percent(over->h1)) + tr(": the bounds neglect by how far ln Λ overshoots its boundary.");
+}
+
+QString sectorsSentence(const SequentialTests &tests)
+{
+    if (!tests.survey())
+        return {};
+    const Survey &survey = *tests.survey();
+    int looksAtTargets = 0;
+    int found = 0;
+    int falseAlarms = 0;
+    for (const SectorVisit &visit : survey.visits) {
+        const bool isAccepted = visit.result.decision == SprtDecision::H1;
+        const bool isTarget = holdsTarget(tests.test(), visit.sector);
+        looksAtTargets += isTarget ? 1 : 0;
+        found += isTarget && isAccepted ? 1 : 0;
+        falseAlarms += !isTarget && isAccepted ? 1 : 0;
+    }
+    const int looks = static_cast<int>(survey.visits.size());
+    const QString seen = tr(" A target is found in %1 of %2 looks at one; %3 of %4 looks at empty sectors end in a false alarm.")
+                             .arg(found)
+                             .arg(looksAtTargets)
+                             .arg(falseAlarms)
+                             .arg(looks - looksAtTargets);
+    if (!tests.isFixedSizeKnown())
+        return tr("%1 looks take %2 stages.").arg(looks).arg(survey.stages) + seen;
+    if (!tests.fixedSize())
+        return tr("%1 looks take %2 stages; a test of fixed size would need more than 40 for each.").arg(looks).arg(survey.stages) + seen;
+    return tr("%1 looks take %2 stages; tests of fixed size with the same errors, of about %3 stages each, would take %4: %5.")
+               .arg(looks)
+               .arg(survey.stages)
+               .arg(*tests.fixedSize())
+               .arg(survey.fixedStages)
+               .arg(survey.saving() >= 0.0 ? tr("%1 saved").arg(percent(survey.saving())) : tr("%1 lost").arg(percent(-survey.saving())))
+        + seen;
+}
+
+} // namespace faintline

@@ -1,0 +1,350 @@
+#include "app/render/renderCommand.h"
+
+#include "app/panels/ComparePanel.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/window/MainWindow.h"
+#include "app/control/OutputLayers.h"
+#include "app/workspace/PingBench.h"
+#include "app/document/Provenance.h"
+#include "app/views/ReportWriter.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/panels/WhyPanel.h"
+#include "app/views/WindowViews.h"
+#include "app/workspace/Workbench.h"
+#include "app/base/filePath.h"
+#include "app/control/scanScenario.h"
+#include "app/render/settleViews.h"
+#include "base/AtomicFile.h"
+#include "base/fileName.h"
+#include "base/json.h"
+#include "widgets/pings/PingMap.h"
+
+#include <QApplication>
+#include <QBuffer>
+#include <QEventLoop>
+
+#include <algorithm>
+#include <memory>
+
+namespace faintline {
+
+namespace {
+
+    bool isOf(WindowView::Of kind, const std::string &view)
+    {
+        const auto &table = windowViews();
+        return std::any_of(table.begin(), table.end(), [&](const WindowView &each) {
+            return each.name == QString::fromStdString(view) && each.of == kind;
+        });
+    }
+
+    void adjust(AnalysisSettings &settings, const RenderOptions &options)
+    {
+        if (!options.preset.empty())
+            settings = preset(options.preset).settings;
+        settings.selection.channel = options.channel.value_or(settings.selection.channel);
+        std::vector<std::string> all = options.part.assignments();
+        all.insert(all.end(), options.settings.begin(), options.settings.end());
+        for (const std::string &assignment : all) {
+            const std::size_t equals = assignment.find('=');
+            if (equals == std::string::npos)
+                throw Error("--set " + assignment, "must be name=value");
+            setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+        }
+        checkSettings(settings);
+    }
+
+    /// What A is made with: the same, and A's own.
+    RenderOptions optionsOfA(RenderOptions options)
+    {
+        if (!options.presetA.empty())
+            options.preset = options.presetA;
+        options.settings.insert(options.settings.end(), options.settingsA.begin(), options.settingsA.end());
+        return options;
+    }
+
+    bool has(const std::vector<std::string> &views, const char *name)
+    {
+        return std::find(views.begin(), views.end(), name) != views.end();
+    }
+
+    /// Opens and waits until nothing is left to do. The answer is what the settings would be without A's own.
+    AnalysisSettings openAndSettle(MainWindow &window, const RenderOptions &options)
+    {
+        const auto settingsOfB = std::make_shared<AnalysisSettings>();
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.controller(), &AnalysisController::failed, &loop,
+                         [&](const Error &error) { failure = error; });
+        QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
+        window.open(pathText(options.source), options.opening,
+                    [options, settingsOfB](AnalysisSettings &settings) {
+                        *settingsOfB = settings;
+                        adjust(*settingsOfB, options);
+                        adjust(settings, optionsOfA(options));
+                    });
+        loop.exec();
+        if (failure)
+            throw *failure;
+        return *settingsOfB;
+    }
+
+    void testScans(MainWindow &window, const RenderOptions &options)
+    {
+        if (!options.part.assignments().empty())
+            throw Error("--from … --high", "choose a part of a recording; a radar's scans are simulated");
+        ScanTest test = readScanTest(pathText(options.source));
+        for (const std::string &assignment : options.settings)
+            setScanTestField(test, assignment);
+        checkScanTest(test);
+        testAndSettle(window, [&] { window.openScans(test); });
+        if (!options.seconds)
+            return;
+        const double before = std::clamp(*options.seconds / test.scene.secondsPerStage, 0.0, static_cast<double>(stageLimit(test)));
+        testAndSettle(window, [&] { window.sequentialTests().setStage(static_cast<Index>(before) + 1); });
+    }
+
+    /// The window as a lesson's step sets it up.
+    void goThroughLesson(MainWindow &window, const RenderOptions &options)
+    {
+        const Lesson lesson = readLesson(pathText(options.source));
+        const int step = options.step.value_or(1);
+        if (!options.settings.empty() || !options.preset.empty() || !options.part.assignments().empty())
+            throw Error("--set", "does not go with a lesson, which has settings of its own");
+        if (const auto count = std::ssize(lesson.steps); step < 1 || step > count)
+            throw Error("--step " + std::to_string(step), "must lie in 1 … " + std::to_string(count) + " of this lesson");
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) {
+            failure = error;
+            loop.quit();
+        });
+        QObject::connect(&window.lessonGuide(), &LessonGuide::ready, &loop, &QEventLoop::quit);
+        window.lessonGuide().start(lesson, step - 1);
+        loop.exec();
+        if (failure)
+            throw *failure;
+        if (!window.why().visibleRegion().isEmpty())
+            explainCursor(window);
+    }
+
+    void checkViewsOfScans(const std::vector<std::string> &views)
+    {
+        for (const std::string &view : views)
+            if (view != "window" && !isOf(WindowView::Of::Scans, view))
+                throw Error("--view " + view, "is of a recording; a radar's scans have window, sequential, walk, stopping, posterior, "
+                                              "scan, asn, prior, sectors");
+    }
+
+    void testSelection(MainWindow &window, const std::vector<std::string> &views)
+    {
+        for (const char *view : {"stopping", "scan", "asn", "prior", "sectors"})
+            if (std::find(views.begin(), views.end(), view) != views.end())
+                throw Error(std::string("--view ") + view, "is of a radar's scans; the source must be a scenario of kind \"scans\"");
+        testAndSettle(window, [&] { window.sequential().startOnSelection(); });
+    }
+
+    void showLayer(MainWindow &window, const RenderOptions &options)
+    {
+        const auto found = std::find(outputLayerNames.begin(), outputLayerNames.end(), options.layer);
+        if (found == outputLayerNames.end())
+            throw Error("--layer " + options.layer, "is not known; there are statistic, rate, bearing-rate, age, reset, inhibited");
+        OutputLayers &layers = window.workbench().layers();
+        const auto layer = static_cast<OutputLayer>(found - outputLayerNames.begin());
+        if (!layers.isOffered(layer))
+            throw Error("--layer " + options.layer, "is of pings on range and bearing; these are lines over frequency");
+        std::optional<Error> failure;
+        QObject::connect(&layers, &OutputLayers::failed, &window, [&](const Error &error) { failure = error; });
+        layers.setOverlay(options.isLayerOver);
+        layers.setLayer(layer);
+        settleLayers(window);
+        if (failure)
+            throw *failure;
+    }
+
+    /// What was opened with A's settings becomes A; the settings then become B's.
+    void compareWithA(MainWindow &window, const AnalysisSettings &settings)
+    {
+        window.comparer().setMeasuringCost(false);
+        window.comparePanel().keep();
+        QEventLoop loop;
+        std::optional<Error> failure;
+        QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) { failure = error; });
+        QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
+        window.controller().setSettings(settings, QStringLiteral("B"));
+        if (window.controller().isBusy())
+            loop.exec();
+        if (failure)
+            throw *failure;
+        QEventLoop comparing;
+        QObject::connect(&window.comparer(), &Comparer::settled, &comparing, &QEventLoop::quit);
+        window.showCompare();
+        window.comparer().setActive(true);
+        if (window.comparer().isBusy())
+            comparing.exec();
+    }
+
+    void prepare(MainWindow &window, const std::vector<std::string> &views)
+    {
+        const auto has = [&](const char *name) { return faintline::has(views, name); };
+        if (has("pd"))
+            measureCurves(window);
+        if (has("sweep"))
+            sweepThreshold(window);
+        if (has("why"))
+            explainCursor(window);
+        for (const std::string &view : views)
+            if (isOf(WindowView::Of::Pings, view) && !window.document().hasPings())
+                throw Error("--view " + view, "is a picture of pings on range and bearing; these are no such frames");
+        if (has("latency"))
+            measureLatency(window);
+        if (has("slice"))
+            cutStates(window);
+        if (has("noise") || has("window"))
+            settleNoiseCheck(window);
+        if (has("noisefit"))
+            measureNoise(window);
+        if (std::any_of(views.begin(), views.end(), [](const auto &view) { return isOf(WindowView::Of::Scans, view); }))
+            testSelection(window, views);
+    }
+
+    void placeCursor(MainWindow &window, const RenderOptions &options)
+    {
+        Viewport &viewport = window.document().viewport();
+        if (window.document().hasPings()) {
+            PingViewports &viewports = window.pingBench().viewports();
+            PingViewports::Place place = viewports.place();
+            place.seconds = options.seconds.value_or(place.seconds);
+            place.range = options.range.value_or(place.range);
+            place.bearing = options.bearing.value_or(place.bearing);
+            viewports.setPlace(place);
+            return;
+        }
+        Viewport::Point point = viewport.cursor().value_or(Viewport::Point());
+        point.seconds = options.seconds.value_or(point.seconds);
+        point.hz = options.hz.value_or(point.hz);
+        viewport.setCursor(point);
+        viewport.reveal({{point.seconds, point.seconds}, {point.hz, point.hz}});
+    }
+
+    /// Of what the window shows; a radar's scans are known by their test.
+    Json provenanceOf(MainWindow &window)
+    {
+        const Document &document = window.document();
+        if (document.isEmpty())
+            return {{"version", FAINTLINE_VERSION}, {"sequential", writeFields(window.sequentialTests().test(), ScanTest::fields())}};
+        return parseJson(faintline::provenanceOf(document.source(), document.settings(), document.annotations()), "provenance");
+    }
+
+    void write(QImage image, const std::string &path, const Json &provenance)
+    {
+        image.setText(pictureProvenanceKey(), pictureProvenance(provenance.dump()));
+        QByteArray bytes;
+        QBuffer buffer(&bytes);
+        buffer.open(QIODevice::WriteOnly);
+        if (!image.save(&buffer, "PNG"))
+            throw Error(path, "cannot be written as PNG", Error::Kind::Failure);
+        writeTextFile(path, bytes.toStdString());
+    }
+
+    /// A view is taken out of what it is a part of, so the window comes before its parts, and the maps before each of them.
+    std::vector<std::string> wholesFirst(std::vector<std::string> views)
+    {
+        const auto rank = [](const std::string &view) { return view == "window" ? 0 : view == "map" || view == "polar" || view == "sequential" ? 1 : 2; };
+        std::stable_sort(views.begin(), views.end(), [&](const auto &a, const auto &b) { return rank(a) < rank(b); });
+        return views;
+    }
+
+    std::string sizeText(QSize size)
+    {
+        return std::to_string(size.width()) + "x" + std::to_string(size.height());
+    }
+
+    QImage pictureOf(QWidget &view, QSize size, bool isFocused)
+    {
+        if (!view.isWindow())
+            view.setParent(nullptr);
+        view.resize(size);
+        view.show();
+        if (view.size() != size)
+            throw Error("--size " + sizeText(size), "is too small for this view; it needs " + sizeText(view.size()));
+        QCoreApplication::sendPostedEvents();
+        QCoreApplication::processEvents();
+        if (QWidget *focused = QApplication::focusWidget(); focused && !isFocused)
+            focused->clearFocus();
+        return view.grab().toImage().convertToFormat(QImage::Format_RGB32);
+    }
+
+} // namespace
+
+void render(const RenderOptions &options)
+{
+    checkEnding(options.out, {".png"});
+    for (const std::string &view : options.views)
+        if (!WindowViews::names().contains(QString::fromStdString(view)))
+            throw Error("--view " + view,
+                        "is not known; there are " + WindowViews::names().join(QStringLiteral(", ")).toStdString());
+
+    Theme::apply(Theme::named(QString::fromStdString(options.theme)));
+    MainWindow window;
+    window.setAsking(false);
+    window.controller().setShowsFirstEstimates(false);
+    window.resize(options.size);
+    window.show();
+    if (isLesson(pathText(options.source))) {
+        goThroughLesson(window, options);
+    } else if (options.step) {
+        throw Error("--step " + std::to_string(*options.step), "is of a lesson; " + options.source + " is none");
+    } else if (isScanScenario(pathText(options.source))) {
+        checkViewsOfScans(options.views);
+        testScans(window, options);
+    } else {
+        const AnalysisSettings settings = openAndSettle(window, options);
+        if (has(options.views, "compare") || !options.presetA.empty() || !options.settingsA.empty())
+            compareWithA(window, settings);
+        placeCursor(window, options);
+        prepare(window, options.views);
+        showLayer(window, options);
+    }
+    Json provenance = provenanceOf(window);
+    const bool wasPolar = window.pingBench().output()->isPolar();
+    for (const std::string &view : wholesFirst(options.views)) {
+        window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
+        QWidget &widget = *window.views().named(QString::fromStdString(view));
+        pictureOf(widget, options.size, options.isFocused); // at that size a layer may have more pixels to fill, and a picture smaller ones
+        settleLayers(window);
+        settleCloseup(window);
+        provenance["render"] = toJson(options, view);
+        write(pictureOf(widget, options.size, options.isFocused), pictureName(options, view), provenance);
+    }
+}
+
+void report(const RenderOptions &options)
+{
+    checkEnding(options.out, {".html"});
+    const QString source = pathText(options.source);
+    if (isScanScenario(source) || isLesson(source))
+        throw Error(options.source, std::string(isLesson(source) ? "is a lesson" : "is a radar's scenario")
+                                        + "; a report is of a recording, of pings, or of a session");
+    Theme::apply(Theme::named(QString::fromStdString(options.theme)));
+    MainWindow window;
+    window.setAsking(false);
+    window.controller().setShowsFirstEstimates(false);
+    window.resize(options.size);
+    window.show();
+    openAndSettle(window, options);
+    ReportWriter writer(window.document(), window.views());
+    QEventLoop loop;
+    std::optional<Error> failure;
+    QObject::connect(&writer, &ReportWriter::failed, &loop, [&](const Error &error) { failure = error; });
+    QObject::connect(&writer, &ReportWriter::busyChanged, &loop, [&](bool isBusy) {
+        if (!isBusy)
+            loop.quit();
+    });
+    writer.write(pathText(options.out));
+    loop.exec();
+    if (failure)
+        throw *failure;
+}
+
+} // namespace faintline

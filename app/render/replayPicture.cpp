@@ -1,0 +1,138 @@
+#include "app/render/replayPicture.h"
+
+#include "app/window/MainWindow.h"
+#include "app/document/Provenance.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/document/Session.h"
+#include "app/panels/TrajectoryPage.h"
+#include "app/base/filePath.h"
+#include "app/render/readPicture.h"
+#include "app/render/renderCommand.h"
+#include "app/render/settleViews.h"
+#include "base/AtomicFile.h"
+#include "base/oneLine.h"
+#include "base/readingJson.h"
+#include "base/wholeNumber.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QTemporaryDir>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+namespace faintline {
+
+bool isChart(const ReplayOptions &options)
+{
+    return pathText(options.picture).endsWith(QLatin1String(".csv"), Qt::CaseInsensitive);
+}
+
+double scaleOf(const QImage &picture)
+{
+    const Json provenance = Json::parse(picture.text(pictureProvenanceKey()).toStdString(), nullptr, false);
+    const Json::json_pointer place("/render/scale");
+    const bool tells = provenance.is_object() && provenance.contains(place) && provenance[place].is_number();
+    return tells ? std::clamp(provenance[place].get<double>(), 1.0, 4.0) : 1.0;
+}
+
+namespace {
+
+    /// A chart's numbers of a test on a radar's scans.
+    void replayChart(const ReplayOptions &options)
+    {
+        const Json provenance = readJsonFile(options.picture + ".provenance.json");
+        try {
+            if (!provenance.contains("chart") || provenance.contains("recording"))
+                throw Error(options.picture, "is no chart of a test on a radar's scans; faintline-cli replay makes other tables again");
+            ScanTest test;
+            readFields(provenance.at("sequential"), ScanTest::fields(), test, "sequential");
+            checkScanTest(test);
+            MainWindow window;
+            window.setAsking(false);
+            window.show();
+            testAndSettle(window, [&] { window.openScans(test); });
+            testAndSettle(window, [&] { window.sequentialTests().select(wholeNumber<int>(provenance.at("walk"), "walk")); });
+            testAndSettle(window, [&] { window.sequentialTests().setStage(wholeNumber<Index>(provenance.at("stage"), "stage")); });
+            window.sequential().trajectory().showAxis(wholeNumber<int>(provenance.at("axis"), "axis"));
+            const auto &views = window.sequential().views();
+            const auto view = std::find_if(views.begin(), views.end(), [name = provenance.at("chart").get<std::string>()](const auto &one) {
+                return one.title.toStdString() == name;
+            });
+            if (view == views.end())
+                throw Error(options.picture, "is of a chart that this version does not have");
+            const QString kept = pathText(options.picture);
+            const bool isSame = readBeginning(kept, std::numeric_limits<qint64>::max()).toStdString() == view->csv();
+            std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(kept).fileName())).c_str(), isSame ? "the same bytes" : "differs");
+            if (!isSame)
+                throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+        } catch (const Json::exception &error) {
+            throw Error(options.picture, "has a provenance that is broken: " + complaint(error));
+        }
+    }
+
+} // namespace
+
+PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, const QString &folder)
+{
+    const QString text = picture.text(pictureProvenanceKey());
+    if (text.isEmpty())
+        throw Error(options.picture, "tells nothing of what it was made from");
+    const Json provenance = parseJson(text.toStdString(), options.picture);
+    try {
+        if (!provenance.contains("recording") || !provenance.contains("render") || provenance["render"].contains("step"))
+            throw Error(options.picture,
+                        "is of the whole window, of a radar's scans, or of a lesson: what it tells does not suffice to make it again");
+        Json session = provenance;
+        Json &source = session["recording"];
+        if (source.contains("path")) {
+            const QDir place = QFileInfo(absolutePath(pathText(options.picture))).dir();
+            const QString beside = place.filePath(QString::fromStdString(source["path"].get<std::string>()));
+            const QString recording = absolutePath(options.recording.empty() ? beside : pathText(options.recording));
+            if (!fileExists(recording))
+                throw Error(pathBytes(recording),
+                            "is what " + options.picture + " was made from, and is not there; --recording says where it is");
+            if (recordingHash(pathBytes(recording)) != source["sha256"].get<std::string>())
+                throw Error(pathBytes(recording), "is not what " + options.picture + " was made from");
+            source["path"] = recording.toStdString();
+        }
+        session.erase("render");
+        session.erase("version");
+        PictureOrigin origin{renderOptionsFromJson(provenance["render"]), provenance["render"].at("view").get<std::string>()};
+        if (!(origin.options.scale >= 1.0 && origin.options.scale <= 4.0))
+            throw Error(options.picture, "tells of a scale that no picture has; it lies in 1 … 4");
+        if (origin.options.size != picture.size() / origin.options.scale)
+            throw Error(options.picture, "tells of another size than it has");
+        origin.options.source = QDir(folder).filePath(QStringLiteral("picture.faintline")).toStdString();
+        origin.options.out = QDir(folder).filePath(QStringLiteral("picture.png")).toStdString();
+        writeTextFile(origin.options.source, session.dump(2) + "\n");
+        try {
+            readSession(pathText(origin.options.source));
+        } catch (const Error &error) { // of a file of which nobody knows
+            throw Error(options.picture,
+                        "tells of its making in a broken way: " + std::string(error.what()).substr(origin.options.source.size() + 2));
+        }
+        return origin;
+    } catch (const Json::exception &error) {
+        throw Error(options.picture, "tells of its making in a broken way: " + complaint(error));
+    }
+}
+
+void replay(const ReplayOptions &options)
+{
+    if (isChart(options))
+        return replayChart(options);
+    const QImage kept = readPicture(pathText(options.picture));
+    const QTemporaryDir folder;
+    const PictureOrigin origin = originOf(kept, options, folder.path());
+    render(origin.options);
+    const std::string remade = pictureName(origin.options, origin.view);
+    const bool isSame =
+        QImage(pathText(remade)).convertToFormat(QImage::Format_RGB32) == kept.convertToFormat(QImage::Format_RGB32);
+    std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(pathText(options.picture)).fileName())).c_str(), isSame ? "the same pixels" : "differs");
+    if (!isSame)
+        throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+}
+
+} // namespace faintline

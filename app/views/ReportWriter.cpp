@@ -1,0 +1,101 @@
+#include "app/views/ReportWriter.h"
+
+#include "app/document/Document.h"
+#include "app/document/Provenance.h"
+#include "app/views/WindowViews.h"
+#include "app/base/filePath.h"
+#include "app/control/thresholdWords.h"
+#include "base/AtomicFile.h"
+
+#include <QBuffer>
+#include <QPixmap>
+#include <QWidget>
+
+#include <algorithm>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    /// The cell whose statistic was largest in the frame of detection, close to where the tracker then took the signal to be.
+    std::vector<double> strongestNear(const Analysis &analysis, const Event &event)
+    {
+        constexpr Index reach = 3;
+        const PeakPyramid *statistic = analysis.statistic.get();
+        if (!statistic || event.position.size() != 1 || statistic->rowCount(0) == 0 || statistic->framesPerRow(0) != 1)
+            return event.position;
+        const Axis &frequency = analysis.grid().axes.back();
+        const auto row = statistic->row(0, std::clamp<Index>(analysis.time().nearest(event.detectSeconds), 0, statistic->rowCount(0) - 1));
+        const Index centre = frequency.nearest(event.position.back());
+        Index best = centre;
+        for (Index cell = std::max<Index>(0, centre - reach); cell <= std::min(frequency.count - 1, centre + reach); ++cell)
+            if (row[static_cast<std::size_t>(cell)] > row[static_cast<std::size_t>(best)])
+                best = cell;
+        return {frequency.value(static_cast<double>(best))};
+    }
+
+} // namespace
+
+std::vector<ReportMaterial::Picture> reportPictures(const WindowViews &views)
+{
+    std::vector<ReportMaterial::Picture> pictures;
+    const std::pair<const char *, QString> shown[] = {{"input", ReportWriter::tr("Input, dB over the noise")},
+                                                      {"output", ReportWriter::tr("Statistic of the detector, with events and tracks")},
+                                                      {"threshold", ReportWriter::tr("False alarms against the threshold, and this recording's own cells")}};
+    for (const auto &[name, title] : shown) {
+        QByteArray bytes;
+        QBuffer buffer(&bytes);
+        buffer.open(QIODevice::WriteOnly);
+        const QImage image = views.named(QString::fromLatin1(name))->grab().toImage().convertToFormat(QImage::Format_RGB32);
+        image.save(&buffer, "PNG");
+        pictures.push_back({title.toStdString(), bytes.toStdString(), image.width(), image.height()});
+    }
+    return pictures;
+}
+
+void writeReport(const Analysis &analysis, ReportMaterial material, const std::string &path, const RunContext &context)
+{
+    const std::vector<Event> chosen = eventsToExplain(analysis, material.events, material.annotations);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(chosen.size()); };
+        material.ladders.push_back({chosen[i].id, explain(analysis, chosen[i].detectSeconds, strongestNear(analysis, chosen[i]), context.part(share(i), share(i + 1)))});
+    }
+    writeTextFile(path, reportHtml(analysis, material));
+}
+
+ReportWriter::ReportWriter(const Document &document, const WindowViews &views, QObject *parent)
+    : QObject(parent), m_document(document), m_views(views)
+{
+    connect(&m_runner, &JobRunner::started, this, [this] { emit busyChanged(true); });
+    for (const auto ended : {&JobRunner::finished, &JobRunner::cancelled})
+        connect(&m_runner, ended, this, [this] { emit busyChanged(false); });
+    connect(&m_runner, &JobRunner::progressed, this, &ReportWriter::progressed);
+    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
+        emit busyChanged(false);
+        emit failed(error);
+    });
+}
+
+void ReportWriter::write(const QString &path)
+{
+    if (!m_document.analysis())
+        return;
+    if (m_document.analysis()->calibration->isFirstEstimate)
+        return emit failed(firstEstimateError());
+    ReportMaterial material;
+    material.title = m_document.source().name().toStdString();
+    material.version = FAINTLINE_VERSION;
+    material.events = m_document.shownEvents();
+    material.annotations = m_document.annotations();
+    material.pictures = reportPictures(m_views);
+    m_runner.start([this, path, material = std::move(material), analysis = m_document.analysis(),
+                    source = m_document.source()](const RunContext &context) mutable -> JobRunner::Delivery {
+        context.checkpoint(0.0, "report");
+        material.provenance = provenanceOf(source, analysis->settings, material.annotations);
+        writeReport(*analysis, std::move(material), pathBytes(path), context);
+        return [this, path] { emit written(path); };
+    });
+}
+
+} // namespace faintline

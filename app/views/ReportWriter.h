@@ -1,0 +1,43 @@
+#pragma once
+
+#include "app/base/JobRunner.h"
+#include "exchange/writeReport.h"
+
+#include <QObject>
+#include <QString>
+
+namespace faintline {
+
+class Document;
+class WindowViews;
+
+/// Pictures of what a window shows, for a report.
+std::vector<ReportMaterial::Picture> reportPictures(const WindowViews &views);
+
+/// Adds the ladders and writes the page. The chain runs again for each of them. Throws Error, Cancelled.
+void writeReport(const Analysis &analysis, ReportMaterial material, const std::string &path, const RunContext &context = {});
+
+/// Reports from the window: the pictures at once, the ladders and the recording's hash on a worker.
+class ReportWriter : public QObject
+{
+    Q_OBJECT
+
+public:
+    ReportWriter(const Document &document, const WindowViews &views, QObject *parent = nullptr);
+
+    void write(const QString &path);
+    void cancel() { m_runner.cancel(); }
+
+signals:
+    void busyChanged(bool isBusy);
+    void progressed(double fraction, const QString &what);
+    void written(const QString &path);
+    void failed(const faintline::Error &error);
+
+private:
+    const Document &m_document;
+    const WindowViews &m_views;
+    JobRunner m_runner; ///< last, so that its job ends first
+};
+
+} // namespace faintline

@@ -1,0 +1,17 @@
+#include "app/views/WindowParts.h"
+
+#include "app/workspace/PingBench.h"
+#include "app/workspace/Workbench.h"
+
+namespace faintline {
+
+WindowParts::WindowParts() : m_controller(m_document), m_comparer(m_document) {}
+
+WindowParts::~WindowParts() = default;
+
+Bench &WindowParts::bench() const
+{
+    return m_document.hasPings() ? static_cast<Bench &>(*m_pings) : *m_workbench;
+}
+
+} // namespace faintline

@@ -1,0 +1,148 @@
+#include "app/views/WindowViews.h"
+
+#include "app/panels/ComparePanel.h"
+#include "app/panels/EvaluatePanel.h"
+#include "app/control/EventReviews.h"
+#include "app/panels/HandLinePanel.h"
+#include "app/panels/InfoPanel.h"
+#include "app/panels/LatencyPanel.h"
+#include "app/panels/NoiseFitPanel.h"
+#include "app/control/OutputLayers.h"
+#include "app/workspace/PingBench.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/panels/StateSlicePanel.h"
+#include "app/panels/SweepPanel.h"
+#include "app/panels/TrajectoryPage.h"
+#include "app/panels/WhyPanel.h"
+#include "app/views/WindowParts.h"
+#include "app/workspace/Workbench.h"
+#include "app/document/saveView.h"
+#include "widgets/plot/BarPlot.h"
+#include "widgets/plot/CellPicture.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/pings/PingMap.h"
+#include "widgets/base/Theme.h"
+#include "widgets/plot/WalkPlot.h"
+
+#include <QApplication>
+#include <QFileDialog>
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    using Parts = const WindowParts &;
+    using Of = WindowView::Of;
+
+    QString tr(const char *text)
+    {
+        return QApplication::translate("WindowViews", text);
+    }
+
+    QWidget *input(Parts parts)
+    {
+        return parts.document().hasPings() ? static_cast<QWidget *>(parts.pingBench().input()) : parts.workbench().inputPane();
+    }
+
+    QWidget *output(Parts parts)
+    {
+        return parts.document().hasPings() ? static_cast<QWidget *>(parts.pingBench().output()) : parts.workbench().outputPane();
+    }
+
+} // namespace
+
+const std::vector<WindowView> &windowViews()
+{
+    static const std::vector<WindowView> table{
+        {"window", tr("Window"), Of::Recording, nullptr},
+        {"input", tr("Input"), Of::Recording, input},
+        {"output", tr("Statistic"), Of::Recording, output},
+        {"threshold", tr("Threshold"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.thresholdPlot(); }},
+        {"events", tr("Events"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.eventTable(); }},
+        {"noise", tr("Noise and calibration"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.info(); }},
+        {"noisefit", tr("Noise fit"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.noiseFit(); }},
+        {"pd", tr("Pd and ROC"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.evaluation(); }},
+        {"why", tr("Why"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.why(); }},
+        {"compare", tr("Compare"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.comparePanel(); }},
+        {"sweep", tr("Sweep"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.sweep(); }},
+        {"hand", tr("By hand"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.handLine(); }},
+        {"slice", tr("States"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.states(); }},
+        {"map", tr("Maps"), Of::Pings, [](Parts parts) { return parts.pingBench().maps(); }},
+        {"polar", tr("Maps from above"), Of::Pings, [](Parts parts) { return parts.pingBench().maps(); }},
+        {"histories", tr("Histories"), Of::Pings, [](Parts parts) { return parts.pingBench().histories(); }},
+        {"latency", tr("Latency"), Of::Pings, [](Parts parts) -> QWidget * { return &parts.latency(); }},
+        {"sequential", tr("Sequential test"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential(); }},
+        {"walk", tr("Walks"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().walk(); }},
+        {"stopping", tr("Stopping stages"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().stopping(); }},
+        {"posterior", tr("Posterior"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().trajectory().posterior(); }},
+        {"scan", tr("Scan"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().trajectory().scan(); }},
+        {"asn", tr("Average sample number"), Of::Scans, [](Parts parts) { return parts.sequential().curvesPage(); }},
+        {"prior", tr("Prior"), Of::Scans, [](Parts parts) { return parts.sequential().priorPage(); }},
+        {"sectors", tr("Sectors"), Of::Scans, [](Parts parts) { return parts.sequential().sectorsPage(); }},
+    };
+    return table;
+}
+
+WindowViews::WindowViews(WindowParts &parts, QWidget *window) : QObject(window), m_parts(parts), m_window(window) {}
+
+const QStringList &WindowViews::names()
+{
+    static const QStringList names = [] {
+        QStringList all;
+        for (const WindowView &view : windowViews())
+            all << view.name;
+        return all;
+    }();
+    return names;
+}
+
+QWidget *WindowViews::named(const QString &name) const
+{
+    const auto &table = windowViews();
+    const auto found = std::find_if(table.begin(), table.end(), [&](const WindowView &view) { return view.name == name; });
+    if (found == table.end())
+        return nullptr;
+    return found->widget ? found->widget(m_parts) : m_window;
+}
+
+void WindowViews::exportPicture(const QString &name)
+{
+    const QString path = QFileDialog::getSaveFileName(m_window, tr("Export picture"), name + QStringLiteral(".png"),
+                                                      tr("Picture (*.png);;Drawing (*.svg);;Document (*.pdf)"));
+    if (!path.isEmpty())
+        saveTo(name, path);
+}
+
+void WindowViews::saveTo(const QString &name, const QString &path)
+{
+    m_parts.reviews().provenance().with([this, name, path](const std::string &provenance) {
+        try {
+            saveView(*named(name), {}, path, withView(name, provenance));
+        } catch (const Error &error) {
+            emit failed(error);
+        }
+    });
+}
+
+/// With what `faintline render` needs to make the picture again, where it can: of one view, on a screen as its own.
+std::string WindowViews::withView(const QString &name, const std::string &provenance) const
+{
+    const QWidget &shown = *named(name);
+    if (&shown == m_window || shown.devicePixelRatioF() != 1.0)
+        return provenance;
+    const OutputLayers &layers = m_parts.workbench().layers();
+    Json json = parseJson(provenance, "provenance");
+    json["view"] = toJson(m_parts.bench().viewState());
+    json["render"] = {{"view", name.toStdString()},
+                      {"size", {shown.width(), shown.height()}},
+                      {"theme", Theme::nameOf(Theme::kind(m_window->palette())).toStdString()},
+                      {"layer", std::string(outputLayerNames[static_cast<std::size_t>(layers.layer())])},
+                      {"overlay", layers.isOverlay()},
+                      {"focused", shown.isAncestorOf(QApplication::focusWidget()) || &shown == QApplication::focusWidget()}};
+    return json.dump(2) + "\n";
+}
+
+} // namespace faintline

@@ -1,0 +1,126 @@
+#include "app/welcome/ScanCard.h"
+
+#include "app/control/scanScenario.h"
+#include "widgets/plot/CellPicture.h"
+#include "widgets/base/Theme.h"
+#include "widgets/plot/WalkPlot.h"
+
+#include <QLabel>
+#include <QPainter>
+#include <QVBoxLayout>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int pictureHeight = 112; // with their captions as high as the other cards'
+    constexpr int walksShown = 12;     // of each hypothesis
+
+    QLabel *caption(const QString &text, const QFont &font)
+    {
+        auto *label = new QLabel(text);
+        label->setFont(font);
+        label->setWordWrap(true);
+        label->setAttribute(Qt::WA_TransparentForMouseEvents);
+        return label;
+    }
+
+    /// Range and Doppler of the target in the scan that is shown.
+    std::vector<QPointF> truthOn(const ScanCard::Result &result)
+    {
+        const ScanCell cell = truthOf(result.test, result.scan.run)[static_cast<std::size_t>(result.scan.stage - 1)];
+        return {QPointF(static_cast<double>(cell[2]), static_cast<double>(cell[3]))};
+    }
+
+    void makePicture(MarkedPlot &plot)
+    {
+        plot.setFixedHeight(pictureHeight);
+        plot.setBare(true);
+        plot.setFocusPolicy(Qt::NoFocus);
+        plot.setAttribute(Qt::WA_TransparentForMouseEvents);
+    }
+
+} // namespace
+
+ScanCard::ScanCard(QWidget *parent)
+    : QAbstractButton(parent), m_scan(new CellPicture), m_walks(new WalkPlot), m_found(caption(tr("Simulating …"), Theme::font(12)))
+{
+    const QString sentence = tr("It leaves an empty sector as soon as it is sure, and follows a target through the cells it changes "
+                                "from scan to scan.");
+    setText(tr("A radar that looks until it is sure"));
+    setAccessibleDescription(sentence);
+    setCursor(Qt::PointingHandCursor);
+    setFocusPolicy(Qt::StrongFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::MinimumExpanding);
+    setAttribute(Qt::WA_Hover);
+    makePicture(*m_scan);
+    makePicture(*m_walks);
+
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(14, 12, 14, 12);
+    layout->setSpacing(4);
+    layout->addWidget(caption(text(), Theme::boldFont(15)));
+    layout->addWidget(caption(tr("One scan, its target ringed"), Theme::font(12)));
+    layout->addWidget(m_scan);
+    layout->addWidget(caption(tr("The evidence, scan after scan"), Theme::font(12)));
+    layout->addWidget(m_walks);
+    layout->addWidget(m_found);
+    layout->addWidget(caption(sentence, Theme::font()));
+    layout->addStretch();
+}
+
+ScanCard::Result ScanCard::compute(const RunContext &context)
+{
+    Result result;
+    result.test = readScanTest(radarScenarioPath());
+    const SequentialModel model = scanModel(result.test.scene, result.test.designSnrDb);
+    for (int number = 0; number < walksShown; ++number)
+        for (const bool hasTarget : {false, true}) {
+            context.checkpoint(static_cast<double>(number) / walksShown, "walks");
+            const ScanRun run{hasTarget, number};
+            result.walks.emplace_back(run, walkScan(result.test, model, run));
+        }
+    const auto &[first, found] = result.walks[1];
+    result.scan = {first, found.stages, rangeDopplerDb(result.test, first, found.stages - 1)};
+    return result;
+}
+
+void ScanCard::setResult(const Result &result)
+{
+    m_hasResult = true;
+    std::vector<WalkPlot::Walk> walks;
+    double onTargets = 0.0;
+    int accepted = 0;
+    for (const auto &[run, test] : result.walks) {
+        walks.push_back({test.lnLambda, test.decision, run.hasTarget, test.isForced});
+        onTargets += run.hasTarget ? static_cast<double>(test.stages) : 0.0;
+        accepted += run.hasTarget && test.decision == SprtDecision::H1 ? 1 : 0;
+    }
+    m_walks->setTest(result.test.sprt, {});
+    m_walks->setWalks(std::move(walks));
+    m_walks->setMarks({});
+    const ScanScene &scene = result.test.scene;
+    // As wide as the card: range to the right.
+    m_scan->setPicture({"range", "cell", 0.0, 1.0, scene.rangeCells, false}, {"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false},
+                       result.scan.db, {0.0, scene.snrDb + 6.0}, tr("dB"));
+    m_scan->setPaths({{{}, CellPicture::Path::Kind::Rings, Theme::colours(*this).truth, truthOn(result)}});
+    m_found->setText(tr("%1 of %2 targets found, in %3 scans each").arg(accepted).arg(walksShown).arg(onTargets / walksShown, 0, 'f', 1));
+}
+
+QSize ScanCard::sizeHint() const
+{
+    return {320, layout()->sizeHint().height()};
+}
+
+void ScanCard::paintEvent(QPaintEvent *)
+{
+    const Theme::Colours &colours = Theme::colours(*this);
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const bool isLit = hasFocus() || underMouse();
+    painter.setPen(QPen(isLit ? colours.accent : colours.frame, isLit ? 2.0 : 1.0));
+    painter.setBrush(palette().color(QPalette::Base));
+    painter.drawRoundedRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0), 6.0, 6.0);
+}
+
+} // namespace faintline

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "app/control/SequentialTests.h"
+
+#include <QAbstractButton>
+
+#include <optional>
+#include <vector>
+
+class QLabel;
+
+namespace faintline {
+
+class CellPicture;
+class WalkPlot;
+
+/// The radar's scenario as a big button: a scan with its target, and tests that walk until they are sure.
+class ScanCard : public QAbstractButton
+{
+    Q_OBJECT
+
+public:
+    /// What the card shows of its test.
+    struct Result {
+        ScanTest test;
+        std::vector<SequentialTests::Walk> walks;
+        SequentialTests::Scan scan;
+    };
+
+    explicit ScanCard(QWidget *parent = nullptr);
+
+    /// A few walks of both hypotheses, and the first scan of the first target. Throws Error, Cancelled.
+    static Result compute(const RunContext &context);
+    void setResult(const Result &result);
+    bool hasResult() const { return m_hasResult; }
+
+    QSize sizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+
+private:
+    bool m_hasResult = false;
+    CellPicture *m_scan;
+    WalkPlot *m_walks;
+    QLabel *m_found;
+};
+
+} // namespace faintline

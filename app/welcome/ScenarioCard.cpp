@@ -1,0 +1,95 @@
+#include "app/welcome/ScenarioCard.h"
+
+#include "widgets/waterfall/OverviewStrip.h"
+#include "widgets/base/Theme.h"
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <QLabel>
+#include <QPainter>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int pictureHeight = 132;
+
+    QLabel *caption(const QString &text, const QFont &font)
+    {
+        auto *label = new QLabel(text);
+        label->setFont(font);
+        label->setWordWrap(true);
+        label->setAttribute(Qt::WA_TransparentForMouseEvents);
+        return label;
+    }
+
+    OverviewStrip *picture(Viewport &viewport)
+    {
+        auto *strip = new OverviewStrip;
+        strip->setViewport(&viewport);
+        strip->setFixedHeight(pictureHeight);
+        strip->setFocusPolicy(Qt::NoFocus);
+        strip->setAttribute(Qt::WA_TransparentForMouseEvents);
+        return strip;
+    }
+
+} // namespace
+
+ScenarioCard::ScenarioCard(const Scenario &scenario, QWidget *parent)
+    : QAbstractButton(parent), m_scenario(scenario), m_input(picture(m_viewport)), m_statistic(picture(m_viewport)),
+      m_found(caption(tr("Simulating …"), Theme::font(12)))
+{
+    setText(scenario.title);
+    setAccessibleDescription(scenario.sentence);
+    setCursor(Qt::PointingHandCursor);
+    setFocusPolicy(Qt::StrongFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::MinimumExpanding);
+    setAttribute(Qt::WA_Hover);
+
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(14, 12, 14, 12);
+    layout->setSpacing(4);
+    layout->addWidget(caption(scenario.title, Theme::boldFont(15)));
+    layout->addWidget(caption(tr("The input"), Theme::font(12)));
+    layout->addWidget(m_input);
+    layout->addWidget(caption(tr("The detector’s statistic"), Theme::font(12)));
+    layout->addWidget(m_statistic);
+    layout->addWidget(m_found);
+    layout->addWidget(caption(scenario.sentence, Theme::font()));
+    layout->addStretch();
+}
+
+void ScenarioCard::setResult(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
+{
+    m_opened = opened;
+    m_analysis = std::move(analysis);
+    const bool hasPings = !m_analysis->inputAlong.empty(); // range against time, the best of all bearings
+    const Axis &frequency = m_analysis->grid().axes.front();
+    const auto &input = hasPings ? m_analysis->inputAlong.front() : m_analysis->input;
+    const Viewport::Box full = WaterfallView::extents(input->time(), frequency);
+    m_viewport.setExtents(full.time, full.frequency);
+    m_input->setPicture(input, frequency);
+    m_statistic->setPicture(hasPings ? m_analysis->statisticAlong.front() : m_analysis->statistic, frequency);
+    const int count = static_cast<int>(m_analysis->tracks.size());
+    m_found->setText(count == 1 ? tr("1 event found") : tr("%1 events found").arg(count));
+}
+
+QSize ScenarioCard::sizeHint() const
+{
+    return {320, layout()->sizeHint().height()};
+}
+
+void ScenarioCard::paintEvent(QPaintEvent *)
+{
+    const Theme::Colours &colours = Theme::colours(*this);
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const bool isLit = hasFocus() || underMouse();
+    painter.setPen(QPen(isLit ? colours.accent : colours.frame, isLit ? 2.0 : 1.0));
+    painter.setBrush(palette().color(QPalette::Base));
+    painter.drawRoundedRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0), 6.0, 6.0);
+}
+
+} // namespace faintline

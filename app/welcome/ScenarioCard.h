@@ -1,0 +1,48 @@
+#pragma once
+
+#include "analysis/analyse.h"
+#include "app/document/Source.h"
+#include "app/document/scenarios.h"
+#include "widgets/base/Viewport.h"
+
+#include <QAbstractButton>
+
+#include <memory>
+
+class QLabel;
+
+namespace faintline {
+
+class OverviewStrip;
+
+/// A scenario as a big button: its input and its detector's statistic as pictures, and what is to be seen in them.
+class ScenarioCard : public QAbstractButton
+{
+    Q_OBJECT
+
+public:
+    explicit ScenarioCard(const Scenario &scenario, QWidget *parent = nullptr);
+
+    const Scenario &scenario() const { return m_scenario; }
+
+    /// What was simulated and found; the card shows it.
+    void setResult(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis);
+    const OpenedSource &opened() const { return m_opened; }
+    const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; } ///< null until there is a result
+
+    QSize sizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+
+private:
+    Scenario m_scenario;
+    Viewport m_viewport; ///< all of it
+    OverviewStrip *m_input;
+    OverviewStrip *m_statistic;
+    QLabel *m_found;
+    OpenedSource m_opened;
+    std::shared_ptr<const Analysis> m_analysis;
+};
+
+} // namespace faintline

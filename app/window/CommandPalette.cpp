@@ -1,0 +1,149 @@
+#include "app/window/CommandPalette.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QEvent>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int paletteWidth = 520;
+    constexpr int paletteHeight = 360;
+
+    QString plain(QString text)
+    {
+        return text.remove(QLatin1Char('&')).remove(QStringLiteral("…"));
+    }
+
+} // namespace
+
+CommandPalette::CommandPalette(QWidget *window) : QFrame(window), m_line(new QLineEdit), m_list(new QListWidget)
+{
+    setObjectName(QStringLiteral("commandPalette"));
+    setFrameShape(QFrame::StyledPanel);
+    setAutoFillBackground(true);
+    m_line->setPlaceholderText(tr("Type a command"));
+    m_line->setAccessibleName(tr("Command"));
+    m_list->setAccessibleName(tr("Commands"));
+    m_list->setFocusPolicy(Qt::NoFocus);
+    m_list->setFrameShape(QFrame::NoFrame);
+    m_list->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto *layout = new QVBoxLayout(this);
+    layout->addWidget(m_line);
+    layout->addWidget(m_list, 1);
+    m_line->installEventFilter(this);
+    connect(m_line, &QLineEdit::textChanged, this, &CommandPalette::filter);
+    connect(m_line, &QLineEdit::returnPressed, this, &CommandPalette::carryOut);
+    connect(m_list, &QListWidget::itemClicked, this, &CommandPalette::carryOut);
+    hide();
+}
+
+void CommandPalette::open(const QList<QAction *> &commands)
+{
+    m_previousFocus = QApplication::focusWidget();
+    m_commands.clear();
+    collect(commands, {});
+    setGeometry((parentWidget()->width() - paletteWidth) / 2, parentWidget()->height() / 8, paletteWidth, paletteHeight);
+    m_line->clear();
+    filter({});
+    show();
+    raise();
+    m_line->setFocus();
+}
+
+void CommandPalette::collect(const QList<QAction *> &actions, const QString &path)
+{
+    for (QAction *action : actions) {
+        if (action->isSeparator() || !action->isVisible() || !action->isEnabled())
+            continue;
+        const QString name = path + plain(action->text());
+        if (action->menu())
+            collect(action->menu()->actions(), name + QStringLiteral(": "));
+        else
+            m_commands.append({name, action});
+    }
+}
+
+int CommandPalette::match(const QString &name, const QString &typed)
+{
+    int score = 0;
+    qsizetype last = -1;
+    for (const QChar letter : typed) {
+        const qsizetype at = name.indexOf(letter, last + 1, Qt::CaseInsensitive);
+        if (at < 0)
+            return -1;
+        const bool beginsWord = at == 0 || !name[at - 1].isLetterOrNumber();
+        score += beginsWord ? 4 : at == last + 1 ? 3 : 1;
+        last = at;
+    }
+    return score;
+}
+
+void CommandPalette::filter(const QString &typed)
+{
+    struct Found {
+        int score;
+        const Command *command;
+    };
+    QList<Found> found;
+    for (const Command &command : m_commands)
+        if (const int score = match(command.name, typed.simplified().remove(QLatin1Char(' '))); score >= 0)
+            found.append({score, &command});
+    std::stable_sort(found.begin(), found.end(), [](const Found &a, const Found &b) { return a.score > b.score; });
+    m_list->clear();
+    for (const Found &each : found) {
+        const QString key = each.command->action->shortcut().toString(QKeySequence::NativeText);
+        auto *item = new QListWidgetItem(key.isEmpty() ? each.command->name : each.command->name + QStringLiteral("   (") + key + QLatin1Char(')'));
+        item->setData(Qt::UserRole, static_cast<qlonglong>(each.command - m_commands.constData()));
+        m_list->addItem(item);
+    }
+    m_list->setCurrentRow(0);
+}
+
+void CommandPalette::carryOut()
+{
+    const QListWidgetItem *item = m_list->currentItem();
+    if (!item)
+        return;
+    QAction *action = m_commands[item->data(Qt::UserRole).toLongLong()].action;
+    hide();
+    giveFocusBack();
+    action->trigger();
+}
+
+void CommandPalette::giveFocusBack()
+{
+    (m_previousFocus ? m_previousFocus.data() : parentWidget())->setFocus();
+}
+
+bool CommandPalette::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() == QEvent::FocusOut)
+        hide();
+    if (event->type() == QEvent::ShortcutOverride)
+        event->accept(); // letters are for the line, not for the window's single keys
+    if (event->type() != QEvent::KeyPress)
+        return QFrame::eventFilter(watched, event);
+    const int key = static_cast<QKeyEvent *>(event)->key();
+    if (key == Qt::Key_Escape) {
+        hide();
+        giveFocusBack();
+        return true;
+    }
+    if (key == Qt::Key_Down || key == Qt::Key_Up) {
+        const int row = m_list->currentRow() + (key == Qt::Key_Down ? 1 : -1);
+        m_list->setCurrentRow(std::clamp(row, 0, m_list->count() - 1));
+        return true;
+    }
+    return QFrame::eventFilter(watched, event);
+}
+
+} // namespace faintline

@@ -1,0 +1,145 @@
+#pragma once
+
+#include "app/window/WindowMemory.h"
+#include "app/views/WindowParts.h"
+#include "widgets/base/Theme.h"
+
+#include <QMainWindow>
+
+#include <memory>
+
+class QLabel;
+class QMenu;
+class QStackedWidget;
+class QToolBar;
+
+namespace faintline {
+
+class ActivityBar;
+class CommandPalette;
+class EquationSheet;
+class KeysOverlay;
+class LessonGuide;
+struct Lesson;
+class OverviewStrip;
+class Panels;
+class ReportWriter;
+class ScenarioCard;
+class SessionSaver;
+class TrialViewer;
+
+/// The window: it puts the panels in their places and connects them to the document and its controller.
+class MainWindow : public QMainWindow, public WindowParts
+{
+    Q_OBJECT
+
+public:
+    /// `memory`: where recent files and the window's layout are kept; null keeps nothing. `recoveryFolder`: where unsaved work is.
+    explicit MainWindow(std::unique_ptr<QSettings> memory = {}, const QString &recoveryFolder = {}, QWidget *parent = nullptr);
+    ~MainWindow() override;
+
+    /// Opens a recording, a scenario or a session. Asks only what the file itself cannot tell.
+    void open(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {});
+    void openNow(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {}) override;
+    void showWelcome();
+    /// Offers unsaved work that a program left behind when it died.
+    void offerRecovery();
+
+    TrialViewer &trials() { return *m_trials; }
+    LessonGuide &lessonGuide() { return *m_lessons; }
+
+    void openScans(const ScanTest &test) override;
+
+    void showNoiseFit();
+    void showWhy();
+    void showStates();
+    void showLatency();
+    void showHandLine();
+    void learnMotion();
+    void showCompare();
+    void showSweep();
+
+    /// Off: nobody is there to answer a dialog.
+    void setAsking(bool isAsking);
+
+signals:
+    void saved(const QString &sessionPath);
+
+protected:
+    void closeEvent(QCloseEvent *event) override;
+
+private:
+    void buildCentre();
+    void buildDocks();
+    void buildBottom();
+    void buildStatusBar();
+    void buildMenus();
+    void buildFileMenu();
+    void nameWhatHolds();
+    void buildEditMenu();
+    void buildViewMenu();
+    void addLayerMenu(QMenu &menu);
+    void buildDetectMenu();
+    void buildReviewMenu();
+    void buildEvaluateMenu();
+    void buildReproduceMenu();
+    void buildHelpMenu();
+    void buildToolBar();
+    void connectDocument();
+    void connectController();
+    void connectViews();
+    void connectEvaluation();
+    /// An action that makes sense only while a recording is shown.
+    QAction *addViewAction(QMenu &menu, const QString &text, const QKeySequence &key, std::function<void()> action);
+
+    void showWorkbench();
+    void showAnalysis();
+    void showEvents();
+    void showHint();
+    void showTitle();
+    void startLesson(const Lesson &lesson);
+    void showError(const Error &error);
+    void showFailure(const Error &error);
+    void offerIq();
+    void openScenario(ScenarioCard *card);
+    void chooseFile();
+    void chooseRawFile();
+    void exportReport();
+    void injectLine();
+    void reproduce(const Reproducible &reproducible, bool quick);
+    void showExperiment(int id);
+    void setTheme(Theme::Kind kind);
+    void about();
+    void showEquation(); ///< of the view one is at
+
+    void fillRecentMenu();
+    void saveLayout();
+    void restoreLayout();
+
+    WindowMemory m_memory;
+    bool m_isAsking = true;
+
+    Panels *m_panels = nullptr;
+    SessionSaver *m_saver = nullptr;
+    QString m_recoveryFolder;
+    QStackedWidget *m_pages = nullptr;
+    ReportWriter *m_report = nullptr;
+    std::unique_ptr<TrialViewer> m_trials;
+    LessonGuide *m_lessons = nullptr;
+    OverviewStrip *m_overview = nullptr;
+    ActivityBar *m_activity = nullptr;
+    QLabel *m_hint = nullptr;
+    KeysOverlay *m_keys = nullptr;
+    EquationSheet *m_equation = nullptr;
+    CommandPalette *m_palette = nullptr;
+    QMenu *m_recentMenu = nullptr;
+    QMenu *m_panelsMenu = nullptr;
+    QAction *m_stopAction = nullptr;
+    QAction *m_iqAction = nullptr;
+    QAction *m_playAction = nullptr;
+    QAction *m_presentAction = nullptr;
+    std::vector<QAction *> m_viewActions;
+    std::vector<QToolBar *> m_bottomBars;
+};
+
+} // namespace faintline

@@ -1,0 +1,203 @@
+// What follows what in the window: what the document, its controller and the views say, and who hears it.
+
+#include "app/window/MainWindow.h"
+
+#include "app/window/ActivityBar.h"
+#include "app/panels/ComparePanel.h"
+#include "app/panels/EvaluatePanel.h"
+#include "app/control/EventReviews.h"
+#include "app/panels/ExperimentsPanel.h"
+#include "app/window/FileDrop.h"
+#include "app/lessons/Lesson.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/lessons/LessonList.h"
+#include "app/base/MessageBar.h"
+#include "app/control/OutputLayers.h"
+#include "app/window/Panels.h"
+#include "app/workspace/PingBench.h"
+#include "app/document/Recovery.h"
+#include "app/views/ReportWriter.h"
+#include "app/welcome/ScenarioCard.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/document/SessionSaver.h"
+#include "app/panels/StateSlicePanel.h"
+#include "app/panels/SweepPanel.h"
+#include "app/panels/TrialViewer.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/views/WindowViews.h"
+#include "app/workspace/Workbench.h"
+#include "app/base/filePath.h"
+#include "app/control/scanScenario.h"
+#include "app/control/thresholdWords.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/waterfall/OverviewStrip.h"
+#include "widgets/base/ReadOut.h"
+#include "widgets/base/settingWords.h"
+
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QLabel>
+#include <QStackedWidget>
+
+namespace faintline {
+
+namespace {
+
+    DecideSettings::By decideBy(ExceedancePlot::Unit unit)
+    {
+        switch (unit) {
+        case ExceedancePlot::Unit::Nats:
+            return DecideSettings::By::Nats;
+        case ExceedancePlot::Unit::PfaPerCell:
+            return DecideSettings::By::PfaPerCell;
+        case ExceedancePlot::Unit::FalseAlarmsPerHour:
+            break;
+        }
+        return DecideSettings::By::FalseAlarmsPerHour;
+    }
+
+} // namespace
+
+void MainWindow::connectDocument()
+{
+    connect(&m_document, &Document::opened, this, [this] {
+        m_messages->dismiss();
+        if (m_document.recording())
+            m_readOut->setStartUnixSeconds(m_document.recording()->info().startUnixSeconds);
+        m_overview->setPicture(nullptr, {});
+        // Nothing of what was open before stays under the new name.
+        m_events->setEvents({});
+        for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
+            one->setEmptySentence(tr("Listening to the noise of %1 …").arg(m_document.source().name()));
+        if (m_pages->currentWidget() != m_welcome)
+            showWorkbench();
+        m_iqAction->setChecked(m_document.source().options.iq);
+        m_workbench->setPlaying(false);
+        m_pings->setPlaying(false);
+        const QString path = m_document.sessionPath().isEmpty() ? m_document.source().path : m_document.sessionPath();
+        if (!path.startsWith(QLatin1Char(':')))
+            m_memory.addRecent(path);
+        offerIq();
+        showHint();
+    });
+    connect(&m_document, &Document::picturesGrew, this, [this](const PicturesSoFar &pictures) {
+        m_overview->setPicture(pictures.glance ? pictures.glance : pictures.input, pictures.frequency);
+        showWorkbench();
+    });
+    connect(&m_document, &Document::analysisChanged, this, &MainWindow::showAnalysis);
+    connect(&m_document, &Document::provisionalChanged, this, &MainWindow::showHint);
+    connect(&m_document, &Document::shownThresholdChanged, m_threshold,
+            [this] { m_threshold->setThreshold(m_document.shownThreshold()); });
+    connect(&m_document, &Document::shownEventsChanged, this, &MainWindow::showEvents);
+    connect(&m_document, &Document::sessionChanged, this, &MainWindow::showTitle);
+    connect(&m_document, &Document::settingsChanged, m_messages, &MessageBar::dismiss);
+}
+
+void MainWindow::connectController()
+{
+    connect(&m_controller, &AnalysisController::busyChanged, m_activity, &ActivityBar::setBusy);
+    connect(&m_controller, &AnalysisController::busyChanged, m_stopAction, &QAction::setEnabled);
+    connect(&m_controller, &AnalysisController::busyChanged, this, [this](bool isBusy) {
+        if (!isBusy && !m_document.isEmpty() && !m_document.analysis())
+            m_workbench->output()->setEmptySentence(tr("Stopped before the detector came to an end."));
+        showHint();
+    });
+    connect(&m_controller, &AnalysisController::progressed, m_activity, &ActivityBar::setProgress);
+    connect(m_activity, &ActivityBar::cancelRequested, &m_controller, &AnalysisController::stop);
+    connect(&m_controller, &AnalysisController::failed, this, &MainWindow::showFailure);
+    connect(&m_controller, &AnalysisController::warned, this, [this](const QString &where, const QString &why) {
+        m_messages->showMessage(MessageBar::Kind::Notice, where, why);
+    });
+    connect(&m_controller, &AnalysisController::refined, this,
+            [this](double firstEstimate) { m_hint->setText(refinedSentence(*m_document.analysis(), firstEstimate)); });
+    connect(&m_controller, &AnalysisController::viewRestored, this, [this](const ViewState &view) { bench().restore(view); });
+    m_saver = new SessionSaver(
+        m_document, [this] { return bench().viewState(); }, this);
+    m_recovery = new Recovery(
+        m_document, [this] { return bench().viewState(); }, m_recoveryFolder, this);
+    m_report = new ReportWriter(m_document, *m_views, this);
+    connect(m_report, &ReportWriter::busyChanged, m_activity, &ActivityBar::setBusy);
+    connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
+    connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
+    connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
+    connect(m_report, &ReportWriter::written, this,
+            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path), tr("is written.")); });
+    connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
+    connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
+        m_memory.addRecent(path);
+        emit saved(path);
+    });
+}
+
+void MainWindow::connectViews()
+{
+    connect(m_welcome, &WelcomePage::openRequested, this, &MainWindow::chooseFile);
+    connect(m_welcome, &WelcomePage::pathChosen, this, [this](const QString &path) { open(path); });
+    connect(m_welcome, &WelcomePage::scenarioChosen, this, &MainWindow::openScenario);
+    connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
+    connect(m_welcome->lessonList(), &LessonList::chosen, this,
+            [this](int lesson) { startLesson(lessons()[static_cast<std::size_t>(lesson)]); });
+    connect(m_presentAction, &QAction::toggled, this, [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
+    connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);
+    connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
+
+    const auto goTo = [this](int id) {
+        bench().selectEvent(id);
+        m_events->setSelectedEvent(id);
+    };
+    for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings}) {
+        connect(one, &Bench::eventActivated, this, goTo);
+        connect(one, &Bench::thresholdStepRequested, &m_controller, &AnalysisController::stepThreshold);
+    }
+    connect(m_events, &EventTable::eventActivated, this, goTo);
+    connect(m_reviews, &EventReviews::failed, this, &MainWindow::showError);
+    connect(m_reviews, &EventReviews::told, this, [this](const QString &where, const QString &what) {
+        m_messages->showMessage(MessageBar::Kind::Notice, where, what);
+    });
+    connect(m_compare, &ComparePanel::eventActivated, this, goTo);
+    connect(m_workbench->output(), &WaterfallView::orientationChanged, m_compare->picture(), &WaterfallView::setOrientation);
+    connect(m_workbench, &Workbench::readingChanged, m_readOut, &ReadOut::setReading);
+    connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
+            [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });
+
+    connect(static_cast<QDockWidget *>(m_states->parentWidget()), &QDockWidget::visibilityChanged, &m_workbench->layers(),
+            &OutputLayers::setWatching);
+    connect(&m_workbench->layers(), &OutputLayers::failed, this, &MainWindow::showError);
+    connect(m_states, &StateSlicePanel::lawRequested, this, [this](const QString &field, const std::vector<double> &law) {
+        m_controller.edit(field, law, tr("Change “%1”").arg(settingLabel(field)));
+    });
+    connect(m_threshold, &ExceedancePlot::thresholdRequested, &m_controller, &AnalysisController::previewThreshold);
+    connect(m_threshold, &ExceedancePlot::thresholdCommitted, &m_controller, &AnalysisController::commitThreshold);
+    connect(m_threshold, &ExceedancePlot::unitChanged, this,
+            [this](ExceedancePlot::Unit unit) { m_controller.setThresholdUnit(decideBy(unit)); });
+    connect(m_views, &WindowViews::failed, this, &MainWindow::showError);
+    connect(new FileDrop(this), &FileDrop::dropped, this, [this](const QString &path) { open(path); });
+}
+
+void MainWindow::connectEvaluation()
+{
+    m_trials = std::make_unique<TrialViewer>(m_experiments, this);
+    connect(m_evaluate, &EvaluatePanel::trialRequested, m_trials.get(), &TrialViewer::open);
+    connect(m_evaluate, &EvaluatePanel::failed, this, &MainWindow::showError);
+    connect(m_sweep, &SweepPanel::failed, this, &MainWindow::showError);
+    connect(m_sweep, &SweepPanel::valueChosen, &m_controller, &AnalysisController::editNumber);
+    connect(m_sequential, &SequentialPanel::failed, this, &MainWindow::showError);
+    auto *dock = static_cast<QDockWidget *>(m_sequential->parentWidget());
+    connect(dock->toggleViewAction(), &QAction::toggled, this, [this, dock] {
+        if (dock->isHidden() && m_pages->isHidden() && !m_panels->isRearranging()) // it was all there was
+            showWelcome();
+    });
+    connect(m_trials.get(), &TrialViewer::failed, this, &MainWindow::showError);
+    connect(m_trials.get(), &TrialViewer::busyChanged, m_activity, &ActivityBar::setBusy);
+    connect(m_trials.get(), &TrialViewer::progressed, m_activity, &ActivityBar::setProgress);
+    connect(m_experimentList, &ExperimentsPanel::failed, this, &MainWindow::showError);
+    connect(m_experimentList, &ExperimentsPanel::showRequested, this, &MainWindow::showExperiment);
+    connect(&m_experiments, &Experiments::changed, this, [this](int id) {
+        // A reproduction shows itself when it is done; curves grow where they are.
+        if (const Experiments::Entry *entry = m_experiments.entry(id); entry->state == Experiments::State::Done && entry->reproduction)
+            showExperiment(id);
+    });
+}
+
+} // namespace faintline

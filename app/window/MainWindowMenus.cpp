@@ -1,0 +1,344 @@
+// The window's menus and its tool bar: every action there is, with its key.
+
+#include "app/window/MainWindow.h"
+
+#include "app/window/CommandPalette.h"
+#include "app/panels/ComparePanel.h"
+#include "app/panels/EvaluatePanel.h"
+#include "app/control/EventReviews.h"
+#include "app/panels/ExperimentsPanel.h"
+#include "app/help/KeysOverlay.h"
+#include "app/control/OutputLayers.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/window/Panels.h"
+#include "app/workspace/PingBench.h"
+#include "app/window/currentView.h"
+#include "app/document/scenarios.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/document/SessionSaver.h"
+#include "app/window/ToolBar.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/views/WindowViews.h"
+#include "app/workspace/Workbench.h"
+#include "app/control/scanScenario.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/base/icon.h"
+#include "widgets/waterfall/waterfallCommands.h"
+
+#include <QActionGroup>
+#include <QMenu>
+#include <QMenuBar>
+#include <QToolButton>
+
+namespace faintline {
+
+void MainWindow::buildMenus()
+{
+    buildFileMenu();
+    buildEditMenu();
+    buildViewMenu();
+    buildDetectMenu();
+    buildReviewMenu();
+    buildEvaluateMenu();
+    buildReproduceMenu();
+    buildHelpMenu();
+    nameWhatHolds();
+    // A hidden menu's shortcuts do nothing; the window's do, and a presentation has no menu.
+    for (const QAction *menu : menuBar()->actions())
+        for (QAction *action : menu->menu()->actions())
+            if (action != m_playAction)
+                addAction(action);
+}
+
+/// What only holds other widgets and can have the focus is called as the panel it is in.
+void MainWindow::nameWhatHolds()
+{
+    for (QWidget *widget : findChildren<QWidget *>()) {
+        const bool isHolder = widget->inherits("QScrollArea") || widget->inherits("QTabWidget");
+        if (!isHolder || !widget->accessibleName().isEmpty())
+            continue;
+        QWidget *panel = widget->parentWidget();
+        while (panel && panel->windowTitle().isEmpty() && panel != this)
+            panel = panel->parentWidget();
+        widget->setAccessibleName(panel && panel != this ? panel->windowTitle() : tr("Welcome"));
+    }
+}
+
+void MainWindow::buildFileMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&File"));
+    menu->addAction(tr("&Open…"), QKeySequence::Open, this, &MainWindow::chooseFile);
+    menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
+    m_recentMenu = menu->addMenu(tr("Open re&cent"));
+    connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
+    menu->addAction(tr("&Welcome page"), this, &MainWindow::showWelcome);
+    menu->addSeparator();
+    m_iqAction = addViewAction(*menu, tr("Take channels as &I and Q"), {}, [this] {
+        OpenOptions options = m_document.source().options;
+        options.iq = m_iqAction->isChecked();
+        m_controller.reopen(options);
+    });
+    m_iqAction->setCheckable(true);
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Save session"), QKeySequence::Save, [this] { m_saver->save(); });
+    addViewAction(*menu, tr("Save session &as…"), QKeySequence::SaveAs, [this] { m_saver->saveAs(); });
+    menu->addSeparator();
+    QMenu *pictures = menu->addMenu(tr("Export &picture"));
+    for (const WindowView &view : windowViews())
+        pictures->addAction(view.title, this, [this, name = view.name] { m_views->exportPicture(name); });
+    m_viewActions.push_back(pictures->menuAction());
+    addViewAction(*menu, tr("Export repor&t…"), {}, [this] { exportReport(); });
+    menu->addSeparator();
+    menu->addAction(tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), this, &QWidget::close);
+}
+
+void MainWindow::buildEditMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Edit"));
+    QAction *undo = m_document.undoStack().createUndoAction(this, tr("&Undo"));
+    QAction *redo = m_document.undoStack().createRedoAction(this, tr("&Redo"));
+    undo->setShortcut(QKeySequence::Undo);
+    redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::Key_Y), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)});
+    menu->addActions({undo, redo});
+    menu->addSeparator();
+    addViewAction(*menu, tr("Reset all &settings"), {},
+                  [this] { m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings")); });
+}
+
+void MainWindow::buildViewMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&View"));
+    WaterfallView *input = m_workbench->input();
+    WaterfallView *output = m_workbench->output();
+    Viewport *viewport = &m_document.viewport();
+    addViewAction(*menu, tr("Show &all"), Qt::Key_0, [viewport] { viewport->showAll(); });
+    addViewAction(*menu, tr("Zoom &back"), Qt::Key_Backspace, [viewport] { viewport->zoomBack(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("Next &orientation"), Qt::Key_O, [this] { bench().cycleOrientation(); });
+    addViewAction(*menu, tr("Next &colour map"), Qt::Key_C, [this] { bench().cycleColourMap(); });
+    addViewAction(*menu, tr("A&utomatic range"), Qt::Key_A, [this] { bench().setAutomaticRange(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Measure a box"), Qt::Key_M, [output] { output->setMeasuring(!output->isMeasuring()); });
+    QAction *harmonics = addViewAction(*menu, tr("&Harmonics"), Qt::Key_H, {});
+    harmonics->setCheckable(true);
+    connect(harmonics, &QAction::toggled, input, &WaterfallView::setHarmonics);
+    connect(harmonics, &QAction::toggled, output, &WaterfallView::setHarmonics);
+    connect(output, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    connect(input, &WaterfallView::harmonicsChanged, harmonics, &QAction::setChecked);
+    QAction *sidebands = addViewAction(*menu, tr("S&idebands"), Qt::Key_I, {});
+    sidebands->setCheckable(true);
+    connect(sidebands, &QAction::toggled, output, &WaterfallView::setSidebands);
+    connect(output, &WaterfallView::sidebandsChanged, sidebands, [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
+    addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K,
+                  [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
+    menu->addSeparator();
+    QMenu *picture = menu->addMenu(tr("P&icture"));
+    connect(picture, &QMenu::aboutToShow, this, [picture, output] {
+        picture->clear();
+        addCommands(*picture, *output);
+    });
+    addLayerMenu(*menu);
+    m_panelsMenu = menu->addMenu(tr("&Panels"));
+    m_panelsMenu->addActions(m_panels->toggleActions());
+    m_panelsMenu->addSeparator();
+    for (const QString &name : Panels::layoutNames())
+        m_panelsMenu->addAction(tr("Layout: %1").arg(name), m_panels, [this, name] { m_panels->takeLayout(name); });
+    m_presentAction = addViewAction(*menu, tr("&Presentation"), Qt::Key_F5, {});
+    m_presentAction->setCheckable(true);
+    connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);
+    QMenu *themes = menu->addMenu(tr("&Theme"));
+    auto *group = new QActionGroup(themes);
+    const auto addTheme = [&](const QString &text, Theme::Kind kind) {
+        QAction *action = themes->addAction(text, this, [this, kind] { setTheme(kind); });
+        action->setCheckable(true);
+        action->setActionGroup(group);
+        action->setChecked(Theme::kind(palette()) == kind);
+    };
+    addTheme(tr("&Light"), Theme::Kind::Light);
+    addTheme(tr("&Dark"), Theme::Kind::Dark);
+    addTheme(tr("&High contrast"), Theme::Kind::HighContrast);
+}
+
+void MainWindow::addLayerMenu(QMenu &menu)
+{
+    OutputLayers *layers = &m_workbench->layers();
+    QMenu *choices = menu.addMenu(tr("&Output layer"));
+    auto *group = new QActionGroup(choices);
+    const std::pair<QString, OutputLayer> all[]{{tr("Layer: &statistic D"), OutputLayer::Statistic},
+                                                {tr("Layer: winning s&lope or range rate"), OutputLayer::Rate},
+                                                {tr("Layer: winning &bearing rate"), OutputLayer::SecondRate},
+                                                {tr("Layer: path &age since the last reset"), OutputLayer::Age},
+                                                {tr("Layer: &resets"), OutputLayer::Reset},
+                                                {tr("Layer: &inhibited cells"), OutputLayer::Inhibited}};
+    for (const auto &[text, layer] : all) {
+        QAction *action = addViewAction(*choices, text, {}, [layers, layer = layer] { layers->setLayer(layer); });
+        action->setCheckable(true);
+        action->setActionGroup(group);
+        const auto check = [layers, action, layer = layer] {
+            action->setChecked(layers->layer() == layer);
+            action->setVisible(layers->isOffered(layer));
+        };
+        connect(layers, &OutputLayers::layerChanged, action, check);
+        connect(&m_document, &Document::opened, action, check);
+        check();
+    }
+    choices->addSeparator();
+    addAction(addViewAction(*choices, tr("Layer: &next"), Qt::Key_V, [layers] { layers->cycleLayer(); }));
+    QAction *overlay = addViewAction(*choices, tr("Layer &over the statistic"), QKeySequence(Qt::SHIFT | Qt::Key_V), {});
+    overlay->setCheckable(true);
+    connect(overlay, &QAction::toggled, layers, &OutputLayers::setOverlay);
+    connect(layers, &OutputLayers::layerChanged, overlay, [layers, overlay] { overlay->setChecked(layers->isOverlay()); });
+    addAction(overlay);
+}
+
+void MainWindow::buildDetectMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Detect"));
+    addViewAction(*menu, tr("&Run again"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] { m_controller.run(); });
+    m_stopAction = menu->addAction(tr("&Stop"), QKeySequence(Qt::Key_Escape), &m_controller, &AnalysisController::stop);
+    m_stopAction->setEnabled(false);
+    menu->addSeparator();
+    addViewAction(*menu, tr("Threshold &down"), Qt::Key_Comma, [this] { m_controller.stepThreshold(-1); });
+    addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Next event"), Qt::Key_N, [this] { m_events->selectNext(); });
+    addViewAction(*menu, tr("&Previous event"), QKeySequence(Qt::SHIFT | Qt::Key_N),
+                  [this] { m_events->selectPrevious(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Why (not) detected"), QKeySequence(Qt::Key_W), [this] { showWhy(); });
+    addViewAction(*menu, tr("Draw a line &by hand"), QKeySequence(Qt::CTRL | Qt::Key_D), [this] { showHandLine(); });
+    addViewAction(*menu, tr("Learn &motion from tracks…"), {}, [this] { learnMotion(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Keep as A"), QKeySequence(Qt::CTRL | Qt::Key_B), [this] {
+        showCompare();
+        m_compare->keep();
+    });
+    addViewAction(*menu, tr("Swap &A and B"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_B), [this] { m_compare->swap(); });
+    addViewAction(*menu, tr("&Go to A"), {}, [this] { m_compare->goToA(); });
+    menu->addSeparator();
+    m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
+    m_playAction->setCheckable(true);
+    connect(m_playAction, &QAction::toggled, this, [this](bool isPlaying) { bench().setPlaying(isPlaying); });
+    for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
+        connect(one, &Bench::playingChanged, m_playAction, &QAction::setChecked);
+    // Space also presses the button that has the focus: only over the pictures does it play.
+    m_playAction->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+    m_workbench->addAction(m_playAction);
+    m_pings->addAction(m_playAction);
+    addViewAction(*menu, tr("Frame &back"), Qt::Key_J, [this] { bench().stepFrames(-1); });
+    addViewAction(*menu, tr("Frame &forward"), Qt::Key_L, [this] { bench().stepFrames(1); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&State space"), Qt::Key_S, [this] { showStates(); });
+}
+
+void MainWindow::buildReviewMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Annotate"));
+    menu->setToolTipsVisible(true);
+    m_reviews->addActionsTo(*menu);
+}
+
+void MainWindow::buildEvaluateMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("Eva&luate"));
+    addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
+    addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
+    addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P), [this] { showSweep(); });
+    addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
+    addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showLatency(); });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Sequential test"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] { m_panels->show(m_sequential); });
+    addViewAction(*menu, tr("Sequential test on the se&lection"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_T), [this] {
+        m_panels->show(m_sequential);
+        m_sequential->startOnSelection();
+    });
+    menu->addSeparator();
+    addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
+}
+
+void MainWindow::buildReproduceMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Reproduce"));
+    QAction *quick = menu->addAction(tr("&Quick: a tenth of the trials"));
+    quick->setCheckable(true);
+    quick->setChecked(true);
+    menu->addSeparator();
+    for (const Reproducible &entry : reproducibles()) {
+        QAction *action = menu->addAction(QString::fromStdString(entry.title));
+        action->setData(QString::fromStdString(entry.name));
+        connect(action, &QAction::triggered, this, [this, &entry, quick] { reproduce(entry, quick->isChecked()); });
+    }
+}
+
+void MainWindow::buildHelpMenu()
+{
+    QMenu *menu = menuBar()->addMenu(tr("&Help"));
+    QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(currentView(*this, *this)); });
+    keys->setShortcuts(
+        {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
+    menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this, &MainWindow::showEquation);
+    QMenu *lessonMenu = menu->addMenu(tr("&Lessons"));
+    for (const Lesson &lesson : lessons())
+        lessonMenu->addAction(lesson.title, this, [this, &lesson] { startLesson(lesson); })->setToolTip(lesson.sentence);
+    menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this, [this] { m_palette->open(menuBar()->actions()); });
+    menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
+}
+
+QAction *MainWindow::addViewAction(QMenu &menu, const QString &text, const QKeySequence &key,
+                                   std::function<void()> action)
+{
+    QAction *result = menu.addAction(text);
+    result->setShortcut(key);
+    if (action)
+        connect(result, &QAction::triggered, this, action);
+    m_viewActions.push_back(result);
+    return result;
+}
+
+void MainWindow::buildToolBar()
+{
+    auto *bar = new ToolBar(tr("Tools"));
+    addToolBar(bar);
+    bar->setObjectName(QStringLiteral("toolBar"));
+    const auto add = [this, bar](const QString &text, const char *icon, const QString &toolTip, bool keepsText, auto action) {
+        auto *result = new QAction(text, bar);
+        connect(result, &QAction::triggered, this, action);
+        result->setToolTip(toolTip);
+        bar->addAction(result, QString::fromLatin1(icon), keepsText);
+        return result;
+    };
+    const auto addOfView = [&](const QString &text, const char *icon, const QString &toolTip, bool keepsText, auto action) {
+        m_viewActions.push_back(add(text, icon, toolTip, keepsText, action));
+    };
+    add(tr("Open…"), "open", tr("Open a recording, a scenario or a session (Ctrl+O)"), true, &MainWindow::chooseFile);
+
+    auto *scenarioMenu = new QMenu(this);
+    for (const Scenario &scenario : scenarios())
+        scenarioMenu->addAction(scenario.title, this, [this, path = scenario.path] { open(path); });
+    scenarioMenu->addAction(tr("A radar that looks until it is sure"), this, [this] { open(radarScenarioPath()); });
+    auto *scenarioButton = new QToolButton;
+    scenarioButton->setText(tr("Scenario"));
+    scenarioButton->setToolTip(tr("Open a simulated recording"));
+    scenarioButton->setMenu(scenarioMenu);
+    scenarioButton->setPopupMode(QToolButton::InstantPopup);
+    bar->addButton(scenarioButton, QStringLiteral("scenario"), true);
+    bar->addSeparator();
+
+    addOfView(tr("Run"), "run", tr("Run the chain again (Ctrl+R)"), true, [this] { m_controller.run(); });
+    bar->addAction(m_stopAction, QStringLiteral("stop"), true);
+    bar->addSeparator();
+    addOfView(tr("Orientation"), "orientation", tr("Newest on top, oldest on top, left to right (O)"), false,
+              [this] { bench().cycleOrientation(); });
+    addOfView(tr("Colours"), "colours", tr("Next colour map (C)"), false, [this] { bench().cycleColourMap(); });
+    addOfView(tr("Show all"), "show-all", tr("The whole recording (0)"), false, [this] { m_document.viewport().showAll(); });
+    bar->addSeparator();
+    addOfView(tr("Frame back"), "step-back", tr("One frame back (J)"), false, [this] { bench().stepFrames(-1); });
+    bar->addAction(m_playAction, QStringLiteral("play"), false);
+    connect(m_playAction, &QAction::toggled, this,
+            [this](bool isPlaying) { m_playAction->setIcon(icon(isPlaying ? QStringLiteral("pause") : QStringLiteral("play"))); });
+    addOfView(tr("Frame forward"), "step-forward", tr("One frame forward (L)"), false, [this] { bench().stepFrames(1); });
+    bar->addSeparator();
+    addOfView(tr("Next event"), "next-event", tr("Go to the next event (N)"), false, [this] { m_events->selectNext(); });
+}
+
+} // namespace faintline

@@ -1,0 +1,216 @@
+#include "app/window/Panels.h"
+
+#include <QAction>
+#include <QChildEvent>
+#include <QDockWidget>
+#include <QLayout>
+#include <QMainWindow>
+#include <QMenuBar>
+#include <QScopedValueRollback>
+#include <QStatusBar>
+#include <QTabBar>
+#include <QToolBar>
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int twoColumnsFrom = 1500; ///< pixels; in a narrower window all panels share a column, so that the pictures have the room
+    constexpr int narrowestColumn = 280;
+
+    Qt::DockWidgetArea areaOf(Panels::Place place)
+    {
+        switch (place) {
+        case Panels::Place::Left:
+            return Qt::LeftDockWidgetArea;
+        case Panels::Place::Bottom:
+            return Qt::BottomDockWidgetArea;
+        case Panels::Place::RightTop:
+        case Panels::Place::RightBottom:
+            break;
+        }
+        return Qt::RightDockWidgetArea;
+    }
+
+    struct Layout {
+        const char *name;
+        QStringList docks; ///< what is there, the foremost of tabs last; none: as at first
+    };
+
+    const std::vector<Layout> &layouts()
+    {
+        static const std::vector<Layout> all{
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Lines"), {}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Active sonar"), {"thresholdDock", "eventsDock", "statesDock"}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Sequential test"), {"sequentialDock"}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Evaluate"), {"experimentsDock", "reproductionDock", "evaluateDock"}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Teach"), {"eventsDock", "thresholdDock"}},
+        };
+        return all;
+    }
+
+} // namespace
+
+Panels::Panels(QMainWindow &window) : QObject(&window), m_window(window)
+{
+    window.setDockNestingEnabled(true);
+    window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+    window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    window.installEventFilter(this);
+}
+
+void Panels::add(const QString &name, const QString &title, QWidget *panel, Place place)
+{
+    auto *dock = new QDockWidget(title);
+    dock->setObjectName(name);
+    dock->setWidget(panel);
+    m_window.addDockWidget(areaOf(place), dock);
+    if (QDockWidget *before = last(place)) {
+        m_window.tabifyDockWidget(before, dock);
+        first(place)->raise();
+    } else if (QDockWidget *above = place == Place::RightBottom ? last(Place::RightTop) : nullptr) {
+        m_window.splitDockWidget(above, dock, Qt::Vertical);
+    }
+    dock->setHidden(place == Place::Bottom);
+    m_entries.push_back({dock, place});
+}
+
+bool Panels::eventFilter(QObject *watched, QEvent *event)
+{
+    if (event->type() == QEvent::ChildPolished)
+        if (auto *bar = qobject_cast<QTabBar *>(static_cast<QChildEvent *>(event)->child()))
+            bar->setAutoHide(true);
+    return QObject::eventFilter(watched, event);
+}
+
+void Panels::rememberDefault()
+{
+    m_default = m_window.saveState();
+}
+
+void Panels::takeDefault()
+{
+    std::vector<QToolBar *> hidden; // what is open decides about them, not the layout
+    for (QToolBar *bar : m_window.findChildren<QToolBar *>())
+        if (bar->isHidden())
+            hidden.push_back(bar);
+    m_window.restoreState(m_default);
+    for (QToolBar *bar : hidden)
+        bar->hide();
+    const int width = m_window.width();
+    QDockWidget *left = first(Place::Left), *right = first(Place::RightTop);
+    const bool isNarrow = width < twoColumnsFrom;
+    if (isNarrow) {
+        m_window.tabifyDockWidget(right, left);
+        right->raise();
+    }
+    m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)}, Qt::Horizontal);
+    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{1, 1} : QList<int>{4, 5}, Qt::Vertical);
+}
+
+void Panels::show(QWidget *panel)
+{
+    auto *dock = static_cast<QDockWidget *>(panel->parentWidget());
+    const bool wasHidden = dock->isHidden();
+    dock->show();
+    dock->raise();
+    m_window.layout()->activate(); // in its place from now on, not later
+    if (wasHidden && m_window.dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
+        raiseFromBottom(dock, 36);
+}
+
+/// Its share of the window's height, once the window knows that it is there.
+void Panels::raiseFromBottom(QDockWidget *dock, int percent)
+{
+    m_window.layout()->activate();
+    m_window.resizeDocks({dock}, {m_window.height() * percent / 100}, Qt::Vertical);
+}
+
+QStringList Panels::layoutNames()
+{
+    QStringList names;
+    for (const Layout &layout : layouts())
+        names.append(tr(layout.name));
+    return names;
+}
+
+void Panels::takeLayout(const QString &name)
+{
+    const auto index = layoutNames().indexOf(name);
+    if (index < 0)
+        return;
+    takeDefault();
+    const Layout &layout = layouts()[static_cast<std::size_t>(index)];
+    if (layout.docks.isEmpty())
+        return;
+    for (const Entry &entry : m_entries)
+        entry.dock->setVisible(layout.docks.contains(entry.dock->objectName()));
+    for (const QString &shown : layout.docks)
+        if (QDockWidget *own = dock(shown))
+            own->raise();
+    for (const QString &shown : layout.docks)
+        if (QDockWidget *own = dock(shown); own && m_window.dockWidgetArea(own) == Qt::BottomDockWidgetArea)
+            raiseFromBottom(own, 48);
+}
+
+QDockWidget *Panels::dock(const QString &name) const
+{
+    for (const Entry &entry : m_entries)
+        if (entry.dock->objectName() == name)
+            return entry.dock;
+    return nullptr;
+}
+
+void Panels::hide()
+{
+    for (const Entry &entry : m_entries)
+        entry.dock->hide();
+}
+
+QList<QAction *> Panels::toggleActions() const
+{
+    QList<QAction *> result;
+    for (const Entry &entry : m_entries)
+        result.append(entry.dock->toggleViewAction());
+    return result;
+}
+
+void Panels::setPresenting(bool isPresenting)
+{
+    const QScopedValueRollback rearranging(m_isRearranging, true);
+    if (isPresenting)
+        m_beforePresenting = m_window.saveState();
+    for (QToolBar *bar : m_window.findChildren<QToolBar *>())
+        bar->setVisible(!isPresenting);
+    constexpr int leastPicture = 100; // pixels; below, a panel has taken the pictures' place and is what is presented
+    if (!isPresenting || m_window.centralWidget()->height() >= leastPicture)
+        for (const Entry &entry : m_entries)
+            entry.dock->setVisible(!isPresenting);
+    m_window.menuBar()->setVisible(!isPresenting);
+    m_window.statusBar()->setVisible(!isPresenting);
+    m_window.setWindowState(m_window.windowState().setFlag(Qt::WindowFullScreen, isPresenting));
+    if (!isPresenting)
+        m_window.restoreState(m_beforePresenting);
+}
+
+QDockWidget *Panels::first(Place place) const
+{
+    for (const Entry &entry : m_entries)
+        if (entry.place == place)
+            return entry.dock;
+    return nullptr;
+}
+
+QDockWidget *Panels::last(Place place) const
+{
+    QDockWidget *result = nullptr;
+    for (const Entry &entry : m_entries)
+        if (entry.place == place)
+            result = entry.dock;
+    return result;
+}
+
+} // namespace faintline

@@ -1,0 +1,75 @@
+#include "app/window/WindowMemory.h"
+
+#include "app/base/filePath.h"
+
+namespace faintline {
+
+namespace {
+
+    constexpr int mostRecent = 10;
+    const QString recentKey = QStringLiteral("recent");
+    const QString themeKey = QStringLiteral("view/theme");
+    const QString colourMapKey = QStringLiteral("view/colourMap");
+    const QString orientationKey = QStringLiteral("view/orientation");
+    const QString geometryKey = QStringLiteral("window/geometry");
+    const QString panelsKey = QStringLiteral("window/panels");
+    const QString splittersKey = QStringLiteral("window/splitters");
+    const QString pingSplittersKey = QStringLiteral("window/pingSplitters");
+
+} // namespace
+
+std::unique_ptr<QSettings> WindowMemory::programStore()
+{
+    return std::make_unique<QSettings>(QSettings::IniFormat, QSettings::UserScope, QStringLiteral("faintline"),
+                                       QStringLiteral("faintline"));
+}
+
+QStringList WindowMemory::recent() const
+{
+    return m_store ? m_store->value(recentKey).toStringList() : QStringList();
+}
+
+void WindowMemory::addRecent(const QString &path)
+{
+    if (!m_store)
+        return;
+    const QString absolute = absolutePath(path);
+    QStringList paths = recent();
+    paths.removeAll(absolute);
+    paths.prepend(absolute);
+    m_store->setValue(recentKey, QStringList(paths.mid(0, mostRecent)));
+}
+
+WindowMemory::Layout WindowMemory::layout() const
+{
+    if (!m_store)
+        return {};
+    return {m_store->value(geometryKey).toByteArray(),  m_store->value(panelsKey).toByteArray(),
+            m_store->value(splittersKey).toByteArray(), m_store->value(pingSplittersKey).toByteArray(),
+            m_store->value(colourMapKey).toString(),    m_store->value(orientationKey).toString()};
+}
+
+void WindowMemory::setLayout(const Layout &layout)
+{
+    if (!m_store)
+        return;
+    m_store->setValue(geometryKey, layout.geometry);
+    m_store->setValue(panelsKey, layout.panels);
+    m_store->setValue(splittersKey, layout.splitters);
+    m_store->setValue(pingSplittersKey, layout.pingSplitters);
+    m_store->setValue(colourMapKey, layout.colourMap);
+    m_store->setValue(orientationKey, layout.orientation);
+}
+
+Theme::Kind WindowMemory::theme() const
+{
+    return m_store ? Theme::named(m_store->value(themeKey).toString()) : Theme::Kind::Dark;
+}
+
+void WindowMemory::setTheme(Theme::Kind kind)
+{
+    if (m_store)
+        m_store->setValue(themeKey, Theme::nameOf(kind));
+}
+
+} // namespace faintline

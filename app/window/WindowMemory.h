@@ -1,0 +1,44 @@
+#pragma once
+
+#include "widgets/base/Theme.h"
+
+#include <QByteArray>
+#include <QSettings>
+#include <QStringList>
+
+#include <memory>
+
+namespace faintline {
+
+/// What a window remembers from run to run: recent files, its layout, its look. Without a store it remembers nothing.
+class WindowMemory
+{
+public:
+    struct Layout {
+        QByteArray geometry;
+        QByteArray panels;
+        QByteArray splitters;     ///< of the workbench
+        QByteArray pingSplitters; ///< of the bench of pings
+        QString colourMap;
+        QString orientation;
+    };
+
+    explicit WindowMemory(std::unique_ptr<QSettings> store = {}) : m_store(std::move(store)) {}
+
+    /// The store of the program, in the person's configuration folder.
+    static std::unique_ptr<QSettings> programStore();
+
+    QStringList recent() const; ///< the latest first
+    void addRecent(const QString &path);
+
+    Layout layout() const;
+    void setLayout(const Layout &layout);
+
+    Theme::Kind theme() const;
+    void setTheme(Theme::Kind kind);
+
+private:
+    std::unique_ptr<QSettings> m_store;
+};
+
+} // namespace faintline

@@ -1,0 +1,46 @@
+#include "app/window/currentView.h"
+
+#include "app/welcome/WelcomePage.h"
+#include "app/views/WindowParts.h"
+#include "app/views/WindowViews.h"
+#include "app/workspace/Workbench.h"
+#include "widgets/plot/StripPlot.h"
+
+#include <QApplication>
+#include <QCursor>
+
+namespace faintline {
+
+namespace {
+
+    QString nameOf(const QWidget &window, const WindowParts &parts, const QWidget *widget)
+    {
+        for (const QWidget *each = widget; each && each != &window; each = each->parentWidget()) {
+            if (each == parts.workbench().statisticPlot())
+                return QStringLiteral("profile");
+            if (each == parts.workbench().regulationPlot())
+                return QStringLiteral("regulation");
+            for (const QString &name : WindowViews::names())
+                if (name != QLatin1String("polar") && parts.views().named(name) == each)
+                    return name;
+        }
+        return {};
+    }
+
+} // namespace
+
+QString currentView(const QWidget &window, const WindowParts &parts)
+{
+    if (const QString focused = nameOf(window, parts, window.focusWidget()); !focused.isEmpty())
+        return focused;
+    if (const QString pointed = nameOf(window, parts, window.childAt(window.mapFromGlobal(QCursor::pos())));
+        !pointed.isEmpty())
+        return pointed;
+    if (parts.welcome().isVisible())
+        return {};
+    if (!parts.workbench().isVisible() && !parts.document().hasPings())
+        return QStringLiteral("walk");
+    return parts.document().hasPings() ? QStringLiteral("map") : QStringLiteral("output");
+}
+
+} // namespace faintline

@@ -1,0 +1,583 @@
+#include "app/workspace/PingBench.h"
+
+#include "analysis/regulation.h"
+#include "app/control/OutputLayers.h"
+#include "app/base/statisticUnit.h"
+#include "spectrum/pictureCuts.h"
+#include "widgets/pings/PingMap.h"
+#include "widgets/pings/PolarView.h"
+#include "widgets/plot/StripPlot.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+
+#include <QCheckBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QScopedValueRollback>
+#include <QShortcut>
+#include <QSlider>
+#include <QSplitter>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int playerInterval = 200; // ms a ping
+
+    QString unitText(const Axis &axis)
+    {
+        const QString unit = labelText(axis.unit, mostUnitLetters);
+        return unit == QStringLiteral("°") ? unit : QLatin1Char(' ') + unit;
+    }
+
+    QString axisText(const Axis &axis, double value)
+    {
+        return numberText(value, decimalsFor(axis.step)) + unitText(axis);
+    }
+
+    Index cellOf(const Axis &axis, double value)
+    {
+        return axis.nearest(value);
+    }
+
+    double centreOf(const Axis &axis, double value)
+    {
+        return axis.value(static_cast<double>(cellOf(axis, value)));
+    }
+
+} // namespace
+
+PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
+    : Bench(parent), m_document(document), m_layers(layers), m_viewports(document.viewport()),
+      m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
+      m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())),
+      m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
+      m_bearingHistory(new WaterfallView(tr("D over bearing, best range"))),
+      m_regulation(new StripPlot(tr("ln K (nat)"))), m_dragged(new QLabel), m_slider(new QSlider(Qt::Horizontal)),
+      m_reading(new QLabel), m_maps(new QSplitter(Qt::Horizontal)), m_histories(new QSplitter(Qt::Horizontal)),
+      m_rows(new QSplitter(Qt::Vertical))
+{
+    setObjectName(QStringLiteral("pingBench"));
+    m_input->setObjectName(QStringLiteral("pingInput"));
+    m_output->setObjectName(QStringLiteral("pingOutput"));
+    m_maps->addWidget(m_input);
+    m_maps->addWidget(m_output);
+    m_histories->addWidget(m_rangeHistory);
+    m_histories->addWidget(m_bearingHistory);
+    auto *upper = new QWidget;
+    auto *upperLayout = new QVBoxLayout(upper);
+    upperLayout->setContentsMargins(0, 0, 0, 0);
+    upperLayout->setSpacing(0);
+    upperLayout->addWidget(m_maps, 1);
+    upperLayout->addWidget(buildBar());
+    auto *lower = new QWidget;
+    auto *lowerLayout = new QVBoxLayout(lower);
+    lowerLayout->setContentsMargins(0, 0, 0, 0);
+    lowerLayout->setSpacing(0);
+    lowerLayout->addWidget(m_dragged);
+    lowerLayout->addWidget(m_regulation, 1);
+    m_rows->addWidget(upper);
+    m_rows->addWidget(m_histories);
+    m_rows->addWidget(lower);
+    m_rows->setStretchFactor(0, 1);
+    m_rows->setSizes({470, 230, 120});
+    for (QSplitter *splitter : {m_maps, m_histories, m_rows})
+        splitter->setChildrenCollapsible(false);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(m_rows);
+    setMinimumHeight(220); // of the maps, as in the Workbench
+
+    m_dragged->setWordWrap(true);
+    m_dragged->setTextFormat(Qt::PlainText);
+    m_dragged->setContentsMargins(10, 4, 10, 0);
+    m_dragged->hide();
+    m_regulation->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    m_regulation->setRightTitle(tr("resets"));
+    m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
+    m_regulation->setViewport(&m_viewports.rangeTime());
+    m_rangeHistory->setViewport(&m_viewports.rangeTime());
+    m_bearingHistory->setViewport(&m_viewports.bearingTime());
+    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory}) {
+        view->setOrientation(WaterfallView::Orientation::LeftToRight);
+        view->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    }
+    linkViews();
+    layers.addPings(*m_output, m_viewports);
+    connect(&layers, &OutputLayers::layerChanged, this, &PingBench::showHeading);
+    connect(&layers, &OutputLayers::readingChanged, this, &PingBench::readCursor);
+
+    connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
+    connect(&document, &Document::analysisChanged, this, &PingBench::showAnalysis);
+    connect(&document, &Document::provisionalChanged, this, &PingBench::showStatistic);
+    connect(&document, &Document::shownThresholdChanged, this, &PingBench::showThreshold);
+    connect(&document, &Document::shownEventsChanged, this, &PingBench::showEvents);
+    m_player.setInterval(playerInterval);
+    connect(&m_player, &QTimer::timeout, this, &PingBench::play);
+    auto *backward = new QShortcut(QKeySequence(Qt::SHIFT | Qt::Key_Space), this);
+    backward->setContext(Qt::WidgetWithChildrenShortcut);
+    connect(backward, &QShortcut::activated, this, [this] { setPlayingBackward(!m_player.isActive()); });
+}
+
+void PingBench::resizeEvent(QResizeEvent *event)
+{
+    constexpr int enoughForHistories = 460;
+    constexpr int enoughForAll = 580;
+    m_histories->setVisible(height() >= enoughForHistories);
+    m_regulation->parentWidget()->setVisible(height() >= enoughForAll);
+    Bench::resizeEvent(event);
+}
+
+QWidget *PingBench::histories() const
+{
+    return m_histories;
+}
+
+QWidget *PingBench::maps() const
+{
+    return m_maps;
+}
+
+QWidget *PingBench::buildBar()
+{
+    const auto button = [this](const QString &text, const QString &toolTip, auto act) {
+        auto *result = new QToolButton;
+        result->setText(text);
+        result->setToolTip(toolTip);
+        result->setAutoRaise(true);
+        result->setFocusPolicy(Qt::TabFocus);
+        connect(result, &QToolButton::clicked, this, act);
+        return result;
+    };
+    m_slider->setRange(0, 0);
+    m_slider->setPageStep(10);
+    m_slider->setAccessibleName(tr("Ping"));
+    m_slider->setToolTip(tr("The ping shown; J and L step, Space plays, Shift+Space plays backwards"));
+    connect(m_slider, &QSlider::valueChanged, this, [this](int value) { showPing(value); });
+    m_reading->setFont(Theme::font(12));
+    m_reading->setTextFormat(Qt::PlainText);
+    m_reading->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_reading->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_reading->setContentsMargins(8, 0, 8, 2);
+    m_reading->setAccessibleName(tr("Read-out"));
+    auto *inhibition = new QCheckBox(tr("Inhibited"));
+    inhibition->setToolTip(tr("The boxes that are kept from the detector round the tracks"));
+    inhibition->setChecked(true);
+    inhibition->setFocusPolicy(Qt::TabFocus);
+    connect(inhibition, &QCheckBox::toggled, m_input, &PingMap::setInhibitionShown);
+    connect(inhibition, &QCheckBox::toggled, m_output, &PingMap::setInhibitionShown);
+    auto *conventional = new QCheckBox(tr("Conventional"));
+    conventional->setToolTip(tr("What thresholding each ping by itself finds: M hits in N pings, in a gate that admits "
+                                "the largest speed (settings conventional.…)"));
+    conventional->setFocusPolicy(Qt::TabFocus);
+    connect(conventional, &QCheckBox::toggled, m_input, &PingMap::setConventionalShown);
+    connect(conventional, &QCheckBox::toggled, m_output, &PingMap::setConventionalShown);
+    auto *polar = new QCheckBox(tr("From above"));
+    polar->setToolTip(tr("Range and bearing as seen from above, north up (P)"));
+    polar->setFocusPolicy(Qt::TabFocus);
+    connect(polar, &QCheckBox::toggled, this, &PingBench::setPolar);
+    connect(m_output, &PingMap::polarChanged, polar, &QCheckBox::setChecked);
+
+    auto *bar = new QWidget;
+    auto *row = new QHBoxLayout;
+    row->setContentsMargins(8, 2, 8, 0);
+    row->setSpacing(6);
+    row->addWidget(button(tr("◀"), tr("Play backwards (Shift+Space)"), [this] { setPlayingBackward(!m_player.isActive()); }));
+    row->addWidget(button(tr("−1"), tr("One ping back (J)"), [this] { stepFrames(-1); }));
+    row->addWidget(m_slider, 1);
+    row->addWidget(button(tr("+1"), tr("One ping on (L)"), [this] { stepFrames(1); }));
+    row->addWidget(button(tr("▶"), tr("Play (Space)"), [this] { setPlaying(!m_player.isActive()); }));
+    row->addSpacing(10);
+    row->addWidget(inhibition);
+    row->addWidget(conventional);
+    row->addWidget(polar);
+    auto *layout = new QVBoxLayout(bar);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addLayout(row);
+    layout->addWidget(m_reading);
+    return bar;
+}
+
+std::vector<WaterfallView *> PingBench::views() const
+{
+    return {m_output->plane(), m_input->plane(), m_rangeHistory, m_bearingHistory};
+}
+
+void PingBench::linkViews()
+{
+    for (WaterfallView *view : views()) {
+        for (WaterfallView *other : views()) {
+            if (other == view)
+                continue;
+            connect(view, &WaterfallView::colourMapChanged, other, &WaterfallView::setColourMap);
+            connect(view, &WaterfallView::layersChanged, other, [view, other] {
+                for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer,
+                                         WaterfallView::ThresholdLayer, WaterfallView::GridLayer, WaterfallView::CursorLayer})
+                    other->setLayer(layer, view->layers().testFlag(layer));
+            });
+        }
+        connect(view, &WaterfallView::eventActivated, this, &PingBench::eventActivated);
+        connect(view, &WaterfallView::thresholdStepRequested, this, &PingBench::thresholdStepRequested);
+    }
+    for (PingMap *map : {m_input, m_output}) {
+        PingMap *other = map == m_input ? m_output : m_input;
+        connect(map->plane(), &WaterfallView::orientationChanged, other->plane(), &WaterfallView::setOrientation);
+        connect(map, &PingMap::polarChanged, other, &PingMap::setPolar);
+        connect(map, &PingMap::hovered, this, &PingBench::read);
+        connect(map, &PingMap::hoverEnded, this, &PingBench::readCursor);
+    }
+    connect(&m_viewports, &PingViewports::placeChanged, this, &PingBench::followPlace);
+}
+
+void PingBench::setEmptySentence(const QString &sentence)
+{
+    m_shownPing = -1;
+    m_isFirstAnalysis = true;
+    for (WaterfallView *view : views())
+        view->setEmptySentence(sentence);
+    for (PingMap *map : {m_input, m_output})
+        map->setPicture(nullptr, {});
+    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory})
+        view->setPicture(nullptr, {});
+    m_regulation->removeSeries(tr("ln K"));
+    m_regulation->removeSeries(tr("reset fraction"));
+    m_regulation->setEmptySentence(sentence);
+    m_reading->clear();
+}
+
+// ---- what is shown -------------------------------------------------------------------------------------------------
+
+void PingBench::showAnalysis()
+{
+    if (!m_document.hasPings())
+        return;
+    const Analysis &analysis = *m_document.analysis();
+    const Grid &grid = analysis.grid();
+    const bool isFirst = std::exchange(m_isFirstAnalysis, false);
+    showHeading();
+    if (isFirst)
+        followExtents();
+    // Only on the map: maxima over an axis exceed it nearly everywhere.
+    m_output->plane()->setThreshold(analysis.threshold);
+    m_rangeHistory->setPicture(analysis.statisticAlong[0], grid.axes[0]);
+    m_bearingHistory->setPicture(analysis.statisticAlong[1], grid.axes[1]);
+    m_rangeHistory->setTruth(truthAlong(m_document.pingTruth(), grid, analysis.time(), 0));
+    m_bearingHistory->setTruth(truthAlong(m_document.pingTruth(), grid, analysis.time(), 1));
+    showRegulation();
+    {
+        const QScopedValueRollback following(m_isFollowing, true);
+        m_slider->setRange(0, static_cast<int>(analysis.time().count) - 1);
+    }
+    m_shownPing = -1;
+    if (isFirst)
+        placeCursor();
+    followPlace();
+}
+
+/// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.
+void PingBench::showHeading()
+{
+    const bool isStatistic = m_layers.layer() == OutputLayer::Statistic || m_layers.isOverlay();
+    m_output->setColourBarShown(isStatistic);
+    if (!m_document.hasPings() || !m_document.analysis())
+        return;
+    const bool isProvisional = provisional() != nullptr;
+    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
+    const QString statistic = isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
+    m_output->plane()->setStatisticUnit(unit, isStatistic ? statistic : m_layers.heading());
+    m_output->polar()->followPicture();
+}
+
+void PingBench::showRegulation()
+{
+    const Analysis &analysis = *m_document.analysis();
+    std::vector<float> resetFraction(analysis.continuedFraction.size());
+    std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),
+                   [](float continued) { return 1.0f - continued; });
+    m_regulation->setSeries(tr("ln K"), analysis.time(), analysis.lnK);
+    m_regulation->setSeries(tr("reset fraction"), analysis.time(), std::move(resetFraction), StripPlot::Side::Right);
+    const NoiseBand &band = analysis.lnKBand;
+    m_regulation->setBand(band.deviation > 0.0 ? std::optional(Span{band.low(), band.high()}) : std::nullopt);
+    const std::vector<Index> dragged = draggedFrames(analysis);
+    m_dragged->setVisible(!dragged.empty());
+    if (!dragged.empty())
+        m_dragged->setText(tr("⚠ ln K lies below its band on noise in %1 of %2 pings, the first one ping %3: signals "
+                              "that no track has taken over drag it "
+                              "down, and every other statistic with it.")
+                               .arg(dragged.size())
+                               .arg(analysis.lnK.size())
+                               .arg(dragged.front() + 1));
+}
+
+void PingBench::showThreshold()
+{
+    if (m_document.hasPings())
+        m_output->plane()->setThreshold(m_document.shownThreshold());
+}
+
+void PingBench::showEvents()
+{
+    if (!m_document.hasPings() || !m_document.analysis())
+        return;
+    const Analysis &analysis = *m_document.analysis();
+    const std::vector<Track> tracks = m_document.shownTracks();
+    m_rangeHistory->setEvents(eventsAlong(m_document.shownEvents(), 0));
+    m_rangeHistory->setTracks(tracksAlong(tracks, analysis.grid(), 0), analysis.time());
+    m_bearingHistory->setEvents(eventsAlong(m_document.shownEvents(), 1));
+    m_bearingHistory->setTracks(tracksAlong(tracks, analysis.grid(), 1), analysis.time());
+    showMarks();
+}
+
+void PingBench::followExtents()
+{
+    const Analysis &analysis = *m_document.analysis();
+    const auto whole = [](const Axis &axis) {
+        return Span{axis.value(-0.5), axis.value(static_cast<double>(axis.count) - 0.5)};
+    };
+    constexpr double fewestCells = 4.0;
+    const Axis &range = analysis.grid().axes[0];
+    const Axis &bearing = analysis.grid().axes[1];
+    m_viewports.setExtents(whole(analysis.time()), whole(range), whole(bearing),
+                           {fewestCells * analysis.time().step, fewestCells * range.step, fewestCells * bearing.step});
+}
+
+void PingBench::placeCursor()
+{
+    const std::vector<Event> events = m_document.shownEvents();
+    const auto strongest =
+        std::max_element(events.begin(), events.end(), [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
+    const Viewport::Box &map = m_viewports.map().full();
+    // In the middle of the strongest track's life, where there is most to see.
+    const Track *track = strongest == events.end() ? nullptr : m_document.track(strongest->id);
+    const Analysis &analysis = *m_document.analysis();
+    if (track && !track->points.empty()) {
+        const Index middle = (track->detectFrame + track->endFrame) / 2;
+        const auto at = std::find_if(track->points.begin(), track->points.end(),
+                                     [&](const TrackPoint &point) { return point.frame >= middle; });
+        const TrackPoint &point = at == track->points.end() ? track->points.back() : *at;
+        const std::vector<Index> c = analysis.grid().coordinates(point.cell);
+        m_viewports.setPlace({analysis.time().value(static_cast<double>(point.frame)),
+                              analysis.grid().axes[0].value(static_cast<double>(c[0])),
+                              analysis.grid().axes[1].value(static_cast<double>(c[1]))});
+    } else
+        m_viewports.setPlace({m_viewports.rangeTime().full().time.middle(), map.time.middle(), map.frequency.middle()});
+}
+
+Index PingBench::ping() const
+{
+    return m_document.analysis() ? m_document.analysis()->time().nearest(m_viewports.place().seconds) : 0;
+}
+
+void PingBench::followPlace()
+{
+    if (!m_document.hasPings() || !m_document.analysis())
+        return;
+    const Analysis &analysis = *m_document.analysis();
+    if (const Index now = ping(); now != m_shownPing) {
+        m_shownPing = now;
+        m_input->setPicture(pictureOfFrame(*analysis.input, analysis.grid(), now), analysis.grid().axes[1]);
+        showStatistic();
+        const QScopedValueRollback following(m_isFollowing, true);
+        m_slider->setValue(static_cast<int>(now));
+        showMarks();
+    }
+    readCursor();
+}
+
+/// What changed settings make of the ping shown, until their analysis is there; null where there is no such thing.
+const PeakPyramid *PingBench::provisional() const
+{
+    const auto &statistic = m_document.provisional();
+    return statistic && m_document.analysis() && m_shownPing == m_document.analysis()->time().nearest(statistic->time().first)
+               ? statistic.get()
+               : nullptr;
+}
+
+void PingBench::showStatistic()
+{
+    if (!m_document.hasPings() || !m_document.analysis() || m_shownPing < 0)
+        return;
+    const Analysis &analysis = *m_document.analysis();
+    const PeakPyramid *now = provisional();
+    m_output->setPicture(now ? pictureOfFrame(*now, analysis.grid(), 0) : pictureOfFrame(*analysis.statistic, analysis.grid(), m_shownPing),
+                         analysis.grid().axes[1]);
+    showHeading();
+}
+
+void PingBench::showMarks()
+{
+    if (m_shownPing < 0)
+        return;
+    m_marks = pingMarks(*m_document.analysis(), m_document.shownTracks(), m_document.pingTruth(), m_shownPing);
+    m_input->setMarks(m_marks);
+    m_output->setMarks(m_marks);
+}
+
+void PingBench::read(double range, double bearing)
+{
+    if (m_shownPing < 0)
+        return;
+    const Analysis &analysis = *m_document.analysis();
+    const Axis &ranges = analysis.grid().axes[0];
+    const Axis &bearings = analysis.grid().axes[1];
+    const double r = centreOf(ranges, range);
+    const double b = centreOf(bearings, bearing);
+    const auto value = [](const WaterfallView &view, double x, double y) {
+        const auto there = view.valueAt(x, y);
+        return there ? numberText(*there, 1) : QStringLiteral("–");
+    };
+    QStringList words{tr("ping %1/%2").arg(m_shownPing + 1).arg(analysis.time().count),
+                      secondsText(analysis.time().value(static_cast<double>(m_shownPing)), 1.0), axisText(ranges, r), axisText(bearings, b),
+                      tr("y %1 dB").arg(value(*m_input->plane(), r, b)),
+                      tr("D %1 %2").arg(value(*m_output->plane(), r, b), m_output->plane()->valueUnit())};
+    if (const auto best = m_layers.readingAt(PingViewports::Place{analysis.time().value(static_cast<double>(m_shownPing)), r, b})) {
+        const auto rate = [&](const Axis &axis, double perSecond) {
+            return numberText(perSecond, decimalsFor(axis.step / analysis.time().step)) + unitText(axis) + QStringLiteral("/s");
+        };
+        words << tr("best state %1, %2").arg(rate(ranges, best->ratePerSecond), rate(bearings, best->secondRatePerSecond))
+              << tr("path age %1").arg(std::lround(best->ageSeconds / analysis.time().step));
+    }
+    if (const PingMarks::Box *box = m_marks.boxAt({r, b}))
+        words << (box->pings == 1 ? tr("inhibited: track %1, from now on").arg(box->track)
+                                  : tr("inhibited: track %1, %2 pings").arg(box->track).arg(box->pings));
+    m_reading->setText(words.join(QStringLiteral(" · ")));
+}
+
+void PingBench::readCursor()
+{
+    if (!m_document.hasPings())
+        return;
+    read(m_viewports.place().range, m_viewports.place().bearing);
+}
+
+QString PingBench::reading() const
+{
+    return m_reading->text();
+}
+
+// ---- moving about --------------------------------------------------------------------------------------------------
+
+void PingBench::showPing(Index ping)
+{
+    if (m_isFollowing || !m_document.analysis())
+        return;
+    const Axis &time = m_document.analysis()->time();
+    PingViewports::Place place = m_viewports.place();
+    place.seconds = time.value(static_cast<double>(std::clamp<Index>(ping, 0, time.count - 1)));
+    m_viewports.setPlace(place);
+    const double range = place.range;
+    m_viewports.rangeTime().reveal({{place.seconds, place.seconds}, {range, range}});
+}
+
+void PingBench::stepFrames(int frames)
+{
+    showPing(ping() + frames);
+}
+
+void PingBench::selectEvent(int id)
+{
+    for (WaterfallView *view : {m_rangeHistory, m_bearingHistory})
+        view->setSelectedEvent(id);
+    for (PingMap *map : {m_input, m_output})
+        map->setSelectedTrack(id);
+    for (const Event &event : m_document.shownEvents())
+        if (event.id == id) {
+            m_viewports.setPlace({event.detectSeconds, event.position[0], event.position[1]});
+            m_viewports.map().reveal({{event.position[0], event.position[0]}, {event.position[1], event.position[1]}});
+            m_viewports.rangeTime().reveal({{event.onsetSeconds, event.endSeconds}, {event.position[0], event.position[0]}});
+        }
+}
+
+void PingBench::startPlaying(int step)
+{
+    m_playStep = step;
+    m_player.start();
+    emit playingChanged(true);
+}
+
+void PingBench::setPlaying(bool isPlaying)
+{
+    if (isPlaying == m_player.isActive())
+        return;
+    if (isPlaying)
+        return startPlaying(1);
+    m_player.stop();
+    emit playingChanged(false);
+}
+
+void PingBench::setPlayingBackward(bool isPlaying)
+{
+    setPlaying(false);
+    if (isPlaying)
+        startPlaying(-1);
+}
+
+void PingBench::play()
+{
+    const Index next = ping() + m_playStep;
+    if (!m_document.analysis() || next < 0 || next >= m_document.analysis()->time().count)
+        return setPlaying(false);
+    showPing(next);
+}
+
+void PingBench::setPolar(bool isPolar)
+{
+    m_input->setPolar(isPolar);
+    m_output->setPolar(isPolar);
+}
+
+void PingBench::cycleOrientation()
+{
+    m_output->plane()->cycleOrientation();
+}
+
+void PingBench::cycleColourMap()
+{
+    m_output->plane()->cycleColourMap();
+}
+
+void PingBench::setAutomaticRange()
+{
+    for (WaterfallView *view : views())
+        view->setAutomaticRange();
+}
+
+// ---- session -------------------------------------------------------------------------------------------------------
+
+ViewState PingBench::viewState() const
+{
+    ViewState view;
+    if (!m_viewports.map().isEmpty()) {
+        if (!m_viewports.rangeTime().showsAll() || !m_viewports.bearingTime().showsAll()) {
+            view.visible = m_viewports.rangeTime().visible();
+            view.bearing = m_viewports.map().frequency();
+        }
+        view.cursor = Viewport::Point{m_viewports.place().seconds, m_viewports.place().range};
+        view.cursorBearing = m_viewports.place().bearing;
+    }
+    view.isPolar = m_output->isPolar();
+    view.colourMap = m_output->plane()->colourMap().name();
+    return view;
+}
+
+void PingBench::restore(const ViewState &view)
+{
+    if (view.visible)
+        m_viewports.rangeTime().zoomTo(view.visible->time, view.visible->frequency);
+    if (view.bearing)
+        m_viewports.map().zoomTo(m_viewports.map().time(), *view.bearing);
+    if (view.cursor)
+        m_viewports.setPlace({view.cursor->seconds, view.cursor->hz, view.cursorBearing.value_or(m_viewports.place().bearing)});
+    setPolar(view.isPolar);
+    if (!view.colourMap.isEmpty())
+        m_output->plane()->setColourMap(view.colourMap);
+}
+
+} // namespace faintline

@@ -1,0 +1,405 @@
+#include "app/workspace/Workbench.h"
+
+#include "app/control/BoxMeter.h"
+#include "app/control/Closeup.h"
+#include "app/control/OutputLayers.h"
+#include "app/base/statisticUnit.h"
+#include "widgets/waterfall/ColourBar.h"
+#include "widgets/plot/StripPlot.h"
+
+#include <QByteArray>
+#include <QDataStream>
+#include <QHBoxLayout>
+#include <QIODevice>
+#include <QMetaEnum>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int playerInterval = 33; // ms
+    constexpr int playerSteps = 600;   // to play what is visible
+
+    QWidget *pane(WaterfallView *view)
+    {
+        auto *bar = new ColourBar;
+        bar->attach(view);
+        auto *result = new QWidget;
+        auto *layout = new QHBoxLayout(result);
+        layout->setContentsMargins(0, 0, 0, 0);
+        layout->setSpacing(0);
+        layout->addWidget(view, 1);
+        layout->addWidget(bar);
+        return result;
+    }
+
+    QString orientationName(WaterfallView::Orientation orientation)
+    {
+        QString name =
+            QString::fromLatin1(QMetaEnum::fromType<WaterfallView::Orientation>().valueToKey(int(orientation)));
+        name[0] = name[0].toLower();
+        return name;
+    }
+
+    std::optional<WaterfallView::Orientation> orientationNamed(QString name)
+    {
+        if (name.isEmpty())
+            return {};
+        name[0] = name[0].toUpper();
+        bool isKnown = false;
+        const int value =
+            QMetaEnum::fromType<WaterfallView::Orientation>().keyToValue(name.toLatin1().constData(), &isKnown);
+        return isKnown ? std::optional(WaterfallView::Orientation(value)) : std::nullopt;
+    }
+
+    void copyLayers(const WaterfallView &from, WaterfallView &to)
+    {
+        for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer,
+                                 WaterfallView::ThresholdLayer, WaterfallView::GridLayer, WaterfallView::CursorLayer})
+            to.setLayer(layer, from.layers().testFlag(layer));
+    }
+
+    /// How fast the tracked line under a point drifts, in Hz/s; nothing where no track passes.
+    std::optional<double> slopeAt(const Analysis &analysis, const Viewport::Point &point)
+    {
+        const Axis &time = analysis.time();
+        const Axis &frequency = analysis.grid().axes.back();
+        const Index frame = time.nearest(point.seconds);
+        for (const Track &track : analysis.tracks) {
+            const Index i = frame - (track.points.empty() ? 0 : track.points.front().frame);
+            if (i < 0 || i >= std::ssize(track.points))
+                continue;
+            const TrackPoint &at = track.points[static_cast<std::size_t>(i)];
+            if (std::abs(at.cell % frequency.count - frequency.nearest(point.hz)) <= 1)
+                return analysis.model.space.ratesOfPlane(at.plane).back() * frequency.step / time.step;
+        }
+        return {};
+    }
+
+    /// The box a track's path fills.
+    Viewport::Box boxOf(const Track &track, const Analysis &analysis)
+    {
+        const Axis &time = analysis.time();
+        const Axis &frequency = analysis.grid().axes.back();
+        const auto hz = [&](const TrackPoint &point) {
+            return frequency.value(static_cast<double>(point.cell % frequency.count));
+        };
+        const auto [low, high] = std::minmax_element(track.points.begin(), track.points.end(),
+                                                     [&](const auto &a, const auto &b) { return hz(a) < hz(b); });
+        return {{time.value(static_cast<double>(track.onsetFrame)), time.value(static_cast<double>(track.endFrame))},
+                {hz(*low), hz(*high)}};
+    }
+
+} // namespace
+
+Workbench::Workbench(Document &document, QWidget *parent)
+    : Bench(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
+      m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
+      m_boxMeter(new BoxMeter(document, this)),
+      m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
+      m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
+      m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
+{
+    m_pictures->addWidget(m_inputPane);
+    m_pictures->addWidget(m_outputPane);
+    m_rows->addWidget(m_pictures);
+    m_rows->addWidget(m_statistic);
+    m_rows->addWidget(m_regulation);
+    m_rows->setStretchFactor(0, 1);
+    m_rows->setSizes({640, 106, 106});
+    for (QSplitter *splitter : {m_pictures, m_rows})
+        splitter->setChildrenCollapsible(false);
+    for (QwtPlot *plot : std::initializer_list<QwtPlot *>{m_input, m_output, m_statistic, m_regulation})
+        plot->setSizePolicy(QSizePolicy::Expanding,
+                            QSizePolicy::Expanding); // Qwt's own would never shrink below the hint
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(m_rows);
+    setMinimumHeight(220); // of the pictures: the curves' own would keep a window small enough to hide them from becoming so
+
+    m_regulation->setRightTitle(tr("resets"));
+    m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
+    m_input->setObjectName(QStringLiteral("input"));
+    m_output->setObjectName(QStringLiteral("output"));
+    linkViews();
+
+    connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = m_isFirstPicture = true; });
+    connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
+    connect(&document, &Document::analysisChanged, this, &Workbench::showAnalysis);
+    connect(&document, &Document::provisionalChanged, this, &Workbench::showStatistic);
+    connect(&document, &Document::shownThresholdChanged, this, &Workbench::showThreshold);
+    connect(&document, &Document::shownEventsChanged, this, &Workbench::showEvents);
+    m_closeup = new Closeup(document, *m_input, *m_output, this); // follows what these follow, after them
+    connect(m_closeup, &Closeup::settled, this, &Workbench::readCursor);
+    m_player.setInterval(playerInterval);
+    connect(&m_player, &QTimer::timeout, this, &Workbench::play);
+}
+
+void Workbench::linkViews()
+{
+    Viewport *viewport = &m_document.viewport();
+    m_statistic->setViewport(viewport);
+    m_regulation->setViewport(viewport);
+    for (WaterfallView *view : {m_input, m_output}) {
+        WaterfallView *other = view == m_input ? m_output : m_input;
+        view->setViewport(viewport);
+        connect(view, &WaterfallView::orientationChanged, other, &WaterfallView::setOrientation);
+        connect(view, &WaterfallView::colourMapChanged, other, &WaterfallView::setColourMap);
+        connect(view, &WaterfallView::measuringChanged, other, &WaterfallView::setMeasuring);
+        connect(view, &WaterfallView::sidebandsChanged, other, &WaterfallView::setSidebandSpacing);
+        connect(m_boxMeter, &BoxMeter::measured, view, &WaterfallView::setSelectionNote);
+        connect(view, &WaterfallView::layersChanged, other, [view, other] { copyLayers(*view, *other); });
+        connect(view, &WaterfallView::eventActivated, this, &Workbench::eventActivated);
+        connect(view, &WaterfallView::thresholdStepRequested, this, &Workbench::thresholdStepRequested);
+        connect(view, &WaterfallView::hovered, this, [this](double seconds, double hz) { read({seconds, hz}); });
+        connect(view, &WaterfallView::hoverEnded, this, &Workbench::readCursor);
+    }
+    connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
+        if (m_document.analysis() && !m_document.hasPings())
+            m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), m_output->frequencyAxis());
+    });
+    connect(viewport, &Viewport::cursorChanged, this, &Workbench::readCursor);
+    connect(m_layers, &OutputLayers::readingChanged, this, &Workbench::readCursor);
+    connect(m_layers, &OutputLayers::layerChanged, this, &Workbench::showHeading);
+}
+
+void Workbench::setEmptySentence(const QString &sentence)
+{
+    for (WaterfallView *view : {m_input, m_output}) {
+        view->setEmptySentence(sentence);
+        view->setPicture(nullptr, {});
+    }
+    m_statistic->setProfile({}, nullptr, {});
+    m_statistic->setEmptySentence(sentence);
+    m_regulation->removeSeries(tr("ln K"));
+    m_regulation->removeSeries(tr("reset fraction"));
+    m_regulation->setEmptySentence(sentence);
+}
+
+void Workbench::setAutomaticRange()
+{
+    m_input->setAutomaticRange();
+    m_output->setAutomaticRange();
+}
+
+void Workbench::showAnalysis()
+{
+    if (m_document.hasPings())
+        return;
+    const Analysis &analysis = *m_document.analysis();
+    const Axis &frequency = analysis.grid().axes.back();
+    const bool isFirst = std::exchange(m_isFirstAnalysis, false);
+    m_statistic->setEmptySentence(tr("Click in a picture: D at that frequency, along time, appears here."));
+
+    followExtents(analysis.time(), frequency);
+    m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
+    m_input->setPicture(analysis.input, frequency);
+    showStatistic();
+    for (WaterfallView *view : {m_input, m_output})
+        view->setTruth(m_document.truth().lines);
+
+    std::vector<float> resetFraction(analysis.continuedFraction.size());
+    std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),
+                   [](float continued) { return 1.0f - continued; });
+    m_regulation->setSeries(tr("ln K"), analysis.time(), analysis.lnK);
+    m_regulation->setSeries(tr("reset fraction"), analysis.time(), std::move(resetFraction), StripPlot::Side::Right);
+    if (isFirst)
+        placeCursor();
+    readCursor();
+}
+
+void Workbench::showPictures(const PicturesSoFar &pictures)
+{
+    followExtents(pictures.time, pictures.frequency);
+    // The glance has all of the recording, what has been gone through has all of the detail.
+    const Axis &time = pictures.time;
+    const double reached =
+        pictures.input ? time.value(static_cast<double>(pictures.input->frameCount()) - 0.5) : -std::numeric_limits<double>::infinity();
+    const bool isReached = !pictures.glance || m_document.viewport().visible().time.high <= reached;
+    m_input->setPicture(isReached ? pictures.input : pictures.glance, pictures.frequency);
+    m_output->setPicture(pictures.statistic, pictures.frequency);
+    if (!pictures.statistic)
+        m_output->setEmptySentence(tr("The detector listens to the noise first, then its statistic appears here as it goes."));
+}
+
+/// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.
+void Workbench::showHeading()
+{
+    const bool isStatistic = m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay();
+    m_outputPane->findChild<ColourBar *>()->setVisible(isStatistic);
+    if (!m_document.analysis() || m_document.hasPings())
+        return;
+    const bool isProvisional = m_document.provisional() != nullptr;
+    const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
+    const QString statistic = isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
+    m_output->setStatisticUnit(unit, isStatistic ? statistic : m_layers->heading());
+    m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
+}
+
+/// The analysis's, or what changed settings make of the visible part of it in the meantime.
+void Workbench::showStatistic()
+{
+    if (m_document.hasPings() || !m_document.analysis())
+        return;
+    showHeading();
+    const auto &picture = m_document.provisional() ? m_document.provisional() : m_document.analysis()->statistic;
+    const Axis &frequency = m_document.analysis()->grid().axes.back();
+    m_output->setPicture(picture, frequency);
+    m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), frequency);
+}
+
+void Workbench::showThreshold()
+{
+    if (m_document.hasPings())
+        return;
+    m_output->setThreshold(m_document.shownThreshold());
+    m_statistic->setLevel(m_document.shownThreshold(), tr("threshold"));
+}
+
+void Workbench::showEvents()
+{
+    if (m_document.hasPings())
+        return;
+    const std::vector<Event> events = m_document.shownEvents();
+    const std::vector<Track> tracks = m_document.shownTracks();
+    for (WaterfallView *view : {m_input, m_output}) {
+        view->setEvents(events);
+        view->setTracks(tracks, m_document.analysis()->time());
+    }
+}
+
+void Workbench::followExtents(const Axis &time, const Axis &frequency)
+{
+    const Viewport::Box full = WaterfallView::extents(time, frequency);
+    Viewport &viewport = m_document.viewport();
+    const bool isFirst = std::exchange(m_isFirstPicture, false);
+    if (!isFirst && full == viewport.full())
+        return;
+    const bool showedAll = isFirst || viewport.showsAll();
+    const Viewport::Box visible = viewport.visible();
+    const std::optional<Viewport::Point> cursor = viewport.cursor();
+    constexpr double fewestCells = 8.0;
+    viewport.setExtents(full.time, full.frequency, fewestCells * time.step, fewestCells * frequency.step);
+    if (!showedAll)
+        viewport.zoomTo(visible.time, visible.frequency);
+    if (cursor && !isFirst)
+        viewport.setCursor(*cursor);
+}
+
+void Workbench::placeCursor()
+{
+    const std::vector<Event> events = m_document.shownEvents();
+    const auto strongest = std::max_element(events.begin(), events.end(),
+                                            [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
+    Viewport &viewport = m_document.viewport();
+    if (strongest != events.end())
+        viewport.setCursor({strongest->detectSeconds, strongest->position.back()});
+    else
+        viewport.setCursor({viewport.full().time.middle(), viewport.full().frequency.middle()});
+}
+
+void Workbench::read(const Viewport::Point &point)
+{
+    ReadOut::Reading reading{point.seconds, point.hz, m_input->valueAt(point.seconds, point.hz), m_output->valueAt(point.seconds, point.hz),
+                             m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt, {}};
+    if (const auto best = m_layers->readingAt(point)) {
+        reading.slopeHzPerSecond = best->ratePerSecond;
+        reading.ageSeconds = best->ageSeconds;
+        reading.statisticNats = best->statistic;
+    }
+    emit readingChanged(reading);
+}
+
+void Workbench::readCursor()
+{
+    if (m_document.hasPings())
+        return;
+    if (const auto &cursor = m_document.viewport().cursor())
+        read(*cursor);
+    else
+        emit readingChanged({});
+}
+
+void Workbench::selectEvent(int id)
+{
+    for (WaterfallView *view : {m_input, m_output})
+        view->setSelectedEvent(id);
+    const Track *track = m_document.track(id);
+    if (!track || track->points.empty())
+        return;
+    m_document.viewport().reveal(boxOf(*track, *m_document.analysis()));
+    for (const Event &event : m_document.shownEvents())
+        if (event.id == id)
+            m_document.viewport().setCursor({event.detectSeconds, event.position.back()});
+}
+
+void Workbench::stepFrames(int frames)
+{
+    Viewport &viewport = m_document.viewport();
+    if (!m_document.analysis() || !viewport.cursor())
+        return;
+    const double seconds = viewport.cursor()->seconds + frames * m_document.analysis()->time().step;
+    const double hz = viewport.cursor()->hz;
+    viewport.setCursor({seconds, hz});
+    viewport.reveal({{seconds, seconds}, {hz, hz}});
+}
+
+void Workbench::setPlaying(bool isPlaying)
+{
+    if (isPlaying == m_player.isActive())
+        return;
+    isPlaying ? m_player.start() : m_player.stop();
+    emit playingChanged(isPlaying);
+}
+
+void Workbench::play()
+{
+    const Viewport &viewport = m_document.viewport();
+    if (!m_document.analysis() || !viewport.cursor()
+        || viewport.cursor()->seconds >= m_document.analysis()->time().last())
+        return setPlaying(false);
+    stepFrames(
+        std::max(1, static_cast<int>(viewport.time().width() / playerSteps / m_document.analysis()->time().step)));
+}
+
+void Workbench::resizeEvent(QResizeEvent *event)
+{
+    constexpr int enoughForOne = 340;
+    constexpr int enoughForBoth = 520;
+    m_statistic->setVisible(height() >= enoughForOne);
+    m_regulation->setVisible(height() >= enoughForBoth);
+    QWidget::resizeEvent(event);
+}
+
+ViewState Workbench::viewState() const
+{
+    const Viewport &viewport = m_document.viewport();
+    ViewState view;
+    if (!viewport.isEmpty() && !viewport.showsAll())
+        view.visible = viewport.visible();
+    view.cursor = viewport.cursor();
+    view.orientation = orientationName(m_output->orientation());
+    view.colourMap = m_output->colourMap().name();
+    return view;
+}
+
+void Workbench::restore(const ViewState &view)
+{
+    Viewport &viewport = m_document.viewport();
+    if (view.visible)
+        viewport.zoomTo(view.visible->time, view.visible->frequency);
+    if (view.cursor)
+        viewport.setCursor(*view.cursor);
+    if (const auto orientation = orientationNamed(view.orientation))
+        m_output->setOrientation(*orientation);
+    if (!view.colourMap.isEmpty())
+        m_output->setColourMap(view.colourMap);
+}
+
+} // namespace faintline

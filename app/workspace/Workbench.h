@@ -1,0 +1,88 @@
+#pragma once
+
+#include "app/workspace/Bench.h"
+#include "app/document/Document.h"
+#include "widgets/base/ReadOut.h"
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <QTimer>
+
+class QSplitter;
+
+namespace faintline {
+
+class BoxMeter;
+class Closeup;
+class OutputLayers;
+class StripPlot;
+
+/// The pictures: input and statistic side by side on one viewport, each with its colour bar; curves along time below.
+class Workbench : public Bench
+{
+    Q_OBJECT
+
+public:
+    explicit Workbench(Document &document, QWidget *parent = nullptr);
+
+    WaterfallView *input() const { return m_input; }
+    WaterfallView *output() const { return m_output; }
+    QWidget *inputPane() const { return m_inputPane; } ///< with its colour bar
+    QWidget *outputPane() const { return m_outputPane; }
+    OutputLayers &layers() { return *m_layers; }
+    Closeup &closeup() { return *m_closeup; }
+    StripPlot *statisticPlot() const { return m_statistic; }
+    StripPlot *regulationPlot() const { return m_regulation; }
+
+    void setEmptySentence(const QString &sentence) override;
+    ViewState viewState() const override;
+    void restore(const ViewState &view) override;
+    void cycleOrientation() override { m_output->cycleOrientation(); }
+    void cycleColourMap() override { m_output->cycleColourMap(); }
+    void setAutomaticRange() override;
+
+public slots:
+    void selectEvent(int id) override;
+    void stepFrames(int frames) override;
+    void setPlaying(bool isPlaying) override;
+
+protected:
+    std::vector<QSplitter *> splitters() const override { return {m_pictures, m_rows}; }
+
+    /// The curves give way where there is little height: the pictures come first.
+    void resizeEvent(QResizeEvent *event) override;
+
+signals:
+    void readingChanged(const faintline::ReadOut::Reading &reading);
+
+private:
+    void linkViews();
+    void showAnalysis();
+    void showPictures(const PicturesSoFar &pictures);
+    void showHeading();
+    void showStatistic();
+    void showThreshold();
+    void showEvents();
+    void followExtents(const Axis &time, const Axis &frequency);
+    void placeCursor();
+    void read(const Viewport::Point &point);
+    void readCursor();
+    void play();
+
+    Document &m_document;
+    WaterfallView *m_input;
+    WaterfallView *m_output;
+    OutputLayers *m_layers;
+    BoxMeter *m_boxMeter;
+    Closeup *m_closeup;
+    QWidget *m_inputPane;
+    QWidget *m_outputPane;
+    StripPlot *m_statistic;
+    StripPlot *m_regulation;
+    QSplitter *m_pictures;
+    QSplitter *m_rows;
+    QTimer m_player;
+    bool m_isFirstAnalysis = true; ///< of what is open
+    bool m_isFirstPicture = true;
+};
+
+} // namespace faintline

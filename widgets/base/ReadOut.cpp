@@ -1,0 +1,134 @@
+#include "widgets/base/ReadOut.h"
+
+#include "base/utc.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/quantities.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QFontMetrics>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    const QString dash = QStringLiteral("–");
+
+    /// "2024-07-26 00:00:12.5", to the frame's digits.
+    QString utcText(double unixSeconds, int decimals)
+    {
+        const double scale = std::pow(10.0, decimals);
+        QString text = QString::fromStdString(formatUtc(std::round(unixSeconds * scale) / scale));
+        text.replace(QLatin1Char('T'), QLatin1Char(' ')).remove(QLatin1Char('Z'));
+        return text;
+    }
+
+} // namespace
+
+ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
+{
+    auto *layout = new QHBoxLayout(this);
+    layout->setContentsMargins(8, 2, 8, 2);
+    layout->setSpacing(16);
+    layout->setSizeConstraint(QLayout::SetNoConstraint); // in a narrow window its end gives way, the window must not
+    setMinimumWidth(600);
+    m_time = addItem(tr("Time"), QStringLiteral("00:00:00.00"));
+    m_utc = addItem(tr("UTC"), QStringLiteral("0000-00-00 00:00:00.00"));
+    m_frequency = addItem(tr("Frequency"), QStringLiteral("0000.000 kHz"));
+    m_level = addItem(tr("Level"), QStringLiteral("−00.0 dB"));
+    m_statistic = addItem(tr("Statistic"), QStringLiteral("000.00 × noise"));
+    m_slope = addItem(tr("Slope"), QStringLiteral("−00.000 Hz/s"));
+    m_age = addItem(tr("Path"), {});
+    layout->addStretch(1);
+    m_level.box->setToolTip(tr("Power over the mean of the noise"));
+    m_statistic.box->setToolTip(tr("The detector's statistic D"));
+    m_slope.box->setToolTip(tr("Slope of the best state here, or of the track that passes"));
+    m_age.box->setToolTip(tr("Age of the best path that ends here, since its last reset; known while a layer (V) or the state space (S) "
+                               "is shown"));
+    setAccessibleName(tr("Read-out"));
+    setStartUnixSeconds({});
+    clear();
+}
+
+ReadOut::Item ReadOut::addItem(const QString &name, const QString &widest)
+{
+    Item item{new QWidget, new QLabel};
+    auto *label = new QLabel(name);
+    label->setFont(Theme::font(12));
+    label->setForegroundRole(QPalette::PlaceholderText);
+    item.value->setFont(Theme::monoFont(12));
+    item.value->setMinimumWidth(QFontMetrics(item.value->font()).horizontalAdvance(widest));
+    item.value->setAccessibleName(name);
+    auto *row = new QHBoxLayout(item.box);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(6);
+    row->addWidget(label);
+    row->addWidget(item.value);
+    layout()->addWidget(item.box);
+    return item;
+}
+
+void ReadOut::setStartUnixSeconds(std::optional<double> unixSeconds)
+{
+    m_startUnixSeconds = unixSeconds;
+    m_utc.box->setVisible(unixSeconds.has_value());
+    setReading(m_reading);
+}
+
+void ReadOut::setResolution(double frameSeconds, double binHz)
+{
+    m_frameSeconds = frameSeconds;
+    m_binHz = binHz;
+    setReading(m_reading);
+}
+
+void ReadOut::setStatisticUnit(const QString &unit)
+{
+    m_statisticUnit = unit;
+    setReading(m_reading);
+}
+
+void ReadOut::setReading(const Reading &reading)
+{
+    m_reading = reading;
+    const auto show = [](const Item &item, const std::optional<double> &value, auto words) {
+        item.value->setText(value ? words(*value) : dash);
+    };
+    show(m_time, reading.seconds, [this](double v) { return secondsText(v, m_frameSeconds); });
+    show(m_utc, reading.seconds,
+         [this](double v) { return utcText(m_startUnixSeconds.value_or(0.0) + v, decimalsFor(m_frameSeconds)); });
+    show(m_frequency, reading.hz, [this](double v) { return hertzText(v, m_binHz); });
+    show(m_level, reading.levelDb, [](double v) { return numberText(v, 1) + tr(" dB"); });
+    const int decimals = m_statisticUnit == QLatin1String("nat") ? 1 : 2;
+    show(m_statistic, reading.statisticNats,
+         [&](double v) { return numberText(v, decimals) + QLatin1Char(' ') + m_statisticUnit; });
+    show(m_slope, reading.slopeHzPerSecond, [](double v) { return powerText(v, 3) + tr(" Hz/s"); });
+    show(m_age, reading.ageSeconds, [this](double v) { return secondsText(v, m_frameSeconds); });
+    m_age.box->setVisible(reading.ageSeconds.has_value());
+    setAccessibleDescription(text());
+}
+
+QString ReadOut::text() const
+{
+    QStringList words;
+    for (const Item *item : {&m_time, &m_utc, &m_frequency, &m_level, &m_statistic, &m_slope, &m_age})
+        if (!item->box->isHidden() && item->value->text() != dash)
+            words << item->value->text();
+    return words.join(QStringLiteral(" · "));
+}
+
+void ReadOut::contextMenuEvent(QContextMenuEvent *event)
+{
+    QMenu menu(this);
+    menu.addAction(tr("Copy"), this, [this] { QApplication::clipboard()->setText(text()); })
+        ->setEnabled(!text().isEmpty());
+    menu.exec(event->globalPos());
+}
+
+} // namespace faintline

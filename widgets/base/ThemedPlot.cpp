@@ -1,0 +1,51 @@
+#include "widgets/base/ThemedPlot.h"
+
+#include "widgets/base/Theme.h"
+
+#include <qwt_text.h>
+
+#include <QEvent>
+
+namespace faintline {
+
+ThemedPlot::ThemedPlot(QWidget *parent) : QwtPlot(parent)
+{
+    QwtText::setTextEngine(QwtText::RichText, nullptr); // names and units come from files, whose tags are letters
+    setFocusPolicy(Qt::StrongFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    canvas()->setFocusPolicy(Qt::NoFocus);
+    canvas()->installEventFilter(this);
+}
+
+ThemedPlot::~ThemedPlot()
+{
+    canvas()->removeEventFilter(this); // it outlives what the filter looks at
+}
+
+void ThemedPlot::changeEvent(QEvent *event)
+{
+    QwtPlot::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange)
+        restyle();
+}
+
+void ThemedPlot::focusInEvent(QFocusEvent *event)
+{
+    QwtPlot::focusInEvent(event);
+    Theme::frame(*this);
+}
+
+void ThemedPlot::focusOutEvent(QFocusEvent *event)
+{
+    QwtPlot::focusOutEvent(event);
+    Theme::frame(*this);
+}
+
+bool ThemedPlot::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == canvas() && event->type() == QEvent::Resize)
+        followCanvas();
+    return QwtPlot::eventFilter(watched, event);
+}
+
+} // namespace faintline

@@ -1,0 +1,175 @@
+#include "widgets/base/Viewport.h"
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t historyLimit = 64;
+
+    Span scaled(const Span &span, double factor, double about)
+    {
+        return {about - (about - span.low) / factor, about + (span.high - about) / factor};
+    }
+
+    Span shifted(const Span &span, double by)
+    {
+        return {span.low + by, span.high + by};
+    }
+
+    /// `span` moved, or widened, just so far that it holds `wanted`.
+    Span holding(const Span &span, const Span &wanted)
+    {
+        if (wanted.width() > span.width())
+            return wanted;
+        if (wanted.low < span.low)
+            return shifted(span, wanted.low - span.low);
+        if (wanted.high > span.high)
+            return shifted(span, wanted.high - span.high);
+        return span;
+    }
+
+    Span withRoom(const Span &span, const Span &visible)
+    {
+        const double room = 0.1 * std::max(span.width(), 0.5 * visible.width());
+        return {span.low - room, span.high + room};
+    }
+
+} // namespace
+
+Viewport::Viewport(QObject *parent) : QObject(parent) {}
+
+void Viewport::setExtents(const Span &time, const Span &frequency, double smallestSeconds, double smallestHz)
+{
+    m_full = m_visible = {time, frequency};
+    m_smallest = {{0.0, std::min(smallestSeconds, time.width())}, {0.0, std::min(smallestHz, frequency.width())}};
+    m_history.clear();
+    m_isZoomRun = false;
+    emit extentsChanged();
+    emit spanChanged();
+    clearCursor();
+    clearSelection();
+}
+
+Viewport::Box Viewport::clamped(const Box &box) const
+{
+    return {box.time.within(m_full.time, m_smallest.time.width()),
+            box.frequency.within(m_full.frequency, m_smallest.frequency.width())};
+}
+
+void Viewport::remember()
+{
+    m_history.push_back(m_visible);
+    if (m_history.size() > historyLimit)
+        m_history.erase(m_history.begin());
+}
+
+void Viewport::show(const Box &box)
+{
+    if (isEmpty() || m_visible == box)
+        return;
+    m_visible = box;
+    emit spanChanged();
+}
+
+void Viewport::zoomTo(const Span &time, const Span &frequency)
+{
+    const Box box = clamped({time, frequency});
+    if (isEmpty() || box == m_visible)
+        return;
+    remember();
+    m_isZoomRun = false;
+    show(box);
+}
+
+void Viewport::zoomAt(double factor, const Point &point, Axes axes)
+{
+    if (isEmpty() || !(factor > 0.0))
+        return;
+    Box box = m_visible;
+    if (axes != Axes::Frequency)
+        box.time = scaled(box.time, std::min(factor, box.time.width() / std::max(m_smallest.time.width(), 1e-12)),
+                          point.seconds);
+    if (axes != Axes::Time)
+        box.frequency =
+            scaled(box.frequency,
+                   std::min(factor, box.frequency.width() / std::max(m_smallest.frequency.width(), 1e-12)), point.hz);
+    stretch(box.time, box.frequency);
+}
+
+void Viewport::stretch(const Span &time, const Span &frequency)
+{
+    const Box box = clamped({time, frequency});
+    if (isEmpty() || box == m_visible)
+        return;
+    if (!m_isZoomRun)
+        remember();
+    m_isZoomRun = true;
+    show(box);
+}
+
+void Viewport::pan(double seconds, double hz)
+{
+    show(clamped({shifted(m_visible.time, seconds), shifted(m_visible.frequency, hz)}));
+}
+
+void Viewport::reveal(const Box &box)
+{
+    const Box wanted{holding(m_visible.time, withRoom(box.time, m_visible.time)),
+                     holding(m_visible.frequency, withRoom(box.frequency, m_visible.frequency))};
+    zoomTo(wanted.time, wanted.frequency);
+}
+
+void Viewport::showAll()
+{
+    zoomTo(m_full.time, m_full.frequency);
+}
+
+void Viewport::zoomBack()
+{
+    if (m_history.empty())
+        return;
+    const Box box = m_history.back();
+    m_history.pop_back();
+    m_isZoomRun = false;
+    show(box);
+}
+
+void Viewport::setCursor(const Point &point)
+{
+    if (isEmpty())
+        return;
+    const Point inside{std::clamp(point.seconds, m_full.time.low, m_full.time.high),
+                       std::clamp(point.hz, m_full.frequency.low, m_full.frequency.high)};
+    if (m_cursor == inside)
+        return;
+    m_cursor = inside;
+    emit cursorChanged();
+}
+
+void Viewport::clearCursor()
+{
+    if (!m_cursor)
+        return;
+    m_cursor.reset();
+    emit cursorChanged();
+}
+
+void Viewport::setSelection(const Box &box)
+{
+    if (m_selection == box)
+        return;
+    m_selection = box;
+    emit selectionChanged();
+}
+
+void Viewport::clearSelection()
+{
+    if (!m_selection)
+        return;
+    m_selection.reset();
+    emit selectionChanged();
+}
+
+} // namespace faintline

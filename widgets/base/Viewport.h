@@ -1,0 +1,90 @@
+#pragma once
+
+#include "widgets/base/Span.h"
+
+#include <QObject>
+
+#include <optional>
+#include <vector>
+
+namespace faintline {
+
+/// What linked views look at together: the visible time and frequency, the cursor, the measured box.
+///
+/// Views change it directly, for it is the state of the looking, not of the document. Everything is clamped to the
+/// extents. Seconds count from the recording's first sample.
+class Viewport : public QObject
+{
+    Q_OBJECT
+
+public:
+    struct Point {
+        double seconds = 0.0;
+        double hz = 0.0;
+        bool operator==(const Point &) const = default;
+    };
+    struct Box {
+        Span time;      ///< s
+        Span frequency; ///< Hz
+        bool operator==(const Box &) const = default;
+    };
+    enum class Axes { Time, Frequency, Both };
+
+    explicit Viewport(QObject *parent = nullptr);
+
+    /// A new recording: forgets history, cursor and selection, and shows all of it. The smallest spans bound zooming
+    /// in.
+    void setExtents(const Span &time, const Span &frequency, double smallestSeconds = 0.0, double smallestHz = 0.0);
+
+    bool isEmpty() const { return m_full.time.isEmpty() || m_full.frequency.isEmpty(); }
+    const Box &full() const { return m_full; }
+    const Box &visible() const { return m_visible; }
+    const Span &time() const { return m_visible.time; }
+    const Span &frequency() const { return m_visible.frequency; }
+    bool showsAll() const { return m_visible == m_full; }
+
+    const std::optional<Point> &cursor() const { return m_cursor; }
+    const std::optional<Box> &selection() const { return m_selection; }
+
+    bool canZoomBack() const { return !m_history.empty(); }
+
+public slots:
+    /// Shows these spans and remembers those before for `zoomBack`.
+    void zoomTo(const faintline::Span &time, const faintline::Span &frequency);
+    /// Factor above 1 magnifies, about the point, which keeps its place. A run of these is one step of the history.
+    void zoomAt(double factor, const faintline::Viewport::Point &point, faintline::Viewport::Axes axes = Axes::Both);
+    /// Scrolls; not remembered.
+    void pan(double seconds, double hz);
+    /// Shows these spans; one step of the history together with the zooming before and after it.
+    void stretch(const faintline::Span &time, const faintline::Span &frequency);
+    /// Scrolls just so far that the box can be seen, with some room round it; zooms out if it must.
+    void reveal(const faintline::Viewport::Box &box);
+    void showAll();
+    void zoomBack();
+
+    void setCursor(const faintline::Viewport::Point &point);
+    void clearCursor();
+    void setSelection(const faintline::Viewport::Box &box);
+    void clearSelection();
+
+signals:
+    void extentsChanged();
+    void spanChanged();
+    void cursorChanged();
+    void selectionChanged();
+
+private:
+    Box clamped(const Box &box) const;
+    void remember();
+    void show(const Box &box);
+
+    Box m_full;
+    Box m_visible;
+    Box m_smallest; ///< widths only
+    std::vector<Box> m_history;
+    bool m_isZoomRun = false; ///< in a run of zoomAt or stretch, already remembered
+    std::optional<Point> m_cursor;
+    std::optional<Box> m_selection;
+};
+
+} // namespace faintline

@@ -1,0 +1,66 @@
+#include "widgets/base/scaleTicks.h"
+
+#include <qwt_scale_engine.h>
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    struct Step {
+        double major;
+        int minors; ///< parts
+    };
+
+    Step timeStep(double smallest)
+    {
+        if (smallest <= 5.0) {
+            const double decade = std::pow(10.0, std::floor(std::log10(smallest)));
+            for (const Step step : {Step{1.0, 5}, Step{2.0, 4}, Step{5.0, 5}, Step{10.0, 5}})
+                if (step.major * decade >= smallest * (1.0 - 1e-9))
+                    return {step.major * decade, step.minors};
+        }
+        for (const Step step : {Step{10, 5}, Step{15, 3}, Step{30, 3}, Step{60, 4}, Step{120, 4}, Step{300, 5},
+                                Step{600, 5}, Step{900, 3}, Step{1800, 3}, Step{3600, 4}, Step{7200, 4}, Step{10800, 3},
+                                Step{21600, 6}, Step{43200, 4}, Step{86400, 4}})
+            if (step.major >= smallest)
+                return step;
+        return {std::ceil(smallest / 86400.0) * 86400.0, 4};
+    }
+
+} // namespace
+
+double majorStep(const QwtScaleDiv &div)
+{
+    const QList<double> ticks = div.ticks(QwtScaleDiv::MajorTick);
+    return ticks.size() > 1 ? std::abs(ticks[1] - ticks[0]) : std::max(std::abs(div.range()), 1e-12);
+}
+
+QwtScaleDiv timeScaleDiv(const Span &span, int majorTicks)
+{
+    if (span.isEmpty())
+        return QwtScaleDiv(span.low, span.low + 1.0);
+    const Step step = timeStep(span.width() / std::max(majorTicks, 1));
+    QList<double> ticks[QwtScaleDiv::NTickTypes];
+    const double minor = step.major / step.minors;
+    const double slack = 1e-9 * step.major;
+    for (double i = std::ceil((span.low - slack) / minor); i * minor <= span.high + slack; ++i) {
+        const bool isMajor = std::fmod(std::abs(i), step.minors) < 0.5;
+        ticks[isMajor ? QwtScaleDiv::MajorTick : QwtScaleDiv::MinorTick] << i * minor;
+    }
+    return QwtScaleDiv(span.low, span.high, ticks);
+}
+
+QwtScaleDiv linearScaleDiv(const Span &span, int majorTicks)
+{
+    // One number alone says nothing about a scale: where there is room for two but steps are too wide, they are made smaller.
+    const auto divided = [&](int most) { return QwtLinearScaleEngine().divideScale(span.low, span.high, most, 5); };
+    QwtScaleDiv div = divided(std::max(majorTicks, 1));
+    if (majorTicks >= 2 && div.ticks(QwtScaleDiv::MajorTick).size() < 2)
+        div = divided(majorTicks + 1);
+    div.setInterval(span.low, span.high);
+    return div;
+}
+
+} // namespace faintline

@@ -1,0 +1,219 @@
+#include "widgets/events/EventModel.h"
+
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
+
+#include <QGuiApplication>
+#include <QPalette>
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    Qt::Alignment alignmentOf(int column)
+    {
+        const bool isWord = column == EventModel::State || column == EventModel::Judged;
+        return (isWord ? Qt::AlignHCenter : column == EventModel::Note ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
+    }
+
+} // namespace
+
+double EventModel::sortValue(const Event &event, int column) const
+{
+    switch (column) {
+    case Id:
+        return event.id;
+    case Onset:
+        return event.onsetSeconds;
+    case Detection:
+        return event.detectSeconds;
+    case End:
+        return event.endSeconds;
+    case Frequency:
+        return event.position.empty() ? 0.0 : event.position.front();
+    case Bearing:
+        return event.position.empty() ? 0.0 : event.position.back();
+    case Drift:
+        return hasBearing() && !event.ratesPerSecond.empty() ? event.ratesPerSecond.front() : event.driftPerSecond;
+    case Statistic:
+        return event.statistic;
+    case Snr:
+        return event.snrDb;
+    case Judged: {
+        const EventReview said = review(event);
+        return said.verdict == Verdict::Accepted ? 0.0 : said.verdict == Verdict::None ? 1.0 : 2.0;
+    }
+    case Note:
+        return review(event).note.empty() ? 1.0 : 0.0;
+    default:
+        return (event.isConfirmed ? 0.0 : 2.0) + (event.isOpen ? 1.0 : 0.0);
+    }
+}
+
+void EventModel::setEvents(std::vector<Event> events)
+{
+    beginResetModel();
+    m_events = std::move(events);
+    endResetModel();
+}
+
+void EventModel::setReviews(const std::vector<EventReview> &reviews)
+{
+    m_reviews.clear();
+    for (const EventReview &one : reviews)
+        m_reviews.insert(one.event, one);
+    if (!m_events.empty())
+        emit dataChanged(index(0, 0), index(rowCount() - 1, ColumnCount - 1));
+}
+
+EventReview EventModel::review(const Event &event) const
+{
+    return m_reviews.value(event.id, EventReview{event.id, Verdict::None, {}, event.id});
+}
+
+QString EventModel::reviewText(const EventReview &review)
+{
+    QStringList words;
+    if (review.verdict != Verdict::None)
+        words << (review.verdict == Verdict::Accepted ? tr("accepted") : tr("rejected"));
+    if (review.signal != review.event)
+        words << tr("part of %1").arg(review.signal);
+    return words.join(QStringLiteral(", "));
+}
+
+int EventModel::rowOf(int id) const
+{
+    for (std::size_t row = 0; row < m_events.size(); ++row)
+        if (m_events[row].id == id)
+            return static_cast<int>(row);
+    return -1;
+}
+
+QString EventModel::stateText(const Event &event)
+{
+    const QString state = event.isConfirmed ? tr("confirmed") : tr("tentative");
+    return event.isOpen ? tr("%1, open").arg(state) : state;
+}
+
+int EventModel::rowCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : static_cast<int>(m_events.size());
+}
+
+int EventModel::columnCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : ColumnCount;
+}
+
+QString EventModel::text(const Event &event, int column) const
+{
+    switch (column) {
+    case Id: { // in sight however narrow the panel, unlike the review's own column
+        const Verdict verdict = review(event).verdict;
+        const QString mark = verdict == Verdict::Accepted ? QStringLiteral("✓ ") : verdict == Verdict::Rejected ? QStringLiteral("× ") : QString();
+        return mark + QString::number(event.id);
+    }
+    case Onset:
+        return secondsText(event.onsetSeconds, 0.1);
+    case Detection:
+        return secondsText(event.detectSeconds, 0.1);
+    case End:
+        return secondsText(event.endSeconds, 0.1);
+    case Frequency:
+        return event.position.empty()
+                   ? QStringLiteral("–")
+                   : numberText(event.position.front(), hasBearing() ? decimalsFor(m_axes.front().step) : 2);
+    case Bearing:
+        return event.position.empty() ? QStringLiteral("–") : numberText(event.position.back(), 1);
+    case Drift:
+        return powerText(sortValue(event, Drift), 3);
+    case Statistic:
+        return numberText(event.statistic, 1);
+    case Snr:
+        return std::isfinite(event.snrDb) ? numberText(event.snrDb, 1) : QStringLiteral("–");
+    case Judged:
+        return reviewText(review(event));
+    case Note:
+        return labelText(review(event).note, longestNote);
+    default:
+        return stateText(event);
+    }
+}
+
+QVariant EventModel::data(const QModelIndex &index, int role) const
+{
+    if (!index.isValid() || index.row() >= rowCount())
+        return {};
+    const Event &event = m_events[static_cast<std::size_t>(index.row())];
+    switch (role) {
+    case Qt::DisplayRole:
+        return text(event, index.column());
+    case Qt::ForegroundRole:
+        return review(event).verdict == Verdict::Rejected ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText)) : QVariant();
+    case Qt::ToolTipRole:
+        return index.column() == Note && !text(event, Note).isEmpty() ? QVariant(asHtml(text(event, Note))) : QVariant();
+    case SortRole:
+        return sortValue(event, index.column());
+    case Qt::TextAlignmentRole:
+        return QVariant::fromValue(
+            alignmentOf(index.column()));
+    case Qt::AccessibleTextRole:
+        return tr("%1: %2").arg(headerData(index.column(), Qt::Horizontal).toString(), text(event, index.column()));
+    default:
+        return {};
+    }
+}
+
+void EventModel::setStatisticUnit(const QString &unit)
+{
+    m_statisticUnit = unit;
+    emit headerDataChanged(Qt::Horizontal, Statistic, Statistic);
+}
+
+void EventModel::setAxes(const std::vector<Axis> &axes)
+{
+    m_axes = axes;
+    emit headerDataChanged(Qt::Horizontal, 0, ColumnCount - 1);
+}
+
+QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const
+{
+    if (orientation != Qt::Horizontal)
+        return {};
+    if (role == Qt::TextAlignmentRole)
+        return QVariant::fromValue(alignmentOf(section));
+    const auto unit = [this](std::size_t axis) { return labelText(m_axes[axis].unit, mostUnitLetters); };
+    const QString names[] = {tr("№"),
+                             hasBearing() ? tr("Range (%1)").arg(unit(0)) : tr("f (Hz)"),
+                             hasBearing() ? tr("Bearing (%1)").arg(unit(1)) : tr("Bearing"),
+                             tr("Onset"),
+                             tr("D (%1)").arg(m_statisticUnit),
+                             tr("SNR (dB)"),
+                             tr("Detected"),
+                             tr("End"),
+                             hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
+                             tr("State"),
+                             tr("Review"),
+                             tr("Note")};
+    const QString tips[] = {tr("Number, in order of detection"),
+                            hasBearing() ? tr("Range at detection") : tr("Frequency at detection"),
+                            tr("Bearing at detection"),
+                            tr("Where the detecting path was last reset, from the first sample"),
+                            tr("Largest statistic"),
+                            tr("Mean power of the signal over that of the noise in one window and bin"),
+                            tr("Where the statistic first exceeded the threshold"),
+                            tr("Last frame with evidence"),
+                            tr("Straight-line slope of the track"),
+                            tr("Confirmed or tentative; open where the data ended first"),
+                            tr("Accepted or rejected: Y, X, and U to take it back; part of another event's signal"),
+                            tr("What you have to say about it: E writes")};
+    if (section < 0 || section >= ColumnCount)
+        return {};
+    if (role == Qt::DisplayRole)
+        return names[section];
+    return role == Qt::ToolTipRole ? tips[section] : QVariant();
+}
+
+} // namespace faintline

@@ -1,0 +1,25 @@
+#include "widgets/events/EventProxy.h"
+
+#include "widgets/events/EventModel.h"
+
+namespace faintline {
+
+EventProxy::EventProxy(QObject *parent) : QSortFilterProxyModel(parent)
+{
+    setSortRole(EventModel::SortRole);
+}
+
+void EventProxy::setFilter(const EventFilter &filter)
+{
+    m_filter = filter;
+    invalidateFilter();
+}
+
+bool EventProxy::filterAcceptsRow(int row, const QModelIndex &) const
+{
+    const auto *model = static_cast<const EventModel *>(sourceModel());
+    const Event &event = model->events()[static_cast<std::size_t>(row)];
+    return m_filter.accepts(event, model->review(event));
+}
+
+} // namespace faintline

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "widgets/events/EventFilter.h"
+
+#include <QSortFilterProxyModel>
+
+namespace faintline {
+
+/// Sorts an EventModel by value and filters it.
+class EventProxy : public QSortFilterProxyModel
+{
+    Q_OBJECT
+
+public:
+    explicit EventProxy(QObject *parent = nullptr);
+
+    void setFilter(const EventFilter &filter);
+    const EventFilter &filter() const { return m_filter; }
+
+protected:
+    bool filterAcceptsRow(int row, const QModelIndex &parent) const override;
+
+private:
+    EventFilter m_filter;
+};
+
+} // namespace faintline

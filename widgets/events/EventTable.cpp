@@ -1,0 +1,265 @@
+#include "widgets/events/EventTable.h"
+
+#include "widgets/events/EventModel.h"
+#include "widgets/events/EventProxy.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QStackedLayout>
+#include <QStyle>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace faintline {
+
+EventTable::EventTable(QWidget *parent)
+    : QWidget(parent), m_model(new EventModel(this)), m_proxy(new EventProxy(this)), m_filter(new QLineEdit),
+      m_table(new QTableView), m_count(new QLabel),
+      m_empty(new QLabel(tr("Events appear here when a recording has been analysed.")))
+{
+    m_proxy->setSourceModel(m_model);
+    m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 !rejected"));
+    m_filter->setToolTip(
+        tr("Words and comparisons that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, with ! "
+           "their opposites; id, t, end, dur, f, drift, stat with "
+           "<, >, =, <=, >="));
+    m_filter->setClearButtonEnabled(true);
+    m_filter->setAccessibleName(tr("Filter events"));
+    connect(m_filter, &QLineEdit::textChanged, this, &EventTable::applyFilter);
+
+    setUpTable();
+    m_empty->setAlignment(Qt::AlignCenter);
+    m_empty->setWordWrap(true);
+    m_empty->setForegroundRole(QPalette::PlaceholderText);
+    m_empty->setMargin(16);
+    auto *stack = new QStackedLayout;
+    stack->addWidget(m_empty);
+    stack->addWidget(m_table);
+    m_count->setForegroundRole(QPalette::PlaceholderText);
+
+    auto *top = new QHBoxLayout;
+    top->addWidget(m_filter, 1);
+    top->addWidget(m_count);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(4, 4, 4, 4);
+    layout->setSpacing(4);
+    layout->addLayout(top);
+    layout->addLayout(stack, 1);
+    updateCount();
+}
+
+void EventTable::setUpTable()
+{
+    m_table->setModel(m_proxy);
+    m_table->setSelectionBehavior(QAbstractItemView::SelectRows);
+    m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_table->setShowGrid(false);
+    m_table->setAlternatingRowColors(true);
+    m_table->setWordWrap(false);
+    m_table->setTabKeyNavigation(false);
+    m_table->setSortingEnabled(true);
+    m_table->sortByColumn(EventModel::Onset, Qt::AscendingOrder);
+    m_table->verticalHeader()->hide();
+    m_table->verticalHeader()->setDefaultSectionSize(22);
+    m_table->horizontalHeader()->setHighlightSections(false);
+    m_table->horizontalHeader()->setResizeContentsPrecision(20); // rows; numbers of all of them: widenColumns
+    m_table->horizontalHeader()->setStretchLastSection(true);
+    m_table->horizontalHeader()->setMinimumSectionSize(34);
+    m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    m_table->setAccessibleName(tr("Events"));
+    m_table->installEventFilter(this);
+    m_table->setColumnHidden(EventModel::Bearing, true);
+    connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
+        if (selectedEvents().size() == 1) // several are being chosen otherwise
+            activate(index.row());
+    });
+    connect(m_table, &QTableView::doubleClicked, this, [this](const QModelIndex &index) {
+        if (index.column() == EventModel::Note)
+            emit noteRequested();
+    });
+    m_table->setContextMenuPolicy(Qt::ActionsContextMenu);
+}
+
+void EventTable::setEvents(const std::vector<Event> &events)
+{
+    const int selected = selectedEvent();
+    const bool isFirst = m_model->events().empty();
+    m_model->setEvents(events);
+    if (isFirst && !events.empty())
+        m_table->resizeColumnsToContents();
+    widenColumns();
+    setSelectedEvent(selected);
+    updateCount();
+}
+
+/// Numbers are never cut short, be it another recording's: as wide as the least and the largest of each column are.
+void EventTable::widenColumns()
+{
+    const int rows = m_model->rowCount();
+    const int room = 2 * (style()->pixelMetric(QStyle::PM_FocusFrameHMargin, nullptr, m_table) + 1) + 2;
+    for (int column = EventModel::Id; rows > 0 && column <= EventModel::Drift; ++column) {
+        const auto value = [&](int row) { return m_model->index(row, column).data(EventModel::SortRole).toDouble(); };
+        int least = 0;
+        int most = 0;
+        for (int row = 1; row < rows; ++row) {
+            least = value(row) < value(least) ? row : least;
+            most = value(row) > value(most) ? row : most;
+        }
+        for (const int row : {least, most}) {
+            const int width = m_table->fontMetrics().horizontalAdvance(m_model->index(row, column).data().toString()) + room;
+            if (!m_table->isColumnHidden(column) && width > m_table->columnWidth(column))
+                m_table->setColumnWidth(column, width);
+        }
+    }
+}
+
+void EventTable::setReviews(const std::vector<EventReview> &reviews)
+{
+    const int selected = selectedEvent();
+    m_model->setReviews(reviews);
+    m_proxy->setFilter(m_proxy->filter()); // it may ask for what has just been said
+    if (selected != 0 && selectedEvent() != selected)
+        setSelectedEvent(selected);
+    updateCount();
+}
+
+std::vector<int> EventTable::selectedEvents() const
+{
+    std::vector<int> ids;
+    for (const QModelIndex &index : m_table->selectionModel()->selectedRows())
+        ids.push_back(m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(index).row())].id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
+void EventTable::setStatisticUnit(const QString &unit)
+{
+    m_model->setStatisticUnit(unit);
+}
+
+void EventTable::setAxes(const std::vector<Axis> &axes)
+{
+    m_model->setAxes(axes);
+    m_table->setColumnHidden(EventModel::Bearing, !m_model->hasBearing());
+}
+
+void EventTable::setEmptySentence(const QString &sentence)
+{
+    m_empty->setText(sentence);
+}
+
+int EventTable::selectedEvent() const
+{
+    const QModelIndex index = m_table->currentIndex();
+    if (!index.isValid() || !m_table->selectionModel()->isRowSelected(index.row()))
+        return 0;
+    return m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(index).row())].id;
+}
+
+std::vector<int> EventTable::shownIds() const
+{
+    std::vector<int> ids;
+    for (int row = 0; row < m_proxy->rowCount(); ++row)
+        ids.push_back(
+            m_model->events()[static_cast<std::size_t>(m_proxy->mapToSource(m_proxy->index(row, 0)).row())].id);
+    return ids;
+}
+
+void EventTable::setSelectedEvent(int id)
+{
+    const int row = m_model->rowOf(id);
+    const QModelIndex index = row < 0 ? QModelIndex() : m_proxy->mapFromSource(m_model->index(row, 0));
+    if (!index.isValid()) {
+        m_table->clearSelection();
+        m_table->setCurrentIndex({});
+        return;
+    }
+    choose(index);
+    m_table->scrollTo(index);
+}
+
+/// This row and no other, whatever keys are held.
+void EventTable::choose(const QModelIndex &row)
+{
+    m_table->selectionModel()->setCurrentIndex(row, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+}
+
+void EventTable::activate(int proxyRow)
+{
+    if (proxyRow < 0 || proxyRow >= m_proxy->rowCount())
+        return;
+    choose(m_proxy->index(proxyRow, 0));
+    emit eventActivated(selectedEvent());
+}
+
+void EventTable::step(int by)
+{
+    const int rows = m_proxy->rowCount();
+    if (rows == 0)
+        return;
+    const int row = selectedEvent() == 0 ? (by > 0 ? -1 : rows) : m_table->currentIndex().row();
+    activate((row + by + rows) % rows);
+}
+
+void EventTable::selectNext()
+{
+    step(1);
+}
+
+void EventTable::selectPrevious()
+{
+    step(-1);
+}
+
+void EventTable::applyFilter(const QString &text)
+{
+    const EventFilter filter(text);
+    m_proxy->setFilter(filter);
+    updateCount();
+}
+
+void EventTable::updateCount()
+{
+    const auto all = static_cast<int>(m_model->events().size());
+    const int shown = m_proxy->rowCount();
+    const QString &unknown = m_proxy->filter().misunderstood();
+    if (!unknown.isEmpty())
+        m_count->setText(tr("“%1”?").arg(unknown));
+    else if (shown < all)
+        m_count->setText(tr("%1 of %2 events").arg(shown).arg(all));
+    else
+        m_count->setText(all == 1 ? tr("1 event") : tr("%1 events").arg(all));
+    static_cast<QStackedLayout *>(layout()->itemAt(1)->layout())->setCurrentIndex(all > 0 ? 1 : 0);
+}
+
+void EventTable::keyPressEvent(QKeyEvent *event)
+{
+    if (event->key() == Qt::Key_N && !(event->modifiers() & (Qt::ControlModifier | Qt::AltModifier)))
+        step(event->modifiers().testFlag(Qt::ShiftModifier) ? -1 : 1);
+    else
+        QWidget::keyPressEvent(event);
+}
+
+bool EventTable::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == m_table && event->type() == QEvent::KeyPress) {
+        auto *key = static_cast<QKeyEvent *>(event);
+        if (key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter) {
+            activate(m_table->currentIndex().row());
+            return true;
+        }
+        if (key->key() == Qt::Key_N) { // otherwise the table's search for what begins with n
+            keyPressEvent(key);
+            return true;
+        }
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+} // namespace faintline

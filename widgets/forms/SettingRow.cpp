@@ -1,0 +1,306 @@
+#include "widgets/forms/SettingRow.h"
+
+#include "base/Error.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/settingWords.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QEvent>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QToolButton>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    QString shownText(const FieldValue &value)
+    {
+        return QString::fromStdString(formatFieldValue(value));
+    }
+
+    /// The sentence, then what is accepted and what is the default.
+    QString toolTipOf(const FieldInfo &info, const FieldValue &defaultValue)
+    {
+        const QString unit = info.unit.empty() ? QString() : QStringLiteral(" ") + QString::fromStdString(info.unit);
+        QStringList lines{QString::fromStdString(info.sentence).toHtmlEscaped()};
+        if (info.kind == FieldKind::Integer || info.kind == FieldKind::Number || info.kind == FieldKind::Numbers)
+            lines << SettingRow::tr("Range: %1 … %2%3")
+                         .arg(QString::fromStdString(formatNumber(info.minimum)),
+                              QString::fromStdString(formatNumber(info.maximum)), unit);
+        const QString defaultText =
+            info.kind == FieldKind::Choice ? choiceLabel(shownText(defaultValue)) : shownText(defaultValue) + unit;
+        lines << SettingRow::tr("Default: %1")
+                     .arg(info.kind == FieldKind::Flag
+                              ? (std::get<bool>(defaultValue) ? SettingRow::tr("on") : SettingRow::tr("off"))
+                              : defaultText.toHtmlEscaped());
+        lines << QStringLiteral("<small>%1</small>").arg(QString::fromStdString(info.name));
+        return QStringLiteral("<qt>%1</qt>").arg(lines.join(QStringLiteral("<br>")));
+    }
+
+    /// Words and lists need the width of the form: they stand below their label.
+    bool isBelowLabel(const FieldInfo &info)
+    {
+        return info.kind == FieldKind::Choice || info.kind == FieldKind::Numbers;
+    }
+
+    /// A long unit beside the field would leave it no room: it stands with the label.
+    bool isWithLabel(const std::string &unit)
+    {
+        constexpr std::size_t longest = 5;
+        return unit.size() > longest;
+    }
+
+    /// A text field with arrows: what a step is, others know.
+    class ArrowBox : public QAbstractSpinBox
+    {
+    public:
+        explicit ArrowBox(std::function<void(int)> step) : m_step(std::move(step)) {}
+        void stepBy(int steps) override { m_step(steps); }
+        QLineEdit *line() const { return lineEdit(); }
+
+    protected:
+        StepEnabled stepEnabled() const override { return StepUpEnabled | StepDownEnabled; }
+
+    private:
+        std::function<void(int)> m_step;
+    };
+
+} // namespace
+
+SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, double stepsInOne,
+                       QWidget *parent)
+    : QWidget(parent), m_info(info), m_default(defaultValue), m_value(defaultValue), m_stepsInOne(stepsInOne),
+      m_label(new QLabel(label)), m_unit(new QLabel(QString::fromStdString(info.unit))), m_reset(new QToolButton), m_message(plainLabel())
+{
+    makeEditor();
+    const QString toolTip = toolTipOf(info, defaultValue);
+    for (QWidget *widget : {static_cast<QWidget *>(m_label), m_editor})
+        widget->setToolTip(toolTip);
+    m_label->setBuddy(m_editor);
+    m_label->setWordWrap(true);
+    m_editor->setAccessibleName(info.unit.empty() ? label
+                                                  : tr("%1 in %2").arg(label, QString::fromStdString(info.unit)));
+    m_editor->setAccessibleDescription(QString::fromStdString(info.sentence));
+    m_editor->setObjectName(QString::fromStdString(info.name));
+
+    m_unit->setFont(Theme::font(12));
+    m_unit->setForegroundRole(QPalette::PlaceholderText);
+    m_reset->setText(QStringLiteral("↺"));
+    m_reset->setAutoRaise(true);
+    m_reset->setFixedSize(18, 20);
+    m_reset->setToolTip(tr("Back to the default"));
+    m_reset->setAccessibleName(tr("Reset %1 to its default").arg(label));
+    QSizePolicy keepsPlace = m_reset->sizePolicy();
+    keepsPlace.setRetainSizeWhenHidden(true);
+    m_reset->setSizePolicy(keepsPlace);
+    connect(m_reset, &QToolButton::clicked, this, [this] { accept(m_default); });
+
+    auto *grid = new QGridLayout(this);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setHorizontalSpacing(5);
+    grid->setVerticalSpacing(1);
+    const bool isBelow = isBelowLabel(info);
+    grid->addWidget(m_label, 0, 0);
+    if (!info.unit.empty() && isWithLabel(info.unit)) {
+        m_unit->setContentsMargins(0, 0, 0, 2);
+        grid->addWidget(m_unit, 1, 0);
+        grid->addWidget(m_editor, 0, 1, 2, 1);
+    } else {
+        auto *line = new QHBoxLayout;
+        line->setSpacing(5);
+        line->addWidget(m_editor, 1);
+        if (!info.unit.empty())
+            line->addWidget(m_unit);
+        grid->addLayout(line, isBelow ? 1 : 0, isBelow ? 0 : 1, 1, isBelow ? 2 : 1);
+    }
+    grid->addWidget(m_reset, isBelow ? 1 : 0, 2);
+    grid->addWidget(m_message, 2, 0, 1, 3);
+    grid->setColumnStretch(1, 1);
+    m_message->setWordWrap(true);
+    m_message->setFont(Theme::font(12));
+    setValue(defaultValue);
+}
+
+void SettingRow::setUnit(const QString &unit, double largestMagnitude)
+{
+    m_info.unit = unit.toStdString();
+    m_info.minimum = -largestMagnitude;
+    m_info.maximum = largestMagnitude;
+    for (QWidget *widget : {static_cast<QWidget *>(m_label), m_editor})
+        widget->setToolTip(toolTipOf(m_info, m_default));
+    m_unit->setText(unit);
+    m_editor->setAccessibleName(tr("%1 in %2").arg(m_label->text(), unit));
+}
+
+void SettingRow::setLabelWidth(int width)
+{
+    if (!isBelowLabel(m_info))
+        m_label->setFixedWidth(width);
+}
+
+void SettingRow::makeEditor()
+{
+    switch (m_info.kind) {
+    case FieldKind::Flag: {
+        auto *box = new QCheckBox;
+        connect(box, &QCheckBox::toggled, this, [this](bool isOn) { accept(isOn); });
+        m_editor = box;
+        break;
+    }
+    case FieldKind::Choice: {
+        auto *box = new QComboBox;
+        box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        box->setMinimumContentsLength(6);
+        for (const std::string &choice : m_info.choices)
+            box->addItem(choiceLabel(QString::fromStdString(choice)), QString::fromStdString(choice));
+        connect(box, &QComboBox::activated, this, [this, box] { accept(box->currentData().toString().toStdString()); });
+        m_editor = box;
+        break;
+    }
+    case FieldKind::Integer: {
+        auto *box = new QSpinBox;
+        box->setRange(static_cast<int>(m_info.minimum), static_cast<int>(m_info.maximum));
+        box->setKeyboardTracking(false);
+        connect(box, &QSpinBox::valueChanged, this, [this](int value) { accept(value); });
+        m_editor = box;
+        break;
+    }
+    case FieldKind::Number:
+    case FieldKind::Numbers:
+    case FieldKind::Text: {
+        if (m_stepsInOne > 0) {
+            auto *box = new ArrowBox([this](int steps) { stepBy(steps); });
+            connect(box, &QAbstractSpinBox::editingFinished, this, [this, box] {
+                if (box->text() != shownText(m_value)) // Return has taken the line's own mark of it away
+                    acceptText(box->text());
+            });
+            m_editor = box;
+            break;
+        }
+        auto *edit = new QLineEdit;
+        connect(edit, &QLineEdit::editingFinished, this, [this, edit] {
+            if (edit->isModified())
+                acceptText(edit->text());
+        });
+        m_editor = edit;
+        break;
+    }
+    }
+    m_editor->setMinimumWidth(56);
+    m_editor->setFocusPolicy(Qt::StrongFocus);
+    m_editor->installEventFilter(this);
+}
+
+void SettingRow::acceptText(const QString &text)
+{
+    // A comma within a number is how many write a decimal point; in a list it separates.
+    const QString plain =
+        m_info.kind == FieldKind::Number ? text.trimmed().replace(QLatin1Char(','), QLatin1Char('.')) : text.trimmed();
+    try {
+        accept(parseFieldValue(m_info, QString(plain).replace(QChar(0x2212), QLatin1Char('-')).toStdString()));
+    } catch (const Error &error) {
+        setError(QString::fromStdString(error.why()));
+    }
+}
+
+/// To the next multiples of a step, which are whole numbers over `m_stepsInOne`.
+void SettingRow::stepBy(int steps)
+{
+    if (const QString typed = static_cast<ArrowBox *>(m_editor)->text(); typed != shownText(m_value))
+        acceptText(typed);
+    constexpr double isMultiple = 1e-6;
+    const double at = std::get<double>(m_value) * m_stepsInOne;
+    const double from = steps > 0 ? std::floor(at + isMultiple) : std::ceil(at - isMultiple);
+    constexpr double digits = 1e4; // of steps that are no whole numbers' parts, as Hz/s are
+    const double next = (from + steps) / m_stepsInOne;
+    const bool isWhole = m_stepsInOne == std::floor(m_stepsInOne);
+    accept(std::clamp(isWhole ? next : std::round(next * digits) / digits, m_info.minimum, m_info.maximum));
+}
+
+void SettingRow::accept(const FieldValue &value)
+{
+    const bool isSame = value == m_value;
+    setError(QString());
+    setValue(value);
+    if (!isSame)
+        emit edited(value);
+}
+
+void SettingRow::setValue(const FieldValue &value)
+{
+    m_value = value;
+    const QSignalBlocker blocker(m_editor);
+    if (auto *box = qobject_cast<QCheckBox *>(m_editor))
+        box->setChecked(std::get<bool>(value));
+    else if (auto *choice = qobject_cast<QComboBox *>(m_editor))
+        choice->setCurrentIndex(choice->findData(shownText(value)));
+    else if (auto *spin = qobject_cast<QSpinBox *>(m_editor))
+        spin->setValue(std::get<int>(value));
+    else if (auto *arrows = qobject_cast<QAbstractSpinBox *>(m_editor))
+        static_cast<ArrowBox *>(arrows)->line()->setText(shownText(value));
+    else if (auto *edit = qobject_cast<QLineEdit *>(m_editor)) {
+        edit->setText(shownText(value));
+        edit->setCursorPosition(0);
+    }
+    m_reset->setVisible(value != m_default);
+    m_label->setFont(value == m_default ? Theme::font() : Theme::boldFont());
+}
+
+void SettingRow::setError(const QString &sentence)
+{
+    m_error = sentence;
+    showMessage();
+}
+
+void SettingRow::setNote(const QString &note)
+{
+    m_note = note;
+    showMessage();
+}
+
+void SettingRow::showMessage()
+{
+    const Theme::Colours &colours = Theme::colours(*this);
+    QPalette message = m_message->palette();
+    message.setColor(QPalette::WindowText, m_error.isEmpty() ? colours.faintText : colours.error);
+    m_message->setPalette(message);
+    m_message->setText(m_error.isEmpty() ? m_note : m_error);
+    m_message->setVisible(!m_message->text().isEmpty());
+    QPalette field;
+    if (!m_error.isEmpty()) {
+        field = palette();
+        field.setColor(QPalette::Text, colours.error);
+    }
+    m_editor->setPalette(field);
+}
+
+bool SettingRow::eventFilter(QObject *watched, QEvent *event)
+{
+    // A wheel turned over a form scrolls the form; it never changes a setting in passing.
+    if (watched == m_editor && event->type() == QEvent::Wheel && !m_editor->hasFocus()) {
+        event->ignore();
+        return true;
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void SettingRow::changeEvent(QEvent *event)
+{
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange)
+        showMessage();
+}
+
+} // namespace faintline

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "widgets/pings/PingMarks.h"
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <QWidget>
+
+class QStackedWidget;
+
+namespace faintline {
+
+class ColourBar;
+class PingOverlayItem;
+class PolarView;
+
+/// One ping, range × bearing: as a plane (B-scan) or from above, with its colour bar and marks.
+class PingMap : public QWidget
+{
+    Q_OBJECT
+
+public:
+    using Axis = faintline::Axis;
+
+    /// `viewport`: range in the place of time, bearing in that of frequency; not owned.
+    PingMap(const QString &heading, Viewport &viewport, QWidget *parent = nullptr);
+
+    WaterfallView *plane() const { return m_plane; }
+    PolarView *polar() const { return m_polar; }
+    bool isPolar() const;
+
+    /// The next ping; null shows the empty sentence.
+    void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &bearing);
+    void setMarks(const PingMarks &marks);
+    void setSelectedTrack(int id);
+    void setFaintTracks(const std::vector<int> &ids); ///< rejected ones
+
+    /// The track whose mark or tail lies under a place, as near as one can point; 0 where there is none.
+    int trackAt(const PingMarks::Place &place) const;
+
+    /// Whether the colours of the picture are keyed beside it.
+    void setColourBarShown(bool isShown);
+
+public slots:
+    void setPolar(bool isPolar);
+    void setInhibitionShown(bool isShown);
+    void setConventionalShown(bool isShown); ///< tracks of the conventional detector
+
+signals:
+    void polarChanged(bool isPolar);
+    void hovered(double range, double bearing);
+    void hoverEnded();
+
+protected:
+    void changeEvent(QEvent *event) override;
+    void keyPressEvent(QKeyEvent *event) override;
+
+private:
+    void follow();
+    PingOverlayItem *overlays(int i) const;
+
+    Viewport &m_viewport;
+    QStackedWidget *m_pages;
+    ColourBar *m_bar;
+    WaterfallView *m_plane;
+    PolarView *m_polar;
+    PingOverlayItem *m_overlay; ///< of the plane
+};
+
+} // namespace faintline

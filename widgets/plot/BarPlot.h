@@ -1,0 +1,57 @@
+#pragma once
+
+#include "widgets/plot/MarkedPlot.h"
+
+#include <QString>
+
+#include <vector>
+
+namespace faintline {
+
+class CurveKey;
+
+/// Bars of one or more kinds over whole numbers: beside each other, or one kind per place.
+class BarPlot : public MarkedPlot
+{
+    Q_OBJECT
+
+public:
+    struct Series {
+        QString name;
+        int colour = 0;             ///< of the theme's curves
+        std::vector<double> values; ///< at `first`, first + 1, …
+        bool operator==(const Series &) const = default;
+    };
+
+    explicit BarPlot(QWidget *parent = nullptr);
+
+    /// `isWide`: every place bears a bar of one kind only, which gets the whole width.
+    void setBars(std::vector<Series> series, int first, bool isWide = false);
+    const std::vector<Series> &series() const { return m_series; }
+    int first() const { return m_first; }
+    /// A higher ordinate than the bars', to have a level line on the canvas.
+    void setLeastHeight(double height);
+    /// The place that is drawn bright; less than `first`: none.
+    void setSelected(int place);
+
+signals:
+    void barActivated(int place);
+
+protected:
+    void restyle() override;
+    void clicked(const QPointF &canvas) override;
+
+private:
+    class BarItem;
+    void layOut();
+
+    std::vector<Series> m_series;
+    int m_first = 0;
+    bool m_isWide = false;
+    double m_leastHeight = 0.0;
+    int m_selected = -1;
+    BarItem *m_item;
+    CurveKey *m_key;
+};
+
+} // namespace faintline

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "widgets/plot/MarkedPlot.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace faintline {
+
+/// The law of a rate's change from frame to frame as bars, h(|δ|) over δ = -n … n, which can be dragged.
+///
+/// A bar and its mirror image move together and the others give way in proportion, so that it stays a law (withProbability); one more bar
+/// than the law has stands ready at either end, at 0. Mouse: drag a bar up or down, Escape lets it be. Keys: Left and Right choose a
+/// bar, Up and Down change it by 0.01, with Shift by 0.1, with Ctrl by 0.001.
+class LawPlot : public MarkedPlot
+{
+    Q_OBJECT
+
+public:
+    explicit LawPlot(QWidget *parent = nullptr);
+
+    /// `mostChange`: no rate can change by more. What is being dragged is dropped.
+    void setLaw(const std::vector<double> &law, int mostChange);
+    void setEditable(bool isEditable);
+    bool isEditable() const { return m_isEditable; }
+
+    /// The one shown: while a bar is dragged, the law that letting go would ask for.
+    const std::vector<double> &law() const { return m_shown; }
+    int selected() const { return m_selected; } ///< the change whose bar the keys move
+    int reach() const;                          ///< largest change that has a bar
+
+    QSize sizeHint() const override { return {240, 170}; }
+    QSize minimumSizeHint() const override { return {150, 110}; }
+
+signals:
+    void lawDragged(const std::vector<double> &law);   ///< on its way
+    void lawRequested(const std::vector<double> &law); ///< let go, or by key
+
+protected:
+    void keyPressEvent(QKeyEvent *event) override;
+    void focusInEvent(QFocusEvent *event) override;
+    void focusOutEvent(QFocusEvent *event) override;
+    bool eventFilter(QObject *watched, QEvent *event) override;
+    void restyle() override;
+
+private:
+    class BarItem;
+    void select(int change);
+    void drag(double y);
+    void drop(bool isWanted);
+    void layOut();
+
+    std::vector<double> m_law{1.0};
+    std::vector<double> m_shown{1.0};
+    int m_mostChange = 0;
+    int m_selected = 0;
+    double m_grip = 0.0; ///< of a dragged bar: its height less the pointer's
+    bool m_isDragging = false;
+    bool m_isEditable = true;
+    BarItem *m_item;
+};
+
+} // namespace faintline

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "widgets/base/Span.h"
+#include "widgets/base/ThemedPlot.h"
+
+#include <optional>
+#include <vector>
+
+class QwtPlotGrid;
+
+namespace faintline {
+
+class CanvasSentence;
+
+/// What plots of a sequential test have in common: an abscissa of whole numbers, titles and spans, lines with words on them, a cursor
+/// that a click asks for, and a sentence while there is nothing to see. Follows the palette.
+class MarkedPlot : public ThemedPlot
+{
+    Q_OBJECT
+
+public:
+    /// A line across the canvas, at x (upright) or at y, and words beside it.
+    struct Mark {
+        double at = 0.0;
+        bool isUpright = true;
+        QString words;
+        bool isAbove = false; ///< of a level line: its words stand above it
+        bool operator==(const Mark &) const = default;
+    };
+
+    explicit MarkedPlot(QWidget *parent = nullptr);
+
+    void setTitles(const QString &x, const QString &y);
+    void setSpans(const Span &x, const Span &y);
+    const Span &xSpan() const { return m_x; }
+    const Span &ySpan() const { return m_y; }
+    void setMarks(std::vector<Mark> marks);
+    const std::vector<Mark> &marks() const { return m_marks; }
+    /// How far below the canvas's upper edge the words of upright lines begin.
+    void setMarksTop(double pixels) { m_marksTop = pixels; }
+    double marksTop() const { return m_marksTop; }
+    void setCursor(std::optional<double> x);
+    std::optional<double> cursor() const { return m_cursorAt; }
+    void setEmptySentence(const QString &sentence);
+    /// Whether the sentence is shown, without axes.
+    void setEmpty(bool isEmpty);
+
+    /// Without titles and numbers, for a small picture.
+    void setBare(bool isBare);
+    bool isBare() const { return m_isBare; }
+
+    QPointF canvasPosition(double x, double y) const;
+
+    QSize sizeHint() const override { return {420, 220}; }
+    QSize minimumSizeHint() const override { return {180, 110}; }
+
+signals:
+    /// A click on the canvas, in the axes' values.
+    void activated(double x, double y);
+
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
+    void followCanvas() override { layAxes(); }
+
+    /// Colours may have changed; a class that adds some calls this one's first.
+    void restyle() override;
+    /// A click on the canvas, in its pixels.
+    virtual void clicked(const QPointF &canvas);
+
+private:
+    class MarkItem;
+    void layAxes();
+
+    Span m_x{0.0, 1.0};
+    Span m_y{0.0, 1.0};
+    std::vector<Mark> m_marks;
+    bool m_isBare = false;
+    bool m_isEmpty = true;
+    double m_marksTop = 3.0;
+    std::optional<double> m_cursorAt;
+    QwtPlotGrid *m_grid;
+    MarkItem *m_markItem;
+    CanvasSentence *m_sentence;
+};
+
+} // namespace faintline

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "widgets/base/Span.h"
+
+#include <qwt_scale_draw.h>
+
+namespace faintline {
+
+/// Labels of a quantity divided by `unit`, with as many decimals as the ticks need and a true minus.
+class NumberScaleDraw : public QwtScaleDraw
+{
+public:
+    void setUnit(double unit) { m_unit = unit; }
+    QwtText label(double value) const override;
+    QString widestLabel(const Span &full) const;
+
+private:
+    double m_unit = 1.0;
+};
+
+} // namespace faintline

@@ -1,0 +1,171 @@
+#include "widgets/waterfall/HandLine.h"
+
+#include "widgets/base/Theme.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+
+#include <qwt_plot_item.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double reach = 9.0; ///< pixels from a vertex that still take hold of it
+    constexpr double handleRadius = 4.5;
+
+} // namespace
+
+/// Draws it, with a dark seam so that it can be seen on any colour of the map.
+class HandLine::Item : public QwtPlotItem
+{
+public:
+    explicit Item(const HandLine &line) : m_line(line) { setZ(90.0); }
+
+    void draw(QPainter *painter, const QwtScaleMap &, const QwtScaleMap &, const QRectF &) const override
+    {
+        QPolygonF polygon;
+        for (const Viewport::Point &point : m_line.m_points)
+            polygon.append(m_line.m_view.positionOf(point));
+        painter->save();
+        painter->setRenderHint(QPainter::Antialiasing);
+        const QColor colour = Theme::colours(m_line.m_view).selectedEvent;
+        for (const QPen &pen : {QPen(QColor(0, 0, 0, 190), 5.0), QPen(colour, 2.5)}) {
+            painter->setPen(pen);
+            painter->drawPolyline(polygon);
+        }
+        painter->setPen(QPen(QColor(0, 0, 0, 220), 1.5));
+        painter->setBrush(colour);
+        for (const QPointF &vertex : polygon)
+            painter->drawEllipse(vertex, handleRadius, handleRadius);
+        painter->restore();
+    }
+
+private:
+    const HandLine &m_line;
+};
+
+HandLine::HandLine(WaterfallView &view) : QObject(&view), m_view(view)
+{
+    (new Item(*this))->attach(&view); // the plot's from now on
+    view.canvas()->installEventFilter(this);
+}
+
+void HandLine::setActive(bool isActive)
+{
+    m_isActive = isActive;
+    m_held = -1;
+    m_view.canvas()->setCursor(isActive ? Qt::PointingHandCursor : Qt::CrossCursor);
+}
+
+void HandLine::setPoints(std::vector<Viewport::Point> points)
+{
+    std::stable_sort(points.begin(), points.end(), [](const auto &a, const auto &b) { return a.seconds < b.seconds; });
+    m_points = std::move(points);
+    m_held = -1;
+    m_last = static_cast<int>(m_points.size()) - 1;
+    update();
+}
+
+void HandLine::add(const Viewport::Point &point)
+{
+    m_last = insert(point);
+    update();
+}
+
+void HandLine::removeLast()
+{
+    if (m_last < 0)
+        return;
+    m_points.erase(m_points.begin() + m_last);
+    m_last = static_cast<int>(m_points.size()) - 1;
+    update();
+}
+
+/// A vertex at a time there is one of already takes its place.
+int HandLine::insert(const Viewport::Point &point)
+{
+    const auto at = std::lower_bound(m_points.begin(), m_points.end(), point,
+                                     [](const auto &a, const auto &b) { return a.seconds < b.seconds; });
+    const auto place = at - m_points.begin();
+    if (at != m_points.end() && at->seconds == point.seconds)
+        *at = point;
+    else
+        m_points.insert(at, point);
+    return static_cast<int>(place);
+}
+
+int HandLine::vertexAt(const QPointF &position) const
+{
+    int nearest = -1;
+    double least = reach;
+    for (std::size_t i = 0; i < m_points.size(); ++i) {
+        const QPointF way = m_view.positionOf(m_points[i]) - position;
+        if (const double distance = std::hypot(way.x(), way.y()); distance <= least) {
+            least = distance;
+            nearest = static_cast<int>(i);
+        }
+    }
+    return nearest;
+}
+
+void HandLine::move(const QPointF &position)
+{
+    Viewport::Point point = m_view.pointAt(position);
+    const Viewport::Box &full = m_view.viewport()->full();
+    point.seconds = std::clamp(point.seconds, full.time.low, full.time.high);
+    point.hz = std::clamp(point.hz, full.frequency.low, full.frequency.high);
+    m_points.erase(m_points.begin() + m_held);
+    m_held = m_last = insert(point);
+    update();
+}
+
+void HandLine::update()
+{
+    m_view.replot();
+    emit changed();
+}
+
+bool HandLine::eventFilter(QObject *watched, QEvent *event)
+{
+    if (!m_isActive || !m_view.viewport() || !m_view.picture())
+        return QObject::eventFilter(watched, event);
+    const auto *mouse = static_cast<QMouseEvent *>(event);
+    switch (event->type()) {
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonDblClick:
+        if (mouse->button() == Qt::RightButton) {
+            m_last = vertexAt(mouse->position());
+            removeLast();
+            return true;
+        }
+        if (mouse->button() != Qt::LeftButton)
+            break;
+        m_view.setFocus(Qt::MouseFocusReason);
+        m_held = vertexAt(mouse->position());
+        if (m_held < 0)
+            m_held = insert(m_view.pointAt(mouse->position()));
+        move(mouse->position());
+        return true;
+    case QEvent::MouseMove:
+        if (m_held < 0)
+            break;
+        move(mouse->position());
+        return true;
+    case QEvent::MouseButtonRelease:
+        if (m_held < 0)
+            break;
+        m_held = -1;
+        return true;
+    case QEvent::ContextMenu:
+        return true; // the right button takes vertices away
+    default:
+        break;
+    }
+    return QObject::eventFilter(watched, event);
+}
+
+} // namespace faintline

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <QObject>
+
+#include <vector>
+
+namespace faintline {
+
+/// A line drawn by hand over a waterfall: vertices in ascending time, straight between them.
+///
+/// While it is active, a press beside it makes a vertex and a press on a vertex takes hold of it; both follow the mouse until let go.
+/// A right click on a vertex takes it away. Wheel and keys still go to the view.
+class HandLine : public QObject
+{
+    Q_OBJECT
+
+public:
+    /// `view`: outlives this.
+    explicit HandLine(WaterfallView &view);
+
+    bool isActive() const { return m_isActive; }
+    void setActive(bool isActive);
+
+    const std::vector<Viewport::Point> &points() const { return m_points; }
+    void setPoints(std::vector<Viewport::Point> points); ///< put in order of time
+    void add(const Viewport::Point &point);
+    void removeLast(); ///< the vertex that was touched last
+    void clear() { setPoints({}); }
+
+signals:
+    void changed();
+
+protected:
+    bool eventFilter(QObject *watched, QEvent *event) override;
+
+private:
+    class Item;
+
+    int vertexAt(const QPointF &position) const; ///< -1: none
+    int insert(const Viewport::Point &point);
+    void move(const QPointF &position);
+    void update();
+
+    WaterfallView &m_view;
+    std::vector<Viewport::Point> m_points;
+    bool m_isActive = false;
+    int m_held = -1;
+    int m_last = -1;
+};
+
+} // namespace faintline

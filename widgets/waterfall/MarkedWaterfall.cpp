@@ -1,0 +1,250 @@
+#include "widgets/waterfall/MarkedWaterfall.h"
+
+#include "widgets/waterfall/OverlayItem.h"
+#include "widgets/waterfall/RasterItem.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/labelText.h"
+#include "widgets/waterfall/waterfallWords.h"
+
+#include <qwt_plot_grid.h>
+#include <qwt_scale_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr int harmonicCount = 12;
+
+} // namespace
+
+MarkedWaterfall::MarkedWaterfall(const QString &heading, QWidget *parent)
+    : WaterfallPicture(heading, parent), m_overlay(new OverlayItem), m_grid(new QwtPlotGrid)
+{
+    m_grid->setZ(5.0);
+    m_grid->setPen(Theme::colours(Theme::Kind::Dark).grid, 1.0);
+    m_grid->attach(this);
+    m_overlay->attach(this);
+    followCursor();
+}
+
+// ---- the picture below ---------------------------------------------------------------------------------------------
+
+void MarkedWaterfall::setViewport(Viewport *viewport)
+{
+    WaterfallPicture::setViewport(viewport);
+    if (viewport) {
+        connect(viewport, &Viewport::cursorChanged, this, &MarkedWaterfall::followCursor);
+        connect(viewport, &Viewport::selectionChanged, this, [this] {
+            m_selectionNote.clear();
+            updateContent();
+        });
+    }
+    followCursor();
+}
+
+void MarkedWaterfall::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
+{
+    WaterfallPicture::setPicture(std::move(picture), frequency);
+    updateMarks();
+}
+
+void MarkedWaterfall::setNextPicture(std::shared_ptr<const PeakPyramid> picture)
+{
+    WaterfallPicture::setNextPicture(std::move(picture));
+    followCursor();
+}
+
+// ---- layers and marks ----------------------------------------------------------------------------------------------
+
+void MarkedWaterfall::setEvents(const std::vector<Event> &events)
+{
+    m_events = events;
+    updateMarks();
+}
+
+void MarkedWaterfall::setTracks(const std::vector<Track> &tracks, const Axis &time)
+{
+    m_overlay->tracks = OverlayItem::linesOf(tracks, time, frequencyAxis());
+    updateMarks();
+}
+
+void MarkedWaterfall::setTruth(const std::vector<TruthLine> &lines)
+{
+    m_overlay->truth = OverlayItem::linesOf(lines);
+    replot();
+}
+
+void MarkedWaterfall::setSelectedEvent(int id)
+{
+    m_selectedEvent = id;
+    updateContent();
+}
+
+void MarkedWaterfall::setFaintEvents(const std::vector<int> &ids)
+{
+    m_overlay->faintEvents = ids;
+    replot();
+}
+
+void MarkedWaterfall::setAnnotations(const std::vector<Annotation> &boxes)
+{
+    m_overlay->boxes.clear();
+    constexpr double anyHz = 1e12;
+    for (const Annotation &box : boxes)
+        m_overlay->boxes.push_back({{{box.startSeconds, box.endSeconds}, {box.lowHz.value_or(-anyHz), box.highHz.value_or(anyHz)}},
+                                    labelText(box.label, 40), box.verdict == Verdict::Rejected});
+    replot();
+}
+
+void MarkedWaterfall::setLayer(Layer layer, bool isOn)
+{
+    if (m_layers.testFlag(layer) == isOn)
+        return;
+    m_layers.setFlag(layer, isOn);
+    updateContent();
+    emit layersChanged();
+}
+
+void MarkedWaterfall::updateMarks()
+{
+    const double frame = picture() ? picture()->time().step : 0.0;
+    m_overlay->marks = OverlayItem::marksOf(m_events, m_overlay->tracks, frame, frequencyAxis().step);
+    updateContent();
+}
+
+void MarkedWaterfall::updateContent()
+{
+    OverlayItem &overlay = *m_overlay;
+    overlay.colours = Theme::colours(*this);
+    overlay.isTimeVertical = isTimeVertical();
+    overlay.setVisible(picture() != nullptr);
+    m_grid->setVisible(picture() && m_layers.testFlag(GridLayer));
+    raster().setContour(m_layers.testFlag(ThresholdLayer) ? threshold() : std::nullopt, overlay.colours.contour.rgb());
+
+    overlay.hasEvents = m_layers.testFlag(EventLayer);
+    overlay.hasTracks = m_layers.testFlag(TrackLayer);
+    overlay.hasTruth = m_layers.testFlag(TruthLayer);
+    overlay.selectedEvent = m_selectedEvent;
+    overlay.cursor = viewport() && m_layers.testFlag(CursorLayer) ? viewport()->cursor() : std::nullopt;
+    overlay.selection = viewport() ? viewport()->selection() : std::nullopt;
+    overlay.selectionText = selectionText();
+    overlay.sidebands = sidebands();
+    overlay.sidebandText = sidebandText();
+    overlay.harmonicsHz.clear();
+    if (m_hasHarmonics && frequencyAxis().unit == "Hz" && viewport() && viewport()->cursor())
+        for (int i = 1; i <= harmonicCount; ++i)
+            overlay.harmonicsHz.push_back(i * viewport()->cursor()->hz);
+    WaterfallPicture::updateContent();
+}
+
+int MarkedWaterfall::eventAt(const QPointF &position) const
+{
+    int nearest = 0;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const OverlayItem::Mark &mark : m_overlay->marks) {
+        const QRectF frame = OverlayItem::frameOf(
+            OverlayItem::rectOf(mark.box, canvasMap(QwtAxis::XBottom), canvasMap(QwtAxis::YLeft), isTimeVertical()));
+        const double area = frame.width() * frame.height();
+        if (frame.contains(position) && area < smallest) {
+            smallest = area;
+            nearest = mark.id;
+        }
+    }
+    return nearest;
+}
+
+void MarkedWaterfall::setRubber(const std::optional<Viewport::Box> &box)
+{
+    m_overlay->rubber = box;
+    replot();
+}
+
+// ---- the cursor and what is measured -------------------------------------------------------------------------------
+
+void MarkedWaterfall::followCursor()
+{
+    setAccessibleDescription(cursorText(*this));
+    updateContent();
+}
+
+void MarkedWaterfall::moveCursorToPeak()
+{
+    if (!picture() || !viewport() || !viewport()->cursor())
+        return;
+    if (const auto peak = peakAround(*viewport()->cursor()))
+        viewport()->setCursor(*peak);
+}
+
+void MarkedWaterfall::setMeasuring(bool isOn)
+{
+    if (m_isMeasuring == isOn)
+        return;
+    m_isMeasuring = isOn;
+    if (!isOn && viewport())
+        viewport()->clearSelection();
+    emit measuringChanged(isOn);
+}
+
+QString MarkedWaterfall::selectionText() const
+{
+    if (!viewport() || !viewport()->selection())
+        return {};
+    const QString text = boxText(*this, *viewport()->selection());
+    return m_selectionNote.isEmpty() ? text : text + QLatin1Char('\n') + m_selectionNote;
+}
+
+void MarkedWaterfall::setSelectionNote(const QString &note)
+{
+    m_selectionNote = note;
+    updateContent();
+}
+
+void MarkedWaterfall::setHarmonics(bool isOn)
+{
+    if (m_hasHarmonics == isOn)
+        return;
+    m_hasHarmonics = isOn;
+    updateContent();
+    emit harmonicsChanged(isOn);
+}
+
+std::optional<Sidebands> MarkedWaterfall::sidebands() const
+{
+    if (m_sidebandHz <= 0.0 || frequencyAxis().unit != "Hz" || !viewport() || !viewport()->cursor())
+        return {};
+    return Sidebands{viewport()->cursor()->hz, m_sidebandHz};
+}
+
+void MarkedWaterfall::setSidebands(bool isOn)
+{
+    if (!isOn || !picture() || !viewport() || frequencyAxis().unit != "Hz")
+        return setSidebandSpacing(0.0);
+    if (m_sidebandHz > 0.0)
+        return;
+    constexpr double share = 1.0 / 14.0; // so that five fit on either side of a carrier in the middle
+    if (!viewport()->cursor())
+        viewport()->setCursor({viewport()->time().middle(), viewport()->frequency().middle()});
+    const double bins = std::max(std::round(share * viewport()->frequency().width() / frequencyAxis().step), 1.0);
+    setSidebandSpacing(bins * frequencyAxis().step);
+}
+
+void MarkedWaterfall::setSidebandSpacing(double hz)
+{
+    if (hz == m_sidebandHz)
+        return;
+    m_sidebandHz = hz;
+    updateContent();
+    emit sidebandsChanged(hz);
+}
+
+QString MarkedWaterfall::sidebandText() const
+{
+    const auto lines = sidebands();
+    return lines ? faintline::sidebandText(*this, *lines, viewport()->cursor()->seconds) : QString();
+}
+
+} // namespace faintline

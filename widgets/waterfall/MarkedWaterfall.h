@@ -1,0 +1,100 @@
+#pragma once
+
+#include "analysis/Review.h"
+#include "recording/Truth.h"
+#include "track/Track.h"
+#include "widgets/waterfall/Sidebands.h"
+#include "widgets/waterfall/WaterfallPicture.h"
+
+class QwtPlotGrid;
+
+namespace faintline {
+
+class OverlayItem;
+
+/// A picture with what is marked on it: events, tracks, truth, the threshold's contour, annotations, the cursor with its harmonics and
+/// sidebands, the measured box. What is said about a place is waterfallWords', what is drawn OverlayItem's.
+class MarkedWaterfall : public WaterfallPicture
+{
+    Q_OBJECT
+
+public:
+    enum Layer {
+        EventLayer = 1,
+        TrackLayer = 2,
+        TruthLayer = 4,
+        ThresholdLayer = 8, ///< cells above the threshold are outlined
+        GridLayer = 16,
+        CursorLayer = 32
+    };
+    Q_DECLARE_FLAGS(Layers, Layer)
+
+    explicit MarkedWaterfall(const QString &heading, QWidget *parent = nullptr);
+
+    void setViewport(Viewport *viewport) override;
+    void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency) override;
+    void setNextPicture(std::shared_ptr<const PeakPyramid> picture) override;
+
+    Layers layers() const { return m_layers; }
+    int selectedEvent() const { return m_selectedEvent; }
+    bool isMeasuring() const { return m_isMeasuring; }
+    bool hasHarmonics() const { return m_hasHarmonics; }
+    /// Of the sidebands around the cursor's frequency, Hz; 0: none are shown.
+    double sidebandSpacing() const { return m_sidebandHz; }
+    std::optional<Sidebands> sidebands() const; ///< as shown
+    /// What is said about the sidebands: carrier, spacing, the level of each at the cursor's time.
+    QString sidebandText() const;
+    /// What is said about the measured box.
+    QString selectionText() const;
+    int eventAt(const QPointF &canvasPosition) const; ///< 0: none
+
+public slots:
+    void setEvents(const std::vector<faintline::Event> &events);
+    /// `time`: of the frames the tracks were made from.
+    void setTracks(const std::vector<faintline::Track> &tracks, const faintline::Axis &time);
+    void setTruth(const std::vector<faintline::TruthLine> &lines);
+    void setSelectedEvent(int id); ///< 0: none
+    void setFaintEvents(const std::vector<int> &ids); ///< rejected ones
+    void setAnnotations(const std::vector<faintline::Annotation> &boxes);
+    void setLayer(faintline::MarkedWaterfall::Layer layer, bool isOn);
+    void setMeasuring(bool isOn);
+    void setHarmonics(bool isOn); ///< lines at the multiples of the cursor's frequency
+    void setSidebandSpacing(double hz); ///< lines beside the cursor's frequency; 0: none
+    void setSidebands(bool isOn);       ///< with a spacing that suits what is visible; a cursor is placed where there is none
+    void setSelectionNote(const QString &note); ///< what else is known of the measured box; until it changes
+    void moveCursorToPeak();                    ///< to the strongest cell nearby
+    void setRubber(const std::optional<faintline::Viewport::Box> &box); ///< shown while a box is dragged
+
+signals:
+    void layersChanged();
+    void measuringChanged(bool isOn);
+    void harmonicsChanged(bool isOn);
+    void sidebandsChanged(double spacingHz); ///< 0: none
+    /// The pointer is over a cell; `value` in dB or nat.
+    void hovered(double seconds, double hz, double value);
+    void hoverEnded();
+    /// `,` and `.`: so many steps of a quarter nat.
+    void thresholdStepRequested(int steps);
+    void eventActivated(int id);
+
+protected:
+    void updateContent() override;
+
+private:
+    void followCursor();
+    void updateMarks();
+
+    OverlayItem *m_overlay;
+    QwtPlotGrid *m_grid;
+    Layers m_layers = Layers(EventLayer | TrackLayer | TruthLayer | ThresholdLayer | CursorLayer);
+    std::vector<Event> m_events;
+    int m_selectedEvent = 0;
+    bool m_isMeasuring = false;
+    bool m_hasHarmonics = false;
+    double m_sidebandHz = 0.0;
+    QString m_selectionNote;
+};
+
+Q_DECLARE_OPERATORS_FOR_FLAGS(MarkedWaterfall::Layers)
+
+} // namespace faintline

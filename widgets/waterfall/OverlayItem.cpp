@@ -1,0 +1,400 @@
+#include "widgets/waterfall/OverlayItem.h"
+
+
+#include <qwt_scale_map.h>
+
+#include <QFontMetricsF>
+#include <QPainter>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double faintOpacity = 0.3;
+    constexpr std::size_t labelLimit = 40;   ///< more numbers than this at once say nothing
+    constexpr std::size_t bracketLimit = 80; ///< nor do more brackets
+    const QColor seam(0, 0, 0, 150);
+
+    QPen linePen(const QColor &colour, double width, Qt::PenStyle style = Qt::SolidLine)
+    {
+        QPen pen(colour, width, style, Qt::FlatCap, Qt::RoundJoin);
+        if (style == Qt::CustomDashLine || style == Qt::DashLine)
+            pen.setDashPattern({5.0, 4.0});
+        return pen;
+    }
+
+    /// Four corners of a frame, which hide less of the picture than its sides.
+    QList<QLineF> corners(const QRectF &rect)
+    {
+        const double x = std::min(7.0, 0.4 * rect.width()), y = std::min(7.0, 0.4 * rect.height());
+        const QPointF a = rect.topLeft(), b = rect.topRight(), c = rect.bottomRight(), d = rect.bottomLeft();
+        return {{a, a + QPointF(x, 0)}, {a, a + QPointF(0, y)}, {b, b - QPointF(x, 0)}, {b, b + QPointF(0, y)},
+                {c, c - QPointF(x, 0)}, {c, c - QPointF(0, y)}, {d, d + QPointF(x, 0)}, {d, d - QPointF(0, y)}};
+    }
+
+} // namespace
+
+/// Where and how to draw.
+struct OverlayItem::Canvas {
+    QPainter &painter;
+    const QwtScaleMap &x;
+    const QwtScaleMap &y;
+    QRectF rect;
+    bool isTimeVertical;
+
+    double time(double seconds) const { return isTimeVertical ? y.transform(seconds) : x.transform(seconds); }
+    double frequency(double hz) const { return isTimeVertical ? x.transform(hz) : y.transform(hz); }
+    Span visibleTime() const
+    {
+        const QwtScaleMap &map = isTimeVertical ? y : x;
+        return {std::min(map.s1(), map.s2()), std::max(map.s1(), map.s2())};
+    }
+    QPointF point(double seconds, double hz) const
+    {
+        return isTimeVertical ? QPointF(frequency(hz), time(seconds)) : QPointF(time(seconds), frequency(hz));
+    }
+    QLineF across(double seconds) const
+    {
+        const double t = std::round(time(seconds)) + 0.5;
+        return isTimeVertical ? QLineF(rect.left(), t, rect.right(), t) : QLineF(t, rect.top(), t, rect.bottom());
+    }
+    QLineF along(double hz) const
+    {
+        const double f = std::round(frequency(hz)) + 0.5;
+        return isTimeVertical ? QLineF(f, rect.top(), f, rect.bottom()) : QLineF(rect.left(), f, rect.right(), f);
+    }
+
+    /// A line with its seam.
+    void stroke(const QList<QLineF> &lines, const QPen &pen) const
+    {
+        painter.setPen(QPen(seam, pen.widthF() + 2.0, Qt::SolidLine, Qt::SquareCap));
+        painter.drawLines(lines);
+        painter.setPen(pen);
+        painter.drawLines(lines);
+    }
+
+    /// Small text of one or more lines on a dark plate, kept on the canvas.
+    void label(const QPointF &corner, const QString &text, const QColor &colour,
+               const QColor &plate = QColor(0, 0, 0, 205), const QFont &font = Theme::plotFont()) const
+    {
+        painter.setFont(font);
+        const QFontMetricsF metrics(painter.font());
+        const QStringList lines = text.split(QLatin1Char('\n'));
+        double width = 0.0;
+        for (const QString &line : lines)
+            width = std::max(width, metrics.horizontalAdvance(line));
+        QRectF box(corner, QSizeF(std::ceil(width) + 8.0, static_cast<double>(lines.size()) * std::ceil(metrics.height()) + 1.0));
+        box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
+        box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(plate);
+        painter.drawRoundedRect(box, 3.0, 3.0);
+        painter.setBrush(Qt::NoBrush);
+        painter.setPen(colour);
+        if (lines.size() == 1)
+            painter.drawText(box, Qt::AlignCenter, text);
+        for (qsizetype i = 0; lines.size() > 1 && i < lines.size(); ++i)
+            painter.drawText(QRectF(box.left() + 4.0, box.top() + static_cast<double>(i) * std::ceil(metrics.height()), box.width(),
+                                    std::ceil(metrics.height())),
+                             Qt::AlignLeft | Qt::AlignVCenter, lines[i]);
+    }
+};
+
+OverlayItem::OverlayItem() : colours(Theme::colours(Theme::Kind::Light))
+{
+    setZ(10.0);
+}
+
+std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<Track> &followed, const Axis &time,
+                                                    const Axis &frequency)
+{
+    std::vector<Line> lines;
+    lines.reserve(followed.size());
+    for (const Track &track : followed) {
+        Line line{track.id, {}};
+        line.points.reserve(static_cast<qsizetype>(track.points.size()));
+        const auto at = [&](std::size_t i, double cell) {
+            return QPointF(time.value(static_cast<double>(track.points[i].frame)), frequency.value(cell));
+        };
+        for (std::size_t i = 0; i < track.points.size(); ++i)
+            line.points << at(i, track.lastPosition(i, frequency));
+        for (std::size_t i = 0; i < track.smoothed.size(); ++i)
+            line.band << at(i, static_cast<double>(track.smoothed[i].low));
+        for (std::size_t i = track.smoothed.size(); i-- > 0;)
+            line.band << at(i, static_cast<double>(track.smoothed[i].high));
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<TruthLine> &known)
+{
+    std::vector<Line> lines;
+    for (const TruthLine &one : known) {
+        if (one.frequencyHz.empty())
+            continue;
+        Line line;
+        for (std::size_t i = 0; i < one.frequencyHz.size(); ++i) {
+            const double seconds = one.startSeconds + static_cast<double>(i) * one.stepSeconds;
+            line.points << QPointF(std::min(seconds, one.endSeconds), one.frequencyHz[i]);
+        }
+        if (line.points.back().x() < one.endSeconds)
+            line.points << QPointF(one.endSeconds, one.frequencyHz.back());
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::vector<OverlayItem::Mark> OverlayItem::marksOf(const std::vector<Event> &events, const std::vector<Line> &lines,
+                                                    double frameSeconds, double binHz)
+{
+    std::unordered_map<int, const Line *> lineOf;
+    for (const Line &line : lines)
+        lineOf.try_emplace(line.id, &line);
+    std::vector<Mark> marks;
+    for (const Event &event : events) {
+        if (event.position.empty())
+            continue;
+        const auto track = lineOf.find(event.id);
+        const auto hzAt = [&](double seconds) {
+            return event.position.back() + event.driftPerSecond * (seconds - event.detectSeconds);
+        };
+        QPolygonF points{{event.onsetSeconds, hzAt(event.onsetSeconds)}, {event.endSeconds, hzAt(event.endSeconds)}};
+        if (track != lineOf.end() && !track->second->points.isEmpty())
+            points = track->second->points;
+        Mark mark{
+            event.id, {{event.onsetSeconds, event.endSeconds}, {points[0].y(), points[0].y()}}, event.isConfirmed};
+        for (const QPointF &point : points) {
+            mark.box.frequency.low = std::min(mark.box.frequency.low, point.y());
+            mark.box.frequency.high = std::max(mark.box.frequency.high, point.y());
+        }
+        mark.box.time = {mark.box.time.low - 0.5 * frameSeconds, mark.box.time.high + 0.5 * frameSeconds};
+        mark.box.frequency = {mark.box.frequency.low - 0.5 * binHz, mark.box.frequency.high + 0.5 * binHz};
+        marks.push_back(mark);
+    }
+    return marks;
+}
+
+QRectF OverlayItem::rectOf(const Viewport::Box &box, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                           bool isTimeVertical)
+{
+    const Span &x = isTimeVertical ? box.frequency : box.time;
+    const Span &y = isTimeVertical ? box.time : box.frequency;
+    return QRectF(QPointF(xMap.transform(x.low), yMap.transform(y.low)),
+                  QPointF(xMap.transform(x.high), yMap.transform(y.high)))
+        .normalized();
+}
+
+QRectF OverlayItem::frameOf(const QRectF &rect)
+{
+    constexpr double room = 4.0, smallest = 13.0;
+    QRectF frame = rect.adjusted(-room, -room, room, room);
+    const double x = std::max(smallest - frame.width(), 0.0) / 2.0, y = std::max(smallest - frame.height(), 0.0) / 2.0;
+    return frame.adjusted(-x, -y, x, y);
+}
+
+void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                       const QRectF &canvasRect) const
+{
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    const Canvas canvas{*painter, xMap, yMap, canvasRect, isTimeVertical};
+    if (hasTruth)
+        drawLines(canvas, truth, linePen(colours.truth, 1.0, Qt::DashLine));
+    if (hasTracks) {
+        drawSelectedBand(canvas);
+        drawLines(canvas, tracks, linePen(colours.track, 1.0));
+    }
+    drawBoxes(canvas);
+    drawHarmonics(canvas);
+    drawSidebands(canvas);
+    drawCursor(canvas);
+    drawSelection(canvas); // over the cursor, which would cross its figures out
+    if (hasEvents)
+        drawEvents(canvas);
+    painter->restore();
+}
+
+void OverlayItem::drawLines(const Canvas &canvas, const std::vector<Line> &lines, const QPen &pen) const
+{
+    const Span visible = canvas.visibleTime();
+    for (const Line &line : lines) {
+        canvas.painter.setOpacity(isFaint(line.id) ? faintOpacity : 1.0);
+        // The visible part with one point more at either end; a point a pixel is enough.
+        const auto isBefore = [](const QPointF &point, double seconds) { return point.x() < seconds; };
+        auto first = std::lower_bound(line.points.begin(), line.points.end(), visible.low, isBefore);
+        auto last = std::lower_bound(first, line.points.end(), visible.high, isBefore);
+        if (first != line.points.begin())
+            --first;
+        if (last != line.points.end())
+            ++last;
+        QPolygonF polygon;
+        for (auto point = first; point != last; ++point) {
+            const QPointF position = canvas.point(point->x(), point->y());
+            if (polygon.isEmpty() || point + 1 == last || (position - polygon.back()).manhattanLength() >= 2.5)
+                polygon << position;
+        }
+        if (!polygon.boundingRect().adjusted(-4, -4, 4, 4).intersects(canvas.rect))
+            continue;
+        canvas.painter.setPen(QPen(seam, pen.widthF() + 1.6, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin));
+        canvas.painter.drawPolyline(polygon);
+        canvas.painter.setPen(pen);
+        canvas.painter.drawPolyline(polygon);
+    }
+    canvas.painter.setOpacity(1.0);
+}
+
+void OverlayItem::drawSelectedBand(const Canvas &canvas) const
+{
+    const auto line = std::find_if(tracks.begin(), tracks.end(), [&](const Line &one) { return one.id == selectedEvent; });
+    if (selectedEvent == 0 || line == tracks.end() || line->band.isEmpty())
+        return;
+    QPolygonF ribbon;
+    for (const QPointF &point : line->band)
+        if (const QPointF position = canvas.point(point.x(), point.y()); ribbon.isEmpty() || (position - ribbon.back()).manhattanLength() >= 1.0)
+            ribbon << position;
+    QColor colour = colours.selectedEvent;
+    colour.setAlpha(90);
+    canvas.painter.setPen(Qt::NoPen);
+    canvas.painter.setBrush(colour);
+    canvas.painter.drawPolygon(ribbon);
+    canvas.painter.setBrush(Qt::NoBrush);
+}
+
+bool OverlayItem::isFaint(int event) const
+{
+    return event != 0 && event != selectedEvent && std::find(faintEvents.begin(), faintEvents.end(), event) != faintEvents.end();
+}
+
+void OverlayItem::drawBoxes(const Canvas &canvas) const
+{
+    for (const Box &box : boxes) {
+        const QRectF rect = rectOf(box.box, canvas.x, canvas.y, isTimeVertical).intersected(canvas.rect.adjusted(-9, -9, 9, 9));
+        if (!rect.isValid())
+            continue;
+        canvas.painter.setOpacity(box.isFaint ? faintOpacity : 1.0);
+        canvas.stroke({{rect.topLeft(), rect.topRight()},
+                       {rect.topRight(), rect.bottomRight()},
+                       {rect.bottomRight(), rect.bottomLeft()},
+                       {rect.bottomLeft(), rect.topLeft()}},
+                      linePen(colours.cursor, 1.0));
+        if (!box.text.isEmpty())
+            canvas.label(rect.topLeft() + QPointF(2.0, 2.0), box.text, colours.cursor);
+    }
+    canvas.painter.setOpacity(1.0);
+}
+
+void OverlayItem::drawEvents(const Canvas &canvas) const
+{
+    // Where there are many in sight their brackets would hide what they mark: the tracks alone are clearer.
+    const auto rectOfMark = [&](const Mark &mark) {
+        return frameOf(rectOf(mark.box, canvas.x, canvas.y, isTimeVertical));
+    };
+    const auto inSight = static_cast<std::size_t>(std::count_if(
+        marks.begin(), marks.end(), [&](const Mark &mark) { return rectOfMark(mark).intersects(canvas.rect); }));
+    const bool areLabelled = inSight <= labelLimit;
+    const auto drawOne = [&](const Mark &mark) {
+        const bool isSelected = mark.id == selectedEvent;
+        const QRectF rect = rectOfMark(mark);
+        if (!rect.intersects(canvas.rect) || (inSight > bracketLimit && hasTracks && !isSelected))
+            return;
+        QColor colour = isSelected ? colours.selectedEvent : colours.event;
+        if (!mark.isConfirmed && !isSelected)
+            colour.setAlpha(150);
+        canvas.painter.setOpacity(isFaint(mark.id) ? faintOpacity : 1.0);
+        canvas.stroke(corners(rect), linePen(colour, isSelected ? 2.0 : 1.4));
+        if (!areLabelled && !isSelected)
+            return;
+        const QPointF corner(rect.right() + 3.0, std::max(rect.top() - 1.0, canvas.rect.top() + 2.0));
+        if (isSelected)
+            canvas.label(corner, QString::number(mark.id), QColor(0x10141a), colours.selectedEvent);
+        else
+            canvas.label(corner, QString::number(mark.id), colour);
+    };
+    for (const Mark &mark : marks)
+        if (mark.id != selectedEvent)
+            drawOne(mark);
+    for (const Mark &mark : marks)
+        if (mark.id == selectedEvent)
+            drawOne(mark);
+    canvas.painter.setOpacity(1.0);
+}
+
+void OverlayItem::drawHarmonics(const Canvas &canvas) const
+{
+    for (std::size_t i = 0; i < harmonicsHz.size(); ++i) {
+        const QLineF line = canvas.along(harmonicsHz[i]);
+        if (!canvas.rect.contains(line.center()))
+            continue;
+        canvas.stroke({line}, linePen(colours.cursor, 1.0, Qt::DashLine));
+        canvas.label(line.p1() + QPointF(4.0, 4.0), QString::number(i + 1) + QStringLiteral("×"), colours.cursor);
+    }
+}
+
+void OverlayItem::drawSidebands(const Canvas &canvas) const
+{
+    if (!sidebands)
+        return;
+    constexpr double roomForNames = 22.0;
+    const double first = canvas.frequency(sidebands->hz(0)), second = canvas.frequency(sidebands->hz(1));
+    for (int order = -Sidebands::orders; order <= Sidebands::orders; ++order) {
+        const QLineF line = canvas.along(sidebands->hz(order));
+        if (!canvas.rect.contains(line.center()))
+            continue;
+        canvas.stroke({line}, linePen(colours.cursor, 1.0, order == 0 ? Qt::SolidLine : Qt::DotLine));
+        const bool isNamed = std::abs(second - first) >= roomForNames || order == 0;
+        const QString name = order == 0  ? QStringLiteral("0")
+                             : order > 0 ? QStringLiteral("+%1").arg(order)
+                                         : QStringLiteral("−%1").arg(-order);
+        if (isNamed)
+            canvas.label(line.p1() + QPointF(4.0, 4.0), name, colours.cursor);
+    }
+    canvas.label(canvas.rect.bottomLeft() + QPointF(6.0, -6.0), sidebandText, colours.cursor, QColor(0, 0, 0, 190),
+                 Theme::monoFont(Theme::plotFont().pixelSize()));
+}
+
+void OverlayItem::drawCursor(const Canvas &canvas) const
+{
+    if (!cursor)
+        return;
+    QColor colour = colours.cursor;
+    colour.setAlpha(210);
+    // The crossing itself stays free: that is the cell one wants to see.
+    constexpr double gap = 9.0;
+    const QLineF across = canvas.across(cursor->seconds), along = canvas.along(cursor->hz);
+    const QPointF centre = isTimeVertical ? QPointF(along.x1(), across.y1()) : QPointF(across.x1(), along.y1());
+    canvas.stroke({{canvas.rect.left(), centre.y(), centre.x() - gap, centre.y()},
+                   {centre.x() + gap, centre.y(), canvas.rect.right(), centre.y()},
+                   {centre.x(), canvas.rect.top(), centre.x(), centre.y() - gap},
+                   {centre.x(), centre.y() + gap, centre.x(), canvas.rect.bottom()}},
+                  linePen(colour, 1.0));
+}
+
+void OverlayItem::drawSelection(const Canvas &canvas) const
+{
+    const auto drawBox = [&](const Viewport::Box &box) {
+        const QRectF rect = rectOf(box, canvas.x, canvas.y, isTimeVertical);
+        QColor fill = colours.cursor;
+        fill.setAlpha(36);
+        canvas.painter.fillRect(rect, fill);
+        canvas.stroke({{rect.topLeft(), rect.topRight()},
+                       {rect.topRight(), rect.bottomRight()},
+                       {rect.bottomRight(), rect.bottomLeft()},
+                       {rect.bottomLeft(), rect.topLeft()}},
+                      linePen(colours.cursor, 1.0, Qt::DashLine));
+        return rect;
+    };
+    if (selection) {
+        const QRectF rect = drawBox(*selection);
+        if (rect.intersects(canvas.rect))
+            canvas.label(rect.bottomLeft() + QPointF(0.0, 4.0), selectionText, colours.cursor, QColor(0, 0, 0));
+    }
+    if (rubber)
+        drawBox(*rubber);
+}
+
+} // namespace faintline

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "base/Axis.h"
+#include "spectrum/PeakPyramid.h"
+#include "widgets/plot/ColourMap.h"
+#include "widgets/base/Span.h"
+#include "widgets/base/rasterise.h"
+
+#include <qwt_plot_item.h>
+
+#include <QImage>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// Draws a PeakPyramid on a plot's axes.
+///
+/// Two caches, each kept as long as its key holds: the bytes of the pixels (picture, axes, size) and the image made
+/// from them (colours, range, threshold). Dragging a range or a threshold so costs a table look-up per pixel. Pixels
+/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker, and only what comes into sight is
+/// drawn; it is placed to the nearest half pixel.
+class RasterItem : public QwtPlotItem
+{
+public:
+    RasterItem();
+
+    void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency);
+    /// A part of the frames of that time axis: drawn on the same pixels as a picture of all of them.
+    void setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency, const Axis &time);
+    void setTimeVertical(bool isVertical) { m_isTimeVertical = isVertical; }
+    void setColours(const ColourMap &map, const Span &range);
+    /// Pixels around those at or above this value are drawn in the contour's colour.
+    void setContour(std::optional<double> value, QRgb colour);
+
+    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+              const QRectF &canvasRect) const override;
+
+    /// The image of a canvas of so many device pixels. x (from left to right) and y are frequency and time where time
+    /// is vertical, time and frequency otherwise; `isUpward`: y grows towards the top.
+    QImage image(const Span &x, const Span &y, bool isUpward, const QSize &size) const;
+
+private:
+    struct BytesKey {
+        const PeakPyramid *picture = nullptr;
+        PixelRow time, cells;
+        bool operator==(const BytesKey &) const = default;
+    };
+    struct ImageKey {
+        bool isUpward = false;
+        bool isTimeVertical = false;
+        const ColourMap *map = nullptr;
+        Span range;
+        int contourByte = 256;
+        QRgb contourColour = 0;
+        bool operator==(const ImageKey &) const = default;
+    };
+
+    void updateBytes(const PixelRow &time, const PixelRow &cells) const;
+    void draw(const PixelRow &time, const PixelRow &cells, int level, std::span<std::uint8_t> out) const;
+    void scroll(const PixelRow &time, const PixelRow &cells, int down, int right) const;
+    void paint(const ImageKey &key, const QSize &size) const;
+    std::vector<QRgb> colourTable() const;
+
+    std::shared_ptr<const PeakPyramid> m_picture;
+    Axis m_frequency;
+    Axis m_time;
+    bool m_isTimeVertical = true;
+    const ColourMap *m_map;
+    Span m_range{-6.0, 14.0};
+    std::optional<double> m_contour;
+    QRgb m_contourColour = 0xffffffff;
+
+    mutable BytesKey m_bytesKey;
+    mutable std::vector<std::uint8_t> m_bytes; ///< as laid out by `rasterise`
+    mutable std::optional<ImageKey> m_imageKey;
+    mutable QImage m_image;
+};
+
+} // namespace faintline

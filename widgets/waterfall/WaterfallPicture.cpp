@@ -1,0 +1,383 @@
+#include "widgets/waterfall/WaterfallPicture.h"
+
+#include "widgets/base/CanvasSentence.h"
+#include "widgets/plot/NumberScaleDraw.h"
+#include "widgets/waterfall/RasterItem.h"
+#include "widgets/base/Theme.h"
+#include "widgets/plot/TimeScaleDraw.h"
+#include "widgets/base/axisWords.h"
+#include "widgets/waterfall/peakNear.h"
+#include "widgets/base/scaleTicks.h"
+#include "widgets/base/steadyAxes.h"
+
+#include <qwt_scale_map.h>
+#include <qwt_text.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double longSeconds = 600.0; ///< recordings from here on are labelled h:min:s
+    constexpr double peakReach = 12.0;    ///< pixels
+
+    bool measuresTime(const Axis &axis)
+    {
+        return axis.unit == "s" || axis.unit.empty();
+    }
+
+} // namespace
+
+WaterfallPicture::WaterfallPicture(const QString &heading, QWidget *parent)
+    : ThemedPlot(parent), m_heading(heading), m_raster(new RasterItem), m_sentence(new CanvasSentence),
+      m_colourMap(&ColourMap::named(ColourMap::defaultName()))
+{
+    m_sentence->text = tr("Open a recording or choose a scenario to see something here.");
+    m_sentence->pixelSize = 14;
+    m_sentence->attach(this);
+    m_raster->attach(this);
+    setAccessibleName(tr("%1 waterfall").arg(heading));
+    restyle();
+}
+
+// ---- what is shown -------------------------------------------------------------------------------------------------
+
+void WaterfallPicture::setViewport(Viewport *viewport)
+{
+    if (m_viewport)
+        m_viewport->disconnect(this);
+    m_viewport = viewport;
+    if (viewport) {
+        connect(viewport, &Viewport::spanChanged, this, &WaterfallPicture::followSpan);
+        connect(viewport, &Viewport::extentsChanged, this, &WaterfallPicture::restyle);
+    }
+    restyle();
+}
+
+void WaterfallPicture::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
+{
+    const bool isOtherKind = picture && m_picture && picture->scale().kind() != m_picture->scale().kind();
+    const bool hasSameAxes = picture && m_picture && frequency == m_frequency && picture->time().name == m_picture->time().name
+                             && picture->time().unit == m_picture->time().unit;
+    if (picture != m_picture)
+        m_closeup.reset();
+    m_picture = std::move(picture);
+    m_frequency = frequency;
+    choosePicture();
+    m_raster->setPicture(m_shown, frequency, m_picture ? m_picture->time() : Axis());
+    m_levels.countAgain();
+    if (!m_picture) {
+        m_levels.clearHistogram();
+        emit histogramChanged();
+    }
+    if (isOtherKind)
+        m_levels.setAutomatic(true);
+    hasSameAxes ? countHistogram() : restyle();
+}
+
+void WaterfallPicture::setNextPicture(std::shared_ptr<const PeakPyramid> picture)
+{
+    const bool isFirst = !m_picture || !picture || !(picture->time() == m_picture->time());
+    if (isFirst)
+        return setPicture(std::move(picture), m_frequency);
+    m_closeup.reset();
+    m_picture = std::move(picture);
+    choosePicture();
+    const bool wasAutomatic = m_levels.isAutomatic();
+    m_levels.setAutomatic(false);
+    countHistogram();
+    m_levels.setAutomatic(wasAutomatic);
+    updateContent();
+}
+
+void WaterfallPicture::setCloseup(std::shared_ptr<const PeakPyramid> closeup)
+{
+    m_closeup = std::move(closeup);
+    followSpan();
+}
+
+double WaterfallPicture::framesPerPixel() const
+{
+    const QSize size = canvas()->contentsRect().size();
+    return m_picture ? visible().time.width() / m_picture->time().step / std::max(isTimeVertical() ? size.height() : size.width(), 1) : 1.0;
+}
+
+void WaterfallPicture::choosePicture()
+{
+    const auto shows = [this](const PeakPyramid &closeup) {
+        const Span time = extents(closeup.time(), m_frequency).time;
+        const double slack = 1e-6 * closeup.time().step;
+        return framesPerPixel() < static_cast<double>(m_picture->framesPerRow(0)) && visible().time.low > time.low - slack
+               && visible().time.high < time.high + slack;
+    };
+    const auto &shown = m_picture && m_closeup && shows(*m_closeup) ? m_closeup : m_picture;
+    if (shown == m_shown)
+        return;
+    m_shown = shown;
+    m_raster->setPicture(m_shown, m_frequency, m_picture ? m_picture->time() : Axis());
+    m_levels.countAgain();
+    emit shownPictureChanged();
+}
+
+const PeakPyramid &WaterfallPicture::finestPicture(const Span &time) const
+{
+    const auto holds = [&](const PeakPyramid &picture) {
+        const Span all = extents(picture.time(), m_frequency).time;
+        return all.contains(time.low) && all.contains(time.high);
+    };
+    return m_closeup && holds(*m_closeup) ? *m_closeup : *m_picture;
+}
+
+bool WaterfallPicture::hasTime() const
+{
+    return !m_picture || measuresTime(m_picture->time());
+}
+
+Viewport::Box WaterfallPicture::extents(const Axis &time, const Axis &frequency)
+{
+    return {{time.value(-0.5), time.value(static_cast<double>(time.count) - 0.5)},
+            {frequency.value(-0.5), frequency.value(static_cast<double>(frequency.count) - 0.5)}};
+}
+
+void WaterfallPicture::setEmptySentence(const QString &sentence)
+{
+    m_sentence->text = sentence;
+    replot();
+}
+
+QString WaterfallPicture::valueUnit() const
+{
+    return m_picture && m_picture->scale().kind() != ByteScale::Kind::PowerDb ? m_statisticUnit : tr("dB");
+}
+
+void WaterfallPicture::setStatisticUnit(const QString &unit, const QString &heading)
+{
+    if (unit == m_statisticUnit && heading == m_heading)
+        return;
+    m_statisticUnit = unit;
+    m_heading = heading;
+    setAccessibleName(tr("%1 waterfall").arg(heading));
+    restyle();
+}
+
+std::optional<double> WaterfallPicture::valueAt(double seconds, double hz) const
+{
+    if (!m_picture || m_picture->rowCount(0) == 0)
+        return {};
+    const Viewport::Box box = extents(m_picture->time(), m_frequency);
+    if (!box.time.contains(seconds) || !box.frequency.contains(hz))
+        return {};
+    const PeakPyramid &picture = finestPicture({seconds, seconds});
+    const double frame = std::floor(picture.time().position(seconds) + 0.5);
+    if (frame > static_cast<double>(picture.frameCount()))
+        return {}; // still to come
+    const Index row = std::clamp<Index>(static_cast<Index>(frame) / picture.framesPerRow(0), 0, picture.rowCount(0) - 1);
+    return picture.scale().value(picture.row(0, row)[static_cast<std::size_t>(m_frequency.nearest(hz))]);
+}
+
+std::optional<Viewport::Point> WaterfallPicture::peakAround(const Viewport::Point &point) const
+{
+    const QPointF position = positionOf(point), reach(peakReach, peakReach);
+    const Viewport::Point a = pointAt(position - reach), b = pointAt(position + reach);
+    const auto around = [](double p, double q, double middle, double step) {
+        return Span{std::min({p, q, middle - step}), std::max({p, q, middle + step})};
+    };
+    const double row = m_picture->time().step * static_cast<double>(m_picture->framesPerRow(0));
+    return faintline::peakNear(*m_picture, m_frequency,
+                               {around(a.seconds, b.seconds, point.seconds, row), around(a.hz, b.hz, point.hz, m_frequency.step)});
+}
+
+Viewport::Box WaterfallPicture::full() const
+{
+    if (m_viewport && !m_viewport->isEmpty())
+        return m_viewport->full();
+    return m_picture ? extents(m_picture->time(), m_frequency) : Viewport::Box{{0.0, 1.0}, {0.0, 1.0}};
+}
+
+Viewport::Box WaterfallPicture::visible() const
+{
+    return m_viewport && !m_viewport->isEmpty() ? m_viewport->visible() : full();
+}
+
+Viewport::Point WaterfallPicture::pointAt(const QPointF &position) const
+{
+    const double x = invTransform(QwtAxis::XBottom, position.x()), y = invTransform(QwtAxis::YLeft, position.y());
+    return isTimeVertical() ? Viewport::Point{y, x} : Viewport::Point{x, y};
+}
+
+QPointF WaterfallPicture::positionOf(const Viewport::Point &point) const
+{
+    const double time = canvasMap(timeAxis()).transform(point.seconds), hz = canvasMap(hzAxis()).transform(point.hz);
+    return isTimeVertical() ? QPointF(hz, time) : QPointF(time, hz);
+}
+
+void WaterfallPicture::setThreshold(double nats)
+{
+    const std::optional<double> threshold = std::isnan(nats) ? std::nullopt : std::optional(nats);
+    if (threshold == m_threshold)
+        return;
+    m_threshold = threshold;
+    updateContent();
+    emit thresholdChanged(nats);
+}
+
+void WaterfallPicture::updateContent()
+{
+    m_sentence->setVisible(!m_picture);
+    replot();
+}
+
+// ---- axes ----------------------------------------------------------------------------------------------------------
+
+void WaterfallPicture::restyle()
+{
+    const bool isEmpty = !m_picture;
+    const bool isLong = full().time.high > longSeconds;
+    if (hasTime()) {
+        auto *draw = new TimeScaleDraw;
+        draw->setClock(isLong);
+        setAxisScaleDraw(timeAxis(), draw);
+        setAxisTitle(timeAxis(), isLong ? tr("Time (h:min:s)") : tr("Time (s)"));
+    } else {
+        setAxisScaleDraw(timeAxis(), new NumberScaleDraw);
+        setAxisTitle(timeAxis(), titleOf(m_picture->time()));
+    }
+    auto *hzDraw = new NumberScaleDraw;
+    hzDraw->setUnit(shownUnit(m_frequency).hz);
+    setAxisScaleDraw(hzAxis(), hzDraw);
+    setAxisTitle(hzAxis(), titleOf(m_frequency));
+    for (const QwtAxisId axis : {timeAxis(), hzAxis()})
+        setAxisVisible(axis, !isEmpty);
+
+    QwtText title(m_heading);
+    title.setFont(Theme::plotHeadingFont());
+    title.setRenderFlags(Qt::AlignLeft | Qt::AlignVCenter);
+    title.setColor(Theme::colours(*this).text);
+    setTitle(title);
+    Theme::style(*this);
+    m_raster->setTimeVertical(isTimeVertical());
+    m_sentence->colour = Theme::colours(*this).faintText;
+    updateLayout(); // titles and scales of another size
+    followSpan();
+    updateLayout(); // and labels
+    updateContent();
+}
+
+void WaterfallPicture::followSpan()
+{
+    choosePicture();
+    const auto [time, hz] = visible();
+    const QSize size = canvas()->contentsRect().size();
+    const int along = isTimeVertical() ? size.height() : size.width();
+    const int across = isTimeVertical() ? size.width() : size.height();
+    auto *timeDraw = dynamic_cast<TimeScaleDraw *>(axisScaleDraw(timeAxis()));
+    auto *numberDraw = dynamic_cast<NumberScaleDraw *>(axisScaleDraw(timeAxis()));
+    auto *hzDraw = static_cast<NumberScaleDraw *>(axisScaleDraw(hzAxis()));
+
+    const int timeSpacing = isTimeVertical() ? 42 : timeDraw && timeDraw->isClock() ? 90 : 60;
+    const int timeTicks = std::clamp(along / timeSpacing, 1, 12);
+    const QwtScaleDiv timeDiv = timeDraw ? timeScaleDiv(time, timeTicks) : linearScaleDiv(time, timeTicks);
+    setAxisScaleDiv(timeAxis(), m_orientation == Orientation::OldestOnTop ? timeDiv.inverted() : timeDiv);
+    setAxisScaleDiv(hzAxis(), linearScaleDiv(hz, std::clamp(across / (isTimeVertical() ? 60 : 42), 1, 12)));
+
+    const QString timeLabel = timeDraw ? timeDraw->widestLabel(full().time) : numberDraw->widestLabel(full().time);
+    const QString hzLabel = hzDraw->widestLabel(full().frequency);
+    steadyAxes(*this, isTimeVertical() ? timeLabel : hzLabel, isTimeVertical() ? hzLabel : timeLabel);
+
+    countHistogram();
+    replot();
+}
+
+void WaterfallPicture::setOrientation(Orientation orientation)
+{
+    if (orientation == m_orientation)
+        return;
+    m_orientation = orientation;
+    restyle();
+    emit orientationChanged(orientation);
+}
+
+void WaterfallPicture::cycleOrientation()
+{
+    setOrientation(static_cast<Orientation>((static_cast<int>(m_orientation) + 1) % 3));
+}
+
+// ---- colours -------------------------------------------------------------------------------------------------------
+
+void WaterfallPicture::countHistogram()
+{
+    const QSize size = canvas()->contentsRect().size();
+    if (!m_picture || size.isEmpty() || m_frequency.count == 0)
+        return;
+    const double cells = visible().frequency.width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
+    if (!m_levels.count(*m_shown, framesPerPixel(), cells))
+        return;
+    emit histogramChanged();
+    if (m_levels.isAutomatic())
+        applyRange(automaticRange());
+}
+
+Span WaterfallPicture::automaticRange() const
+{
+    return m_picture ? m_levels.suggested(m_picture->scale(), m_threshold) : range();
+}
+
+void WaterfallPicture::applyRange(const Span &range)
+{
+    m_raster->setColours(*m_colourMap, range);
+    if (range == m_levels.range())
+        return;
+    m_levels.setRange(range);
+    emit rangeChanged(range.low, range.high);
+}
+
+void WaterfallPicture::setRange(double low, double high)
+{
+    m_levels.setAutomatic(false);
+    applyRange(m_levels.byHand(low, high, m_picture ? &m_picture->scale() : nullptr));
+    replot();
+}
+
+void WaterfallPicture::setAutomaticRange()
+{
+    m_levels.setAutomatic(true);
+    applyRange(automaticRange());
+    replot();
+}
+
+double WaterfallPicture::levelStep() const
+{
+    return valueUnit() == tr("dB") ? 1.0 : 0.5;
+}
+
+void WaterfallPicture::stepBlack(int steps)
+{
+    const double step = levelStep();
+    setRange(std::min(range().low + steps * step, range().high - step), range().high);
+}
+
+void WaterfallPicture::stepWhite(int steps)
+{
+    const double step = levelStep();
+    setRange(range().low, std::max(range().high + steps * step, range().low + step));
+}
+
+void WaterfallPicture::setColourMap(const QString &name)
+{
+    const ColourMap &map = ColourMap::named(name);
+    if (&map == m_colourMap)
+        return;
+    m_colourMap = &map;
+    m_raster->setColours(map, range());
+    replot();
+    emit colourMapChanged(map.name());
+}
+
+void WaterfallPicture::cycleColourMap()
+{
+    setColourMap(ColourMap::next(m_colourMap->name()));
+}
+
+} // namespace faintline

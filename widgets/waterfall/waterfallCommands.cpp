@@ -1,0 +1,165 @@
+#include "widgets/waterfall/waterfallCommands.h"
+
+#include "widgets/waterfall/MarkedWaterfall.h"
+
+#include <QActionGroup>
+#include <QKeyEvent>
+#include <QMenu>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    /// Moves by whole cells and takes what is visible along.
+    void moveCursor(MarkedWaterfall &view, int right, int up, int cells)
+    {
+        Viewport &viewport = *view.viewport();
+        Viewport::Point point = viewport.cursor().value_or(Viewport::Point{viewport.time().middle(), viewport.frequency().middle()});
+        const bool isNewestOnTop = view.orientation() == MarkedWaterfall::Orientation::NewestOnTop;
+        const int timeSteps = view.isTimeVertical() ? (isNewestOnTop ? up : -up) : right;
+        const int hzSteps = view.isTimeVertical() ? right : up;
+        // From cell centre to cell centre, so that every key press reads another cell.
+        const auto moved = [](const Axis &axis, Index count, double value, Index by) {
+            const auto index = static_cast<Index>(std::lround(axis.position(value)));
+            return axis.value(static_cast<double>(std::clamp<Index>(index + by, 0, count - 1)));
+        };
+        const Axis &frequency = view.frequencyAxis();
+        point.seconds = moved(view.picture()->time(), view.picture()->frameCount(), point.seconds, timeSteps * cells);
+        point.hz = moved(frequency, frequency.count, point.hz, hzSteps * cells);
+        viewport.setCursor(point);
+
+        const auto beyond = [](const Span &span, double value) {
+            return value < span.low ? value - span.low : value > span.high ? value - span.high : 0.0;
+        };
+        viewport.pan(beyond(viewport.time(), point.seconds), beyond(viewport.frequency(), point.hz));
+    }
+
+    void clearMarks(MarkedWaterfall &view)
+    {
+        view.setMeasuring(false);
+        view.setHarmonics(false);
+        view.setSidebandSpacing(0.0);
+        view.viewport()->clearSelection();
+        view.viewport()->clearCursor();
+    }
+
+    using KeyAction = std::pair<int, std::function<void()>>;
+
+    bool act(std::span<const KeyAction> keys, int key)
+    {
+        const auto found = std::find_if(keys.begin(), keys.end(), [key](const KeyAction &entry) { return entry.first == key; });
+        if (found == keys.end())
+            return false;
+        found->second();
+        return true;
+    }
+
+} // namespace
+
+bool pressKey(MarkedWaterfall &view, const QKeyEvent &event)
+{
+    if (!view.picture() || !view.viewport())
+        return false;
+    const int cells = event.modifiers().testFlag(Qt::ControlModifier) ? 10 : 1;
+    const double bin = view.frequencyAxis().step;
+    const KeyAction spacingKeys[] = {
+        {Qt::Key_Left, [&] { view.setSidebandSpacing(std::max(view.sidebandSpacing() - bin, bin)); }},
+        {Qt::Key_Right, [&] { view.setSidebandSpacing(view.sidebandSpacing() + bin); }},
+    };
+    const KeyAction cursorKeys[] = {
+        {Qt::Key_Left, [&] { moveCursor(view, -1, 0, cells); }},
+        {Qt::Key_Right, [&] { moveCursor(view, 1, 0, cells); }},
+        {Qt::Key_Up, [&] { moveCursor(view, 0, 1, cells); }},
+        {Qt::Key_Down, [&] { moveCursor(view, 0, -1, cells); }},
+    };
+    const KeyAction plainKeys[] = {
+        {Qt::Key_Backspace, [&] { view.viewport()->zoomBack(); }},
+        {Qt::Key_0, [&] { view.viewport()->showAll(); }},
+        {Qt::Key_O, [&] { view.cycleOrientation(); }},
+        {Qt::Key_BracketLeft, [&] { view.stepBlack(-1); }},
+        {Qt::Key_BracketRight, [&] { view.stepBlack(1); }},
+        {Qt::Key_BraceLeft, [&] { view.stepWhite(-1); }},
+        {Qt::Key_BraceRight, [&] { view.stepWhite(1); }},
+        {Qt::Key_A, [&] { view.setAutomaticRange(); }},
+        {Qt::Key_C, [&] { view.cycleColourMap(); }},
+        {Qt::Key_Comma, [&] { emit view.thresholdStepRequested(-1); }},
+        {Qt::Key_Period, [&] { emit view.thresholdStepRequested(1); }},
+        {Qt::Key_M, [&] { view.setMeasuring(!view.isMeasuring()); }},
+        {Qt::Key_H, [&] { view.setHarmonics(!view.hasHarmonics()); }},
+        {Qt::Key_I, [&] { view.setSidebands(view.sidebandSpacing() == 0.0); }},
+        {Qt::Key_K, [&] { view.moveCursorToPeak(); }},
+        {Qt::Key_Escape, [&] { clearMarks(view); }},
+    };
+    const bool isSpacing = view.sidebands() && event.modifiers().testFlag(Qt::AltModifier);
+    const bool isPlain = !(event.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
+    return (isSpacing && act(spacingKeys, event.key())) || act(cursorKeys, event.key()) || (isPlain && act(plainKeys, event.key()));
+}
+
+void addCommands(QMenu &menu, MarkedWaterfall &shown)
+{
+    MarkedWaterfall *const view = &shown;
+    const auto tr = [](const char *text) { return MarkedWaterfall::tr(text); };
+    const auto add = [view](QMenu &to, const QString &text, const QString &key, auto action) {
+        // The key is text only: as a shortcut it would take the key from the view that has the focus.
+        QAction *added = to.addAction(key.isEmpty() ? text : text + QLatin1Char('\t') + key);
+        QObject::connect(added, &QAction::triggered, view, action);
+        return added;
+    };
+    const auto check = [&](QMenu &to, const QString &text, const QString &key, bool isOn, auto action) {
+        QAction *added = add(to, text, key, action);
+        added->setCheckable(true);
+        added->setChecked(isOn);
+        return added;
+    };
+    const Viewport *viewport = view->viewport();
+    add(menu, tr("Show all"), QStringLiteral("0"), [view] {
+        view->viewport()->showAll();
+    })->setEnabled(viewport && !viewport->showsAll());
+    add(menu, tr("Zoom back"), tr("Backspace"), [view] {
+        view->viewport()->zoomBack();
+    })->setEnabled(viewport && viewport->canZoomBack());
+    menu.addSeparator();
+
+    QMenu &orientations = *menu.addMenu(tr("Orientation"));
+    auto *orientationGroup = new QActionGroup(&orientations);
+    using Orientation = MarkedWaterfall::Orientation;
+    const std::pair<Orientation, QString> ways[] = {{Orientation::NewestOnTop, tr("Newest on top")},
+                                                    {Orientation::OldestOnTop, tr("Oldest on top")},
+                                                    {Orientation::LeftToRight, tr("Left to right")}};
+    for (const auto &[way, text] : ways)
+        orientationGroup->addAction(
+            check(orientations, text, QString(), view->orientation() == way, [view, way = way] { view->setOrientation(way); }));
+    QMenu &colours = *menu.addMenu(tr("Colours"));
+    auto *colourGroup = new QActionGroup(&colours);
+    for (const QString &name : ColourMap::names())
+        colourGroup->addAction(
+            check(colours, name, QString(), name == view->colourMap().name(), [view, name] { view->setColourMap(name); }));
+    check(menu, tr("Automatic range"), QStringLiteral("A"), view->isRangeAutomatic(), [view] { view->setAutomaticRange(); });
+
+    QMenu &layers = *menu.addMenu(tr("Show"));
+    using View = MarkedWaterfall;
+    const std::pair<View::Layer, QString> rows[] = {{View::EventLayer, tr("Events")}, {View::TrackLayer, tr("Tracks")},
+                                                    {View::TruthLayer, tr("Truth")},  {View::ThresholdLayer, tr("Threshold contour")},
+                                                    {View::GridLayer, tr("Grid")},    {View::CursorLayer, tr("Cursor")}};
+    for (const auto &[layer, text] : rows)
+        check(layers, text, QString(), view->layers().testFlag(layer), [view, layer = layer](bool isOn) { view->setLayer(layer, isOn); });
+    menu.addSeparator();
+    check(menu, tr("Measure a box"), QStringLiteral("M"), view->isMeasuring(), [view](bool isOn) { view->setMeasuring(isOn); });
+    if (view->frequencyAxis().unit == "Hz") {
+        check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), view->hasHarmonics(),
+              [view](bool isOn) { view->setHarmonics(isOn); });
+        check(menu, tr("Sidebands of the cursor"), QStringLiteral("I"), view->sidebandSpacing() > 0.0,
+              [view](bool isOn) { view->setSidebands(isOn); });
+    }
+    add(menu, tr("Cursor to the peak nearby"), QStringLiteral("K"), [view] {
+        view->moveCursorToPeak();
+    })->setEnabled(viewport && viewport->cursor());
+}
+
+} // namespace faintline
