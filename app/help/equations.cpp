@@ -35,7 +35,7 @@ const std::vector<Equation> &equations()
              "B  noise background: mean power of the noise there, so y has mean 1 on noise\n"
              "T, k_f  the box's frames, bins per cell\n"
              "N  mean y beside the box: then it is a line's SNR in one window",
-             "Billon 2005, section 4; the background as in core/README.md"),
+             "Billon 2005, section 4; the background as in docs/theory.md"),
         make("output:smd", "The statistic of the sequential Markov detector",
              smdEquation,
              "n, m  states: bin and slope\n"
@@ -90,7 +90,7 @@ const std::vector<Equation> &equations()
              "ln rate(T) = ln rate(u) − θ·(T − u)",
              "rate  events a cell and frame from the whole chain on simulated noise\n"
              "u  where events were counted, θ  fitted slope, 1/nat",
-             "core/README.md, False alarms; Lindley's recursion for the tail"),
+             "docs/theory.md, False alarms; Lindley's recursion for the tail"),
         make("why", "The ladder",
              "u = Σ over the path's steps of  λ + ln P + ln K",
              "from the latest reset on, in which u = λ\n"
@@ -100,7 +100,7 @@ const std::vector<Equation> &equations()
              "event: D(t, f) > T, clustered over neighbouring cells\n"
              "track: the same recursion without reset, on a small window",
              "T  threshold",
-             "Parsons 2008, 2.3 and Figure 1; core/README.md, From statistic to tracks"),
+             "Parsons 2008, 2.3 and Figure 1; docs/theory.md, From statistic to tracks"),
         make("noise", "Calibration",
              "ln K by bisection, so that half of the states go on\n"
              "ln rate(T) = ln rate(u) − θ·(T − u)",

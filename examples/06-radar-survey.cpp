@@ -1,7 +1,7 @@
 // A radar looks into one sector after the other, into each until it is sure. Most are empty and are left early.
 #include "base/logmath.h"
 #include "detect/Survey.h"
-#include "evaluate/SequentialStudy.h"
+#include "evaluate/sequential/SequentialStudy.h"
 #include "recording/ScanScene.h"
 
 #include <cstdio>
