@@ -1,6 +1,6 @@
 #include "app/cli/commands.h"
 
-#include "evaluate/measureSpeed.h"
+#include "app/cli/speed/measureSpeed.h"
 
 #include <CLI/CLI.hpp>
 

@@ -15,7 +15,7 @@
 #include "base/AtomicFile.h"
 #include "detect/SumDetector.h"
 #include "detect/statisticDecimals.h"
-#include "evaluate/trackScore.h"
+#include "evaluate/comparison/trackScore.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
@@ -87,7 +87,7 @@ namespace {
                 std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
             std::printf(", %.*f %s%s%s%s\n", statisticDecimals(detector), e.statistic, unit.c_str(), e.isConfirmed ? "" : ", not confirmed",
                         e.isOpen ? ", still there at the end" : "",
-                        !analysis.bank.empty() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
+                        analysis.isBank() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
         }
     }
 
@@ -240,7 +240,7 @@ namespace {
 
     void printExplanation(const Explanation &explanation, const Analysis &analysis, bool asJson)
     {
-        const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[explanation.model].model.space;
+        const StateSpace &space = analysis.modelAt(explanation.model).space;
         const std::vector<Axis> &axes = analysis.grid().axes;
         // What is held against the threshold: the path's score, or the statistic of a detector that has no paths, in its own unit.
         const bool isScore = isScoreOfPaths(analysis.settings.detector);
@@ -263,7 +263,7 @@ namespace {
         if (explanation.otherState && std::isfinite(explanation.otherMargin))
             json["runner_up"] = {{"rates", space.ratesOfPlane(space.planeOf(*explanation.otherState))},
                                  {"margin", explanation.otherMargin}};
-        if (!analysis.bank.empty())
+        if (analysis.isBank())
             json["model"] = explanation.model == 0 ? "nonManoeuvring" : "manoeuvring";
         json["steps"] = Json::array();
         for (const PathStep &step : explanation.steps) {
@@ -331,15 +331,9 @@ namespace {
             shape.push_back(axis.cells);
             projectedShape.push_back(axis.cells);
         }
-        std::unique_ptr<Detector> detector;
-        const Smd *smd = nullptr;
-        if (file.isSum) {
-            detector = std::make_unique<SumDetector>(file.model, file.reset);
-        } else {
-            auto made = std::make_unique<Smd>(file.model, file.reset);
-            smd = made.get();
-            detector = std::move(made);
-        }
+        std::optional<Smd> smd;
+        std::optional<SumDetector> sum;
+        Detector &detector = file.isSum ? static_cast<Detector &>(sum.emplace(file.model, file.reset)) : smd.emplace(file.model, file.reset);
         NumPyWriter out(options.out, shape);
         std::optional<NumPyWriter> projected;
         if (!options.projected.empty())
@@ -352,15 +346,17 @@ namespace {
         for (Index frame = 0; frame < frames->time().count; ++frame) {
             context.checkpoint(static_cast<double>(frame) / static_cast<double>(frames->time().count), "recursion");
             frames->read(frame, 1, y);
-            detector->update(y, D);
-            scores.assign(detector->scores().begin(), detector->scores().end());
+            detector.update(y, D);
+            const std::span<const float> last = smd ? smd->scores() : sum->scores();
+            scores.assign(last.begin(), last.end());
             if (const float offset = smd ? static_cast<float>(smd->offset()) : 0.0f; offset != 0.0f)
                 for (float &score : scores)
                     score += offset;
             out.write(scores);
             if (projected)
                 projected->write(D);
-            const Detector::Regulation regulation = detector->regulation();
+            const double lnK = file.reset.lnK;
+            const PathDetector::Regulation regulation = smd ? smd->regulation() : PathDetector::Regulation{lnK, 1.0, lnK};
             log += std::to_string(frame) + "," + formatNumber(regulation.lnK) + "," + formatNumber(1.0 - regulation.continuedFraction) + ","
                 + formatNumber(static_cast<double>(*std::max_element(D.begin(), D.end()))) + "\n";
         }

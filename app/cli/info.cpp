@@ -81,8 +81,6 @@ namespace {
                 all += (all.empty() ? "" : " | ") + choice;
             return all;
         }
-        case FieldKind::Text:
-            return "text";
         case FieldKind::Integer:
         case FieldKind::Number:
         case FieldKind::Numbers:

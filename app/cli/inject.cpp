@@ -1,7 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/provenance.h"
 
-#include "analysis/lineInNoise.h"
+#include "analysis/scaledInjection.h"
 #include "base/AtomicFile.h"
 #include "recording/writeRecording.h"
 
@@ -48,7 +48,7 @@ void addInject(CLI::App &app, Common &common)
         const RecordingPointer recording = options->analysis.recording();
         const AnalysisSettings settings = options->analysis.settings();
         options->line.fading = options->fading == "rayleigh" ? Fading::Rayleigh : Fading::None;
-        const InjectedLine injected = lineInNoise(options->line, recording, settings, common.context().part(0.0, 0.3));
+        const InjectedLine injected = scaledInjection(options->line, recording, settings, common.context().part(0.0, 0.3));
         const InjectedRecording made(recording, {injected}, settings.selection.channel, static_cast<std::uint64_t>(options->seed));
         CommitTogether files;
         writeProvenance(common, options->analysis.inputs(), {options->out, options->truth});

@@ -1,7 +1,7 @@
 #include "app/cli/commands.h"
 
 #include "base/Error.h"
-#include "evaluate/reproduce.h"
+#include "evaluate/reproduce/reproduce.h"
 #include "exchange/writeReproduction.h"
 
 #include <CLI/CLI.hpp>

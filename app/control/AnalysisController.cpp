@@ -2,7 +2,7 @@
 
 #include "analysis/chooseWindow.h"
 #include "analysis/knownCalibration.h"
-#include "analysis/lineInNoise.h"
+#include "analysis/scaledInjection.h"
 #include "analysis/slopeUnit.h"
 #include "spectrum/noiseMean.h"
 
@@ -131,7 +131,7 @@ void AnalysisController::inject(const LineSettings &line)
         return;
     const OpenedSource opened = m_document.openedSource();
     m_runner.start([this, opened, line, settings = m_document.settings()](const RunContext &context) -> JobRunner::Delivery {
-        const Source::Injection injection{lineInNoise(line, opened.recording, settings, context), settings.selection.channel,
+        const Source::Injection injection{scaledInjection(line, opened.recording, settings, context), settings.selection.channel,
                                           opened.source.injections.size() + 1};
         OpenedSource injected = withInjection(opened, injection);
         return [this, injected = std::move(injected)] { m_document.replaceOpened(injected, tr("Inject a line")); };

@@ -1,7 +1,7 @@
 #include "app/control/Comparer.h"
 
-#include "evaluate/differencePicture.h"
-#include "evaluate/measureCost.h"
+#include "evaluate/comparison/differencePicture.h"
+#include "evaluate/experiments/measureCost.h"
 
 #include <utility>
 

@@ -2,8 +2,8 @@
 
 #include "app/document/Document.h"
 #include "app/base/JobRunner.h"
-#include "evaluate/compareAnalyses.h"
-#include "evaluate/settingDifferences.h"
+#include "evaluate/comparison/compareAnalyses.h"
+#include "evaluate/comparison/settingDifferences.h"
 #include "spectrum/PeakPyramid.h"
 
 #include <QObject>

@@ -1,6 +1,6 @@
 #include "app/control/Experiments.h"
 
-#include "evaluate/InjectionExperiment.h"
+#include "evaluate/experiments/InjectionExperiment.h"
 #include "widgets/base/labelText.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/base/JobRunner.h"
-#include "evaluate/Campaign.h"
-#include "evaluate/reproduce.h"
+#include "evaluate/experiments/campaignCurve.h"
+#include "evaluate/reproduce/reproduce.h"
 
 #include <QObject>
 #include <QString>

@@ -3,8 +3,8 @@
 #include "analysis/AnalysisSettings.h"
 #include "app/base/JobRunner.h"
 #include "detect/inspectStages.h"
-#include "evaluate/ScanTest.h"
-#include "evaluate/scanCurves.h"
+#include "evaluate/sequential/ScanTest.h"
+#include "evaluate/sequential/scanCurves.h"
 #include "spectrum/NormalisedFrames.h"
 
 #include <QObject>

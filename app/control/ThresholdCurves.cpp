@@ -1,8 +1,8 @@
 #include "app/control/ThresholdCurves.h"
 
 #include "app/document/Document.h"
-#include "evaluate/boxExceedance.h"
-#include "evaluate/closedForm.h"
+#include "evaluate/theory/boxExceedance.h"
+#include "evaluate/theory/closedForm.h"
 #include "widgets/plot/ExceedancePlot.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/ScanTest.h"
+#include "evaluate/sequential/ScanTest.h"
 
 #include <QString>
 

@@ -58,9 +58,8 @@ namespace {
 
     double windowSeconds(const Analysis &analysis)
     {
-        const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get());
-        return frames ? frames->spectrogram().windowSamples() / analysis.recording->info().sampleRateHz
-                      : analysis.time().step;
+        const Spectrogram *spectrogram = analysis.frames->spectrogram();
+        return spectrogram ? spectrogram->windowSeconds() : analysis.time().step;
     }
 
     double shareAboveTwice(const Analysis &analysis)

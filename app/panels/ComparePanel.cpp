@@ -1,7 +1,7 @@
 #include "app/panels/ComparePanel.h"
 
 #include "app/base/statisticUnit.h"
-#include "evaluate/differencePicture.h"
+#include "evaluate/comparison/differencePicture.h"
 #include "widgets/waterfall/ColourBar.h"
 #include "widgets/base/Theme.h"
 #include "widgets/waterfall/WaterfallView.h"

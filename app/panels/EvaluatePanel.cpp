@@ -3,7 +3,7 @@
 #include "app/document/Document.h"
 #include "app/panels/ExperimentForm.h"
 #include "app/panels/StartColumn.h"
-#include "evaluate/campaignCharts.h"
+#include "evaluate/experiments/campaignCharts.h"
 #include "spectrum/Spectrogram.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/base/quantities.h"
@@ -99,10 +99,9 @@ void EvaluatePanel::followDocument()
     double windowSeconds = 0.0;
     double recordingSeconds = 0.0;
     if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
-        if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get())) {
-            windowSeconds =
-                static_cast<double>(frames->spectrogram().windowSamples()) / analysis->recording->info().sampleRateHz;
-            recordingSeconds = static_cast<double>(frames->time().count) * frames->time().step;
+        if (const Spectrogram *spectrogram = analysis->frames->spectrogram()) {
+            windowSeconds = spectrogram->windowSeconds();
+            recordingSeconds = static_cast<double>(analysis->time().count) * analysis->time().step;
         }
     m_form->setCurrent(m_document.usedSettings(), windowSeconds, recordingSeconds);
 }

@@ -2,7 +2,7 @@
 
 #include "app/control/Experiments.h"
 #include "base/Error.h"
-#include "evaluate/Chart.h"
+#include "evaluate/experiments/Chart.h"
 
 #include <QWidget>
 

@@ -1,6 +1,6 @@
 #include "app/panels/ExperimentForm.h"
 
-#include "evaluate/peers.h"
+#include "evaluate/experiments/peers.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
@@ -81,9 +81,9 @@ ExperimentForm::ExperimentForm(QWidget *parent)
 
     auto *detectors = new QGridLayout;
     detectors->setVerticalSpacing(2);
-    std::vector<Contestant> list = peers(1.0);
+    std::vector<DetectorUnderTest> list = peers(1.0);
     m_detectors.push_back(new QCheckBox(tr("current settings")));
-    for (const Contestant &one : list)
+    for (const DetectorUnderTest &one : list)
         m_detectors.push_back(new QCheckBox(QString::fromStdString(one.name)));
     for (std::size_t i = 0; i < m_detectors.size(); ++i) {
         m_detectors[i]->setChecked(i == 1 || i == 3 || i == 5);
@@ -171,16 +171,16 @@ void ExperimentForm::setInRecording(bool isInRecording)
     m_noise->setCurrentIndex(isInRecording ? 1 : 0);
 }
 
-std::vector<Contestant> ExperimentForm::chosen() const
+std::vector<DetectorUnderTest> ExperimentForm::chosen() const
 {
-    std::vector<Contestant> result;
+    std::vector<DetectorUnderTest> result;
     if (m_detectors.front()->isChecked()) {
-        Contestant current{"current: " + std::string(detectorNames[m_settings.detector.index()]), {}};
+        DetectorUnderTest current{"current: " + std::string(detectorNames[m_settings.detector.index()]), {}};
         current.settings.model = m_settings.model;
         current.settings.detector = m_settings.detector;
         result.push_back(std::move(current));
     }
-    const std::vector<Contestant> all = peers(m_duration->value());
+    const std::vector<DetectorUnderTest> all = peers(m_duration->value());
     for (std::size_t i = 0; i < all.size(); ++i)
         if (m_detectors[i + 1]->isChecked())
             result.push_back(all[i]);
@@ -234,7 +234,7 @@ InjectionExperiment ExperimentForm::injection(const QString &recording) const
 QString ExperimentForm::name() const
 {
     QStringList detectors;
-    for (const Contestant &one : chosen())
+    for (const DetectorUnderTest &one : chosen())
         detectors << QString::fromStdString(one.name);
     const auto db = [](double value) { return numberText(value, value == std::floor(value) ? 0 : 1); };
     return tr("%1 · %2 … %3 dB · %4 T_FT%5")

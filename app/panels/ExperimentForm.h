@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
-#include "evaluate/InjectionExperiment.h"
-#include "evaluate/LineExperiment.h"
+#include "evaluate/experiments/InjectionExperiment.h"
+#include "evaluate/experiments/LineExperiment.h"
 
 #include <QWidget>
 
@@ -49,7 +49,7 @@ signals:
 
 private:
     void fitDuration();
-    std::vector<Contestant> chosen() const;
+    std::vector<DetectorUnderTest> chosen() const;
     std::vector<double> snrDb() const;
     void showMeaning();
 

@@ -94,11 +94,8 @@ namespace {
             return describeReadyFrames(rows, analysis);
         const Axis &frequency = analysis.grid().axes.back();
         rows.heading(tr("Spectra"));
-        if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get())) {
-            const Spectrogram &spectrogram = frames->spectrogram();
-            const double rate = spectrogram.recording().info().sampleRateHz;
-            rows.row(tr("Window T_FT"), tr("%1 s").arg(spectrogram.windowSamples() / rate, 0, 'g', 4));
-        }
+        if (const Spectrogram *spectrogram = analysis.frames->spectrogram())
+            rows.row(tr("Window T_FT"), tr("%1 s").arg(spectrogram->windowSeconds(), 0, 'g', 4));
         rows.row(tr("Frames"), tr("%1, every %2 s").arg(analysis.time().count).arg(analysis.time().step, 0, 'g', 4));
         rows.row(tr("Bins"), tr("%1, every %2 Hz").arg(frequency.count).arg(frequency.step, 0, 'g', 4));
     }

@@ -1,7 +1,7 @@
 #include "app/panels/LatencyPanel.h"
 
 #include "base/Interval.h"
-#include "evaluate/PingExperiment.h"
+#include "evaluate/experiments/PingExperiment.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/base/labelText.h"
 

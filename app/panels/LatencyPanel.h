@@ -2,7 +2,7 @@
 
 #include "app/document/Document.h"
 #include "app/base/JobRunner.h"
-#include "evaluate/trackScore.h"
+#include "evaluate/comparison/trackScore.h"
 
 #include <QWidget>
 

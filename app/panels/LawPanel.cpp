@@ -1,6 +1,6 @@
 #include "app/panels/LawPanel.h"
 
-#include "app/base/Sight.h"
+#include "app/base/VisibilityWatcher.h"
 #include "base/logmath.h"
 #include "model/transitionLaw.h"
 #include "widgets/plot/LawPlot.h"
@@ -31,7 +31,7 @@ namespace {
 
     const StateSpace &turningSpace(const Analysis &analysis)
     {
-        return analysis.bank.empty() ? analysis.model.space : analysis.bank.back().model.space;
+        return analysis.modelAt(analysis.modelCount() - 1).space;
     }
 
     QString perSecond(double rate, const QString &unit)
@@ -42,7 +42,7 @@ namespace {
 } // namespace
 
 LawPanel::LawPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_plots(new QVBoxLayout), m_sentence(new QLabel), m_sight(new Sight(*this))
+    : QWidget(parent), m_document(document), m_plots(new QVBoxLayout), m_sentence(new QLabel), m_sight(new VisibilityWatcher(*this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -55,7 +55,7 @@ LawPanel::LawPanel(const Document &document, QWidget *parent)
     layout->setSpacing(2);
     layout->addLayout(m_plots, 1);
     layout->addWidget(m_sentence);
-    connect(m_sight, &Sight::came, this, [this] {
+    connect(m_sight, &VisibilityWatcher::came, this, [this] {
         if (!m_isSaid)
             sayWhatItMeans();
     });
@@ -164,7 +164,7 @@ QString LawPanel::snrWords(const Analysis &analysis) const
 {
     if (!std::holds_alternative<SmdSettings>(m_document.settings().detector))
         return tr("Only the sequential Markov detector is damped by it.");
-    if (!analysis.bank.empty())
+    if (analysis.isBank())
         return tr("Each of the models in parallel has a ln K of its own.");
     double kept = 0.0;
     double changing = 0.0;

@@ -12,7 +12,7 @@ class QVBoxLayout;
 namespace faintline {
 
 class LawPlot;
-class Sight;
+class VisibilityWatcher;
 
 /// The laws of the model's changes of rate, one for each that the settings hold, to be dragged; what they mean in words below.
 class LawPanel : public QWidget
@@ -51,7 +51,7 @@ private:
     std::vector<Law> m_laws;
     QVBoxLayout *m_plots;
     QLabel *m_sentence;
-    Sight *m_sight;
+    VisibilityWatcher *m_sight;
     bool m_isSaid = false; ///< what the laws as they are mean
 };
 

@@ -2,7 +2,7 @@
 
 #include "analysis/Calibration.h"
 #include "app/document/Document.h"
-#include "app/base/Sight.h"
+#include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/base/labelText.h"
@@ -83,7 +83,7 @@ namespace {
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     : QWidget(parent), m_document(document), m_sentence(plainLabel()),
-      m_plot(new ChartPlot), m_table(new QTableWidget(0, 4)), m_sight(new Sight(*this))
+      m_plot(new ChartPlot), m_table(new QTableWidget(0, 4)), m_sight(new VisibilityWatcher(*this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setText(tr("Open a recording to measure its noise."));
@@ -111,7 +111,7 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     layout->addWidget(m_sentence);
     layout->addWidget(splitter, 1);
 
-    connect(m_sight, &Sight::came, this, &NoiseFitPanel::measure);
+    connect(m_sight, &VisibilityWatcher::came, this, &NoiseFitPanel::measure);
     connect(&document, &Document::analysisChanged, this, &NoiseFitPanel::measure);
     connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
         m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/base/JobRunner.h"
-#include "evaluate/noiseFit.h"
+#include "evaluate/comparison/noiseFit.h"
 
 #include <QWidget>
 
@@ -16,7 +16,7 @@ namespace faintline {
 struct Analysis;
 class ChartPlot;
 class Document;
-class Sight;
+class VisibilityWatcher;
 
 /// Whether the selection's normalised noise follows the law that thresholds rest on, and what it costs where it does not: quantiles
 /// against quantiles, Kolmogorov and Smirnov's distance, and the false-alarm probability at the threshold, band by band. Measured by
@@ -54,7 +54,7 @@ private:
     QLabel *m_sentence;
     ChartPlot *m_plot;
     QTableWidget *m_table;
-    Sight *m_sight;
+    VisibilityWatcher *m_sight;
     JobRunner m_runner; ///< last, so that its jobs end first
 };
 

@@ -47,11 +47,6 @@ namespace {
             .arg(axes.join(QStringLiteral(" × ")));
     }
 
-    double windowSeconds(const Spectrogram &spectrogram)
-    {
-        return spectrogram.windowSamples() / spectrogram.recording().info().sampleRateHz;
-    }
-
 } // namespace
 
 PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller, QWidget *parent)
@@ -154,10 +149,10 @@ void PipelinePanel::showNotes()
     if (analysis.choice)
         m_choice = analysis.choice;
     showWindows();
-    if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()))
+    if (const Spectrogram *spectrogram = analysis.frames->spectrogram())
         m_form->setNote(QStringLiteral("spectrogram.windowSeconds"),
                         analysis.choice ? QString::fromStdString(windowChoiceWords(*analysis.choice))
-                                        : tr("%1 s").arg(windowSeconds(frames->spectrogram()), 0, 'g', 4));
+                                        : tr("%1 s").arg(spectrogram->windowSeconds(), 0, 'g', 4));
     const ModelSettings &used = analysis.settings.model;
     if (!analysis.choice || used == m_document.analysedSettings().model)
         return;

@@ -2,7 +2,7 @@
 
 #include "analysis/chain.h"
 #include "app/panels/LawPanel.h"
-#include "app/base/Sight.h"
+#include "app/base/VisibilityWatcher.h"
 #include "spectrum/pictureCuts.h"
 #include "widgets/waterfall/ColourBar.h"
 #include "widgets/waterfall/SliceMarks.h"
@@ -63,7 +63,7 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
       m_others(new QComboBox), m_model(new QComboBox), m_sentence(plainLabel()),
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
-      m_law(new LawPanel(document)), m_sight(new Sight(*this)), m_marks(std::make_unique<SliceMarks>(*m_view))
+      m_law(new LawPanel(document)), m_sight(new VisibilityWatcher(*this)), m_marks(std::make_unique<SliceMarks>(*m_view))
 {
     m_others->addItems({tr("others at the cursor"), tr("best of the others")});
     m_others->setToolTip(tr("The axes that are not shown: at the cursor's cell with its best rates, or the maximum over all of them"));
@@ -126,7 +126,7 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     connect(m_columns, &QComboBox::activated, this, [this] { chooseAxes(*m_columns, *m_rows); });
     for (QComboBox *box : {m_others, m_model})
         connect(box, &QComboBox::currentIndexChanged, this, &StateSlicePanel::update);
-    connect(m_sight, &Sight::came, this, &StateSlicePanel::update);
+    connect(m_sight, &VisibilityWatcher::came, this, &StateSlicePanel::update);
     connect(&document, &Document::analysisChanged, this, &StateSlicePanel::fillAxes);
     connect(&m_viewport, &Viewport::cursorChanged, this, &StateSlicePanel::followCursor);
     connect(&viewports, &PingViewports::placeChanged, this, &StateSlicePanel::update);
@@ -210,7 +210,7 @@ void StateSlicePanel::fillAxes()
     const bool hasPings = m_document.hasPings() && analysis && !analysis->model.space.axes().empty();
     for (QWidget *widget : m_choices)
         widget->setVisible(hasPings);
-    m_model->setVisible(hasPings && analysis->bank.size() > 1);
+    m_model->setVisible(hasPings && analysis->modelCount() > 1);
     layOut();
     m_shownAxes = {0, 0};
     m_cut.reset();
@@ -265,7 +265,7 @@ void StateSlicePanel::update()
     if (!m_sight->isOn() || !at || !(isLines || (m_document.hasPings() && m_rows->currentIndex() != m_columns->currentIndex())))
         return;
     const bool isBest = isMaximised();
-    const std::size_t model = analysis->bank.empty() ? 0 : static_cast<std::size_t>(m_model->currentIndex());
+    const std::size_t model = !analysis->isBank() ? 0 : static_cast<std::size_t>(m_model->currentIndex());
     StateSlice slice{1, 0, {}}; // of lines: slope × frequency
     if (!isLines)
         slice = {static_cast<std::size_t>(m_rows->currentIndex()), static_cast<std::size_t>(m_columns->currentIndex()), {}};
@@ -276,7 +276,7 @@ void StateSlicePanel::update()
         const auto states = m_replay->at(analysis->time().nearest(at.seconds), model, context);
         if (states->values.empty())
             throw Error("state space", "this detector has no states; the sequential Markov detector has");
-        const StateSpace &space = analysis->bank.empty() ? analysis->model.space : analysis->bank[model].model.space;
+        const StateSpace &space = analysis->modelAt(model).space;
         Cut cut{slice, readableAxes(*analysis, model), {}, {}, {}, model, states->frame, 0.0};
         std::vector<Index> cell;
         for (std::size_t i = 0; i < at.position.size(); ++i)
@@ -418,8 +418,7 @@ void StateSlicePanel::placeMarks()
         }
     std::vector<Viewport::Point> paths;
     const Grid &grid = m_document.analysis()->grid();
-    const StateSpace &space = m_document.analysis()->bank.empty() ? m_document.analysis()->model.space
-                                                                  : m_document.analysis()->bank[cut.model].model.space;
+    const StateSpace &space = m_document.analysis()->modelAt(cut.model).space;
     for (const Track &track : m_document.shownTracks()) {
         const Index i = cut.frame - (track.points.empty() ? 0 : track.points.front().frame);
         if (track.model != cut.model || i < 0 || i >= std::ssize(track.points))

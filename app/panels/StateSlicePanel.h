@@ -16,7 +16,7 @@ class QTabBar;
 namespace faintline {
 
 class LawPanel;
-class Sight;
+class VisibilityWatcher;
 class SliceMarks;
 class WaterfallView;
 
@@ -103,7 +103,7 @@ private:
     QTabBar *m_tabs;
     QWidget *m_pane; ///< the slice and its colour bar
     LawPanel *m_law;
-    Sight *m_sight;
+    VisibilityWatcher *m_sight;
     QBoxLayout *m_body;
     std::unique_ptr<SliceMarks> m_marks;
     std::optional<Cut> m_cut; ///< the one shown

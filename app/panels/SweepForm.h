@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/SweepExperiment.h"
+#include "evaluate/experiments/SweepExperiment.h"
 
 #include <QString>
 #include <QWidget>

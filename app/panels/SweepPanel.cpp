@@ -58,8 +58,8 @@ void SweepPanel::followDocument()
 {
     double windowSeconds = 0.0;
     if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
-        if (const auto *frames = dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()))
-            windowSeconds = frames->spectrogram().windowSamples() / analysis->recording->info().sampleRateHz;
+        if (const Spectrogram *spectrogram = analysis->frames->spectrogram())
+            windowSeconds = spectrogram->windowSeconds();
     m_form->setCurrent(m_document.usedSettings(), m_document.recording() ? m_document.source().path : QString(), windowSeconds);
 }
 

@@ -2,7 +2,7 @@
 
 #include "app/panels/TrialWindow.h"
 #include "app/base/statisticUnit.h"
-#include "evaluate/campaignCharts.h"
+#include "evaluate/experiments/campaignCharts.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 
@@ -89,7 +89,7 @@ void TrialViewer::show(const ShownTrial &trial)
     const Campaign &campaign = *entry->campaign;
     const auto all = trialsOf(campaign, m_detector, m_snr);
     const TrialOutcome &outcome = all[static_cast<std::size_t>(m_trial)];
-    const Contestant detector = detectorsOf(campaign.experiment)[m_detector];
+    const DetectorUnderTest detector = detectorsOf(campaign.experiment)[m_detector];
     const QString name = labelText(detector.name);
     const QString db = numberText(snrOf(campaign, m_snr), 1);
     const QString unit = statisticUnit(detector.settings);

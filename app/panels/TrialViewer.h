@@ -2,7 +2,7 @@
 
 #include "app/control/Experiments.h"
 #include "app/base/JobRunner.h"
-#include "evaluate/showTrial.h"
+#include "evaluate/experiments/showTrial.h"
 
 #include <QObject>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/document/Document.h"
-#include "evaluate/showTrial.h"
+#include "evaluate/experiments/showTrial.h"
 
 #include <QWidget>
 

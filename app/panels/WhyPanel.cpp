@@ -1,7 +1,7 @@
 #include "app/panels/WhyPanel.h"
 
 #include "app/document/Document.h"
-#include "app/base/Sight.h"
+#include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
 #include "app/base/statisticUnit.h"
 #include "widgets/plot/ChartPlot.h"
@@ -32,7 +32,7 @@ namespace {
 
     const StateSpace &spaceOf(const Explanation &explanation, const Analysis &analysis)
     {
-        return analysis.bank.empty() ? analysis.model.space : analysis.bank[explanation.model].model.space;
+        return analysis.modelAt(explanation.model).space;
     }
 
     Chart chartOf(const Explanation &explanation, const Axis &time)
@@ -138,7 +138,7 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
     words += QObject::tr("Evidence %1, transitions %2, ln K %3").arg(signedText(evidence), signedText(transitions), signedText(lnK));
     if (explanation.offset != 0.0)
         words += QObject::tr(", %1 %2")
-                     .arg(analysis.bank.empty() ? QObject::tr("K of the last frame") : QObject::tr("K and the model's threshold"),
+                     .arg(!analysis.isBank() ? QObject::tr("K of the last frame") : QObject::tr("K and the model's threshold"),
                           signedText(explanation.offset));
     return words + QObject::tr(" make %1.").arg(numberText(explanation.statistic, 2));
 }
@@ -146,7 +146,7 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_plot(new ChartPlot),
       m_ladder(new QTableWidget),
-      m_sight(new Sight(*this)), m_pause(new QTimer(this))
+      m_sight(new VisibilityWatcher(*this)), m_pause(new QTimer(this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -173,7 +173,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_pause->setSingleShot(true);
     m_pause->setInterval(pauseMs);
     connect(m_pause, &QTimer::timeout, this, &WhyPanel::explainCursor);
-    connect(m_sight, &Sight::came, this, &WhyPanel::follow);
+    connect(m_sight, &VisibilityWatcher::came, this, &WhyPanel::follow);
     connect(&document.viewport(), &Viewport::cursorChanged, this, &WhyPanel::follow);
     connect(&viewports, &PingViewports::placeChanged, this, &WhyPanel::follow);
     connect(&document, &Document::analysisChanged, this, &WhyPanel::follow);

@@ -17,7 +17,7 @@ namespace faintline {
 class ChartPlot;
 class Document;
 class PingViewports;
-class Sight;
+class VisibilityWatcher;
 
 /// Why the cell under the cursor, of a line's frame or of a ping, was detected or was not: the best path that ends there, step by step,
 /// with terms that add up to the statistic displayed, how narrowly each step was won, and why the path begins where it does. Goes
@@ -57,7 +57,7 @@ private:
     QLabel *m_sentence;
     ChartPlot *m_plot;
     QTableWidget *m_ladder;
-    Sight *m_sight;
+    VisibilityWatcher *m_sight;
     QTimer *m_pause; ///< a cursor on its way is not asked about
     QElapsedTimer m_began;
     JobRunner m_runner; ///< last, so that its jobs end first

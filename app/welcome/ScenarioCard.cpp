@@ -65,13 +65,12 @@ void ScenarioCard::setResult(const OpenedSource &opened, std::shared_ptr<const A
 {
     m_opened = opened;
     m_analysis = std::move(analysis);
-    const bool hasPings = !m_analysis->inputAlong.empty(); // range against time, the best of all bearings
     const Axis &frequency = m_analysis->grid().axes.front();
-    const auto &input = hasPings ? m_analysis->inputAlong.front() : m_analysis->input;
+    const auto &input = m_analysis->inputAlong.front();
     const Viewport::Box full = WaterfallView::extents(input->time(), frequency);
     m_viewport.setExtents(full.time, full.frequency);
     m_input->setPicture(input, frequency);
-    m_statistic->setPicture(hasPings ? m_analysis->statisticAlong.front() : m_analysis->statistic, frequency);
+    m_statistic->setPicture(m_analysis->statisticAlong.front(), frequency);
     const int count = static_cast<int>(m_analysis->tracks.size());
     m_found->setText(count == 1 ? tr("1 event found") : tr("%1 events found").arg(count));
 }

@@ -395,7 +395,7 @@ void MainWindow::showAnalysis()
     m_threshold->setHistogram(analysis.statisticCounts);
     m_threshold->setUnit(unitOf(analysis.settings.decide.by));
     m_events->setAxes(analysis.grid().axes);
-    m_overview->setPicture(m_document.hasPings() ? analysis.inputAlong[0] : analysis.input, frequency);
+    m_overview->setPicture(analysis.inputAlong.front(), frequency);
     showWorkbench();
 }
 
@@ -504,14 +504,13 @@ void MainWindow::exportReport()
 void MainWindow::injectLine()
 {
     const auto &analysis = m_document.analysis();
-    const auto *frames = analysis ? dynamic_cast<const NormalisedSpectrogram *>(analysis->frames.get()) : nullptr;
-    if (!frames)
+    const Spectrogram *spectrogram = analysis ? analysis->frames->spectrogram() : nullptr;
+    if (!spectrogram)
         return;
     const RecordingInfo &info = m_document.recording()->info();
     const Viewport &viewport = m_document.viewport();
     const Viewport::Point at = viewport.cursor().value_or(Viewport::Point{viewport.full().time.middle(), viewport.full().frequency.middle()});
-    const double window = static_cast<double>(frames->spectrogram().windowSamples()) / info.sampleRateHz;
-    InjectDialog dialog(info, at.seconds, at.hz, window, this);
+    InjectDialog dialog(info, at.seconds, at.hz, spectrogram->windowSeconds(), this);
     if (dialog.exec() == QDialog::Accepted)
         m_controller.inject(dialog.line());
 }

@@ -82,7 +82,7 @@ void MainWindow::connectDocument()
         showHint();
     });
     connect(&m_document, &Document::picturesGrew, this, [this](const PicturesSoFar &pictures) {
-        m_overview->setPicture(pictures.glance ? pictures.glance : pictures.input, pictures.frequency);
+        m_overview->setPicture(pictures.quickLook ? pictures.quickLook : pictures.input, pictures.frequency);
         showWorkbench();
     });
     connect(&m_document, &Document::analysisChanged, this, &MainWindow::showAnalysis);

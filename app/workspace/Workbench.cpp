@@ -217,12 +217,12 @@ void Workbench::showAnalysis()
 void Workbench::showPictures(const PicturesSoFar &pictures)
 {
     followExtents(pictures.time, pictures.frequency);
-    // The glance has all of the recording, what has been gone through has all of the detail.
+    // The quick look has all of the recording, what has been gone through has all of the detail.
     const Axis &time = pictures.time;
     const double reached =
         pictures.input ? time.value(static_cast<double>(pictures.input->frameCount()) - 0.5) : -std::numeric_limits<double>::infinity();
-    const bool isReached = !pictures.glance || m_document.viewport().visible().time.high <= reached;
-    m_input->setPicture(isReached ? pictures.input : pictures.glance, pictures.frequency);
+    const bool isReached = !pictures.quickLook || m_document.viewport().visible().time.high <= reached;
+    m_input->setPicture(isReached ? pictures.input : pictures.quickLook, pictures.frequency);
     m_output->setPicture(pictures.statistic, pictures.frequency);
     if (!pictures.statistic)
         m_output->setEmptySentence(tr("The detector listens to the noise first, then its statistic appears here as it goes."));

@@ -79,7 +79,7 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
 /// The model on a piece of its grid large enough to learn its answer to noise: where it has more than 20 000 cells, the longest
 /// bounded axis is cut to about 5000 cells in all and made cyclic, so that no path runs off the piece. A sonar's bounded range
 /// axis loses such paths, hence its false alarms come 13 to 40 % short of what is found here.
-MarkovModel handyPiece(const MarkovModel &model);
+MarkovModel calibrationSubgrid(const MarkovModel &model);
 
 /// The same for ready-made frames: independent exponential cells on a grid of the model's shape, or of its handy piece's.
 std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &model, const AnalysisSettings &settings,

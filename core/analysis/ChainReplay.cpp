@@ -14,7 +14,7 @@ namespace {
     Index intervalOf(const Analysis &analysis, std::size_t byteBudget)
     {
         const auto most = static_cast<Index>(std::max<std::size_t>(1, byteBudget / bytesOfStates(analysis)));
-        const Index stretch = analysis.checkpoints.empty() ? analysis.time().count : analysis.checkpoints.front().frame;
+        const Index stretch = analysis.checkpoints.isEmpty() ? analysis.time().count : analysis.checkpoints.interval();
         return std::max(shortestInterval, (stretch + most - 1) / most);
     }
 
@@ -28,8 +28,7 @@ ChainReplay::ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t b
 
 Index ChainReplay::beginningOf(Index frame) const
 {
-    const ChainCheckpoint *checkpoint = checkpointBefore(*m_analysis, frame);
-    return checkpoint ? checkpoint->frame : 0;
+    return m_analysis->checkpoints.latest(frame);
 }
 
 void ChainReplay::seek(Index frame)
@@ -42,7 +41,7 @@ void ChainReplay::seek(Index frame)
     if (nearest == 0)
         m_chain = makeScoringChain(*m_analysis);
     else
-        m_chain->resume(own == nearest ? *m_checkpoints.at(own) : *checkpointBefore(*m_analysis, frame)->state);
+        m_chain->setState(own == nearest ? *m_checkpoints.at(own) : *m_analysis->checkpoints.at(beginning));
     m_next = nearest;
 }
 
@@ -56,8 +55,8 @@ std::span<const float> ChainReplay::step()
         m_beginning = beginning;
     }
     if (m_checkpoints.lacks(m_next) && m_next != m_beginning)
-        if (auto checkpoint = m_chain->snapshot())
-            m_checkpoints.keep(m_next, checkpoint, DetectionChain::bytesOf(*checkpoint));
+        if (auto state = m_chain->state())
+            m_checkpoints.keep(m_next, state, state->bytes());
     return m_statistic;
 }
 

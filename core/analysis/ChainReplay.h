@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analysis/Analysis.h"
 #include "base/Checkpoints.h"
 #include "track/DetectionChain.h"
 
@@ -43,7 +43,7 @@ private:
     std::unique_ptr<DetectionChain> m_chain;
     Index m_next = 0;
     Index m_beginning = 0; ///< of the stretch that the checkpoints belong to
-    Checkpoints<DetectionChain::Snapshot> m_checkpoints; ///< its own
+    Checkpoints<ChainState> m_checkpoints; ///< its own
     std::vector<float> m_y;
     std::vector<float> m_statistic;
 };

@@ -1,20 +1,9 @@
 #include "analysis/StateReplay.h"
 
-#include "detect/Smd.h"
-
 #include <algorithm>
 #include <limits>
 
 namespace faintline {
-
-namespace {
-
-    const MarkovModel &modelOf(const Analysis &analysis, std::size_t model)
-    {
-        return analysis.bank.empty() ? analysis.model : analysis.bank[model].model;
-    }
-
-} // namespace
 
 StateReplay::StateReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
     : m_replay(std::move(analysis), byteBudget / 2)
@@ -50,13 +39,12 @@ StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Ind
     StateScores result;
     result.frame = frame;
     result.model = model;
-    const Detector &detector = chain.detector().member(model);
-    result.values.assign(detector.scores().begin(), detector.scores().end());
-    const auto *smd = dynamic_cast<const Smd *>(&detector);
-    if (const auto offset = static_cast<float>(smd ? smd->offset() : 0.0); offset != 0.0f)
+    const std::span<const float> scores = chain.detector().scores(model);
+    result.values.assign(scores.begin(), scores.end());
+    if (const auto offset = static_cast<float>(chain.detector().offset(model)); offset != 0.0f)
         for (float &value : result.values)
             value += offset;
-    if (const auto shift = static_cast<float>(analysis.bank.empty() ? 0.0 : analysis.bank[model].offset); shift != 0.0f)
+    if (const auto shift = static_cast<float>(analysis.offsetAt(model)); shift != 0.0f)
         for (float &value : result.values)
             value -= shift;
     for (const HmmTracker &tracker : chain.trackers())
@@ -67,15 +55,13 @@ StateScores scoresNow(const Analysis &analysis, const DetectionChain &chain, Ind
 
 float shownScore(const Analysis &analysis, const DetectionChain &chain, std::size_t model, float score)
 {
-    const auto *smd = dynamic_cast<const Smd *>(&chain.detector().member(model));
-    const auto offset = static_cast<float>(smd ? smd->offset() : 0.0);
-    return score + offset - static_cast<float>(analysis.bank.empty() ? 0.0 : analysis.bank[model].offset);
+    return score + static_cast<float>(chain.detector().offset(model)) - static_cast<float>(analysis.offsetAt(model));
 }
 
 std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model)
 {
     std::vector<Axis> axes = analysis.grid().axes;
-    const std::vector<KinematicAxis> &kinematic = modelOf(analysis, model).space.axes();
+    const std::vector<KinematicAxis> &kinematic = analysis.modelAt(model).space.axes();
     for (std::size_t i = 0; i < kinematic.size(); ++i) {
         const Axis &axis = analysis.grid().axes[i];
         const double rate = axis.step / analysis.time().step / kinematic[i].ratesPerCell;

@@ -54,17 +54,6 @@ namespace {
 
 } // namespace
 
-CalibrationEffort effortOf(CalibrationDepth depth)
-{
-    if (depth == CalibrationDepth::Refined)
-        return {8e7};
-    SplittingSettings fewer;
-    fewer.entries = 1000;
-    fewer.pilots = 60;
-    fewer.leastLnRate = -21.0;
-    return {1.6e7, fewer, 16, true};
-}
-
 NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount)
 {
     struct Made {
@@ -84,8 +73,8 @@ NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount)
 std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
                                                const AnalysisSettings &settings, const CalibrationEffort &effort, const RunContext &context)
 {
-    // The analysis whose chain will be asked, with thresholds to be found.
-    Analysis trial;
+    // Whose chain will be asked, with thresholds to be found.
+    AnalysisPlan trial;
     trial.settings = settings;
     trial.model = model;
     auto result = std::make_shared<Calibration>();
@@ -120,13 +109,13 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int 
     inRounds(
         segmentCount, context.part(0.4, 1.0),
         [&](int number) {
-            Analysis own = trial;
+            AnalysisPlan own = trial;
             own.frames = segment(number);
             std::vector<std::unique_ptr<DetectionChain>> chains;
             for (const double threshold : thresholds) {
                 own.threshold = threshold;
                 const bool isLeftOut = !rare.isEmpty() && chains.empty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
-                chains.push_back(isLeftOut ? nullptr : makeChain(own, makeDetector(own), false));
+                chains.push_back(isLeftOut ? nullptr : makeChain(own, makePathDetector(own), false));
             }
             return countEvents(*own.frames, chains);
         },

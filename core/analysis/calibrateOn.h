@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/Calibration.h"
+#include "analysis/CalibrationEffort.h"
 #include "base/RunContext.h"
 #include "model/MarkovModel.h"
 #include "spectrum/NormalisedFrames.h"
@@ -9,16 +10,6 @@
 #include <memory>
 
 namespace faintline {
-
-/// What a calibration may cost.
-struct CalibrationEffort {
-    double cellFrames = 0.0; ///< noise in which events are counted
-    SplittingSettings splitting{};
-    int pieceWindowSamples = 32; ///< of the band that splitting goes on in
-    bool isFirstEstimate = false;
-};
-
-CalibrationEffort effortOf(CalibrationDepth depth);
 
 /// Noise to calibrate on, in segments that can be made independently of each other.
 using NoiseSegment = std::function<NormalisedFramesPointer(int segment)>;

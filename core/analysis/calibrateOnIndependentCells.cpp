@@ -33,7 +33,7 @@ namespace {
 
 } // namespace
 
-MarkovModel handyPiece(const MarkovModel &model)
+MarkovModel calibrationSubgrid(const MarkovModel &model)
 {
     constexpr Index many = 20000;
     constexpr Index handy = 5000;
@@ -55,7 +55,7 @@ MarkovModel handyPiece(const MarkovModel &model)
 std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &whole, const AnalysisSettings &settings,
                                                                const RunContext &context, double cellFrames)
 {
-    const MarkovModel model = handyPiece(whole);
+    const MarkovModel model = calibrationSubgrid(whole);
     Grid grid;
     for (const KinematicAxis &axis : model.space.axes())
         grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});

@@ -3,7 +3,7 @@
 #include "base/logmath.h"
 #include "detect/GuidedDetector.h"
 #include "detect/ModelBank.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "spectrum/Spectrogram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace {
     }
 
     /// Bins over which a line of power y leaks more than half the noise into its neighbours, by the window's side lobes.
-    std::function<Index(double)> spillOf(const Spectrogram &spectrogram)
+    std::function<Index(double)> leakageExtentOf(const Spectrogram &spectrogram)
     {
         constexpr int largestDb = 140;
         std::vector<Index> bins;
@@ -44,7 +44,7 @@ namespace {
 
     /// A real recording's spectrum overlaps with its mirror image at 0 Hz, where there is often a constant as well, and at half
     /// the rate: y has other statistics there (χ² of one degree of freedom) and a line none to itself. Not so in a band that was asked for.
-    std::vector<std::vector<Index>> blindPlaces(const Spectrogram &spectrogram, Index inhibitBins)
+    std::vector<std::vector<Index>> excludedPlaces(const Spectrogram &spectrogram, Index inhibitBins)
     {
         const SelectionSettings &selection = spectrogram.selection();
         const Index bins = spectrogram.frequency().count;
@@ -53,50 +53,49 @@ namespace {
         return {{0}, {bins - 1}};
     }
 
-    FrameGeometry geometryOf(const Analysis &analysis)
+    FrameGeometry geometryOf(const AnalysisPlan &plan)
     {
-        const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr;
-        return isSpectral ? frameGeometry(analysis.settings.spectrogram) : FrameGeometry{};
+        return plan.frames->spectrogram() ? frameGeometry(plan.settings.spectrogram) : FrameGeometry{};
     }
 
     /// Where an excursion ends. The score of paths, in nats, is forgotten down to 8 nat below the threshold: what lies so near has branched
     /// off the path that crossed it, and would cross in its turn. Of any other statistic: at the level that noise exceeds in one cell of
     /// a thousand, in its own unit.
-    double shoulderOf(const Analysis &analysis)
+    double shoulderOf(const AnalysisPlan &plan)
     {
-        const double threshold = analysis.threshold;
-        if (isScoreOfPaths(analysis.settings.detector))
+        const double threshold = plan.threshold;
+        if (isScoreOfPaths(plan.settings.detector))
             return threshold - std::min(shoulderNats, 0.5 * std::abs(threshold));
-        const auto decision = static_cast<double>(framesPerDecision(analysis.settings.detector, geometryOf(analysis)));
-        return std::min(threshold, analysis.calibration->levelExceededBy(noiseOnShoulder / decision));
+        const auto decision = static_cast<double>(framesPerDecision(plan.settings.detector, geometryOf(plan)));
+        return std::min(threshold, plan.calibration->levelExceededBy(noiseOnShoulder / decision));
     }
 
-    ChainSettings chainSettings(const Analysis &analysis)
+    ChainSettings chainSettings(const AnalysisPlan &plan)
     {
-        const AnalysisSettings &settings = analysis.settings;
+        const AnalysisSettings &settings = plan.settings;
         ChainSettings chain;
-        chain.threshold = analysis.threshold;
-        chain.shoulder = shoulderOf(analysis);
+        chain.threshold = plan.threshold;
+        chain.shoulder = shoulderOf(plan);
         if (!isScoreOfPaths(settings.detector))
             chain.trackThreshold = settings.track.endNats;
-        chain.linkCells = perAxis(settings.decide.linkCells, analysis.grid());
+        chain.linkCells = perAxis(settings.decide.linkCells, plan.grid());
         chain.track = settings.track;
         double binsPerCell = 1.0;
         const auto inBins = [&](std::vector<double> cells) {
             for (double &value : cells)
                 value = std::ceil(value * binsPerCell);
-            return perAxis(cells, analysis.grid());
+            return perAxis(cells, plan.grid());
         };
-        if (const auto *spectral = dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get())) {
-            binsPerCell = spectral->spectrogram().binsPerCell();
-            chain.spill = spillOf(spectral->spectrogram());
+        if (const Spectrogram *spectrogram = plan.frames->spectrogram()) {
+            binsPerCell = spectrogram->binsPerCell();
+            chain.leakageExtent = leakageExtentOf(*spectrogram);
             chain.skirtStep = static_cast<Index>(std::ceil(binsPerCell));
-            chain.blind = blindPlaces(spectral->spectrogram(), inBins(settings.decide.inhibitCells).back());
+            chain.excluded = excludedPlaces(*spectrogram, inBins(settings.decide.inhibitCells).back());
         }
         chain.inhibitCells = inBins(settings.decide.inhibitCells);
         if (!settings.decide.forgetCells.empty())
             chain.forgetCells = inBins(settings.decide.forgetCells);
-        if (analysis.model.space.stateCount() > manyStates)
+        if (plan.model.space.stateCount() > manyStates)
             chain.onsetFrames = onsetFramesOfMany;
         chain.resets = settings.decide.resets;
         chain.inhibits = settings.decide.inhibits;
@@ -105,73 +104,77 @@ namespace {
 
 } // namespace
 
-Index stateCount(const Analysis &analysis)
+Index stateCount(const AnalysisPlan &plan)
 {
-    Index states = analysis.bank.empty() ? analysis.model.space.stateCount() : 0;
-    for (const BankMember &member : analysis.bank)
-        states += member.model.space.stateCount();
+    Index states = 0;
+    for (std::size_t i = 0; i < plan.modelCount(); ++i)
+        states += plan.modelAt(i).space.stateCount();
     return states;
 }
 
-std::size_t bytesOfStates(const Analysis &analysis)
+std::size_t bytesOfStates(const AnalysisPlan &plan)
 {
-    return sizeof(float) * static_cast<std::size_t>(stateCount(analysis));
+    return sizeof(float) * static_cast<std::size_t>(stateCount(plan));
 }
 
-std::unique_ptr<Detector> makeDetector(const Analysis &analysis)
-{
-    const AnalysisSettings &settings = analysis.settings;
-    const auto *smd = std::get_if<SmdSettings>(&settings.detector);
-    if (!analysis.bank.empty()) {
+namespace {
+
+    /// Of the sequential Markov detector's settings.
+    std::unique_ptr<PathDetector> makeSmd(const AnalysisPlan &plan, const SmdSettings &smd)
+    {
+        if (!plan.isBank())
+            return std::make_unique<Smd>(plan.model, resetRule(smd, plan.calibration->lnK));
         std::vector<ModelBank::Member> members;
-        for (const BankMember &member : analysis.bank)
-            members.push_back({member.model, resetRule(*smd, member.calibration->lnK), member.offset});
+        for (const BankMember &member : plan.bank)
+            members.push_back({member.model, resetRule(smd, member.calibration->lnK), member.offset});
         return std::make_unique<ModelBank>(members);
     }
-    return makeDetector(settings.detector, analysis.model, analysis.grid(), geometryOf(analysis),
-                        smd ? resetRule(*smd, analysis.calibration->lnK) : ResetRule{});
+
+} // namespace
+
+std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan)
+{
+    if (const auto *smd = std::get_if<SmdSettings>(&plan.settings.detector))
+        return makeSmd(plan, *smd);
+    return makeDetector(plan.settings.detector, plan.model, plan.grid(), geometryOf(plan), {});
 }
 
-std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis, std::unique_ptr<Detector> detector, bool looksBack)
+std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan)
 {
-    if (!detector->hasPaths())
-        detector = std::make_unique<GuidedDetector>(std::move(detector), analysis.model, ResetRule{ResetLaw::Fixed, analysis.calibration->lnK});
+    if (const auto *smd = std::get_if<SmdSettings>(&plan.settings.detector))
+        return makeSmd(plan, *smd);
+    return std::make_unique<GuidedDetector>(makeDetector(plan), plan.model, ResetRule{ResetLaw::Fixed, plan.calibration->lnK});
+}
+
+std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_ptr<PathDetector> detector, bool looksBack)
+{
     std::vector<MarkovModel> models;
-    for (const BankMember &member : analysis.bank)
-        models.push_back(member.model);
-    if (models.empty())
-        models.push_back(analysis.model);
-    ChainSettings settings = chainSettings(analysis);
+    for (std::size_t i = 0; i < plan.modelCount(); ++i)
+        models.push_back(plan.modelAt(i));
+    ChainSettings settings = chainSettings(plan);
     if (!looksBack)
         settings.onsetFrames = 1;
-    return std::make_unique<DetectionChain>(std::move(models), analysis.grid(), std::move(detector), std::move(settings));
+    return std::make_unique<DetectionChain>(std::move(models), plan.grid(), std::move(detector), std::move(settings));
 }
 
-std::unique_ptr<DetectionChain> makeChain(const Analysis &analysis)
+std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan)
 {
-    return makeChain(analysis, makeDetector(analysis));
+    return makeChain(plan, makePathDetector(plan));
 }
 
-std::unique_ptr<DetectionChain> makeScoringChain(const Analysis &analysis)
+std::unique_ptr<DetectionChain> makeScoringChain(const AnalysisPlan &plan)
 {
     constexpr bool looksBack = false;
-    return makeChain(analysis, makeDetector(analysis), looksBack);
+    return makeChain(plan, makePathDetector(plan), looksBack);
 }
 
-std::vector<CellBox> blindBoxes(const Analysis &analysis)
+std::vector<CellBox> excludedBoxes(const AnalysisPlan &plan)
 {
-    const ChainSettings settings = chainSettings(analysis);
+    const ChainSettings settings = chainSettings(plan);
     std::vector<CellBox> boxes;
-    for (const std::vector<Index> &place : settings.blind)
+    for (const std::vector<Index> &place : settings.excluded)
         boxes.push_back({place, settings.inhibitCells});
     return boxes;
-}
-
-const ChainCheckpoint *checkpointBefore(const Analysis &analysis, Index frame)
-{
-    const auto after = std::upper_bound(analysis.checkpoints.begin(), analysis.checkpoints.end(), frame,
-                                        [](Index wanted, const ChainCheckpoint &checkpoint) { return wanted < checkpoint.frame; });
-    return after == analysis.checkpoints.begin() ? nullptr : &*std::prev(after);
 }
 
 } // namespace faintline

@@ -30,7 +30,7 @@ namespace {
 
     TracksOnAxes tracksOf(const Analysis &analysis)
     {
-        const Spectrogram &spectrogram = dynamic_cast<const NormalisedSpectrogram &>(*analysis.frames).spectrogram();
+        const Spectrogram &spectrogram = *analysis.frames->spectrogram();
         return {analysis.tracks, analysis.time(), analysis.grid().axes.back(),
                 spectrogram.recording().info().sampleRateHz / spectrogram.windowSamples()};
     }

@@ -77,9 +77,9 @@ std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, co
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::ScoreNats, byteBudget));
     const std::unique_ptr<DetectionChain> chain = makeScoringChain(analysis);
     FrameStretch way{0, stretch.end};
-    if (const ChainCheckpoint *checkpoint = checkpointBefore(analysis, stretch.begin)) {
-        chain->resume(*checkpoint->state);
-        way.begin = checkpoint->frame;
+    if (const Index latest = analysis.checkpoints.latest(stretch.begin); latest > 0) {
+        chain->setState(*analysis.checkpoints.at(latest));
+        way.begin = latest;
     }
 
     const auto cells = static_cast<std::size_t>(analysis.grid().size());

@@ -4,7 +4,6 @@
 #include "analysis/chain.h"
 #include "base/Error.h"
 #include "base/logmath.h"
-#include "detect/Smd.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +15,10 @@ namespace {
     /// Puts a chain at the run's latest checkpoint before that frame, and answers which one it takes next.
     Index resumeBefore(DetectionChain &chain, const Analysis &analysis, Index frame)
     {
-        const ChainCheckpoint *checkpoint = checkpointBefore(analysis, frame);
-        if (!checkpoint)
-            return 0;
-        chain.resume(*checkpoint->state);
-        return checkpoint->frame;
+        const Index latest = analysis.checkpoints.latest(frame);
+        if (latest > 0)
+            chain.setState(*analysis.checkpoints.at(latest));
+        return latest;
     }
 
     /// The chain as it stands after the given frame, with all of its past that it would remember there, and of trackers what they know since
@@ -41,16 +39,10 @@ namespace {
         return chain;
     }
 
-    const MarkovModel &modelOf(const Analysis &analysis, std::size_t model)
-    {
-        return analysis.bank.empty() ? analysis.model : analysis.bank[model].model;
-    }
-
     /// What a model's scores are raised by in the chain's newest frame to be the statistic.
     double offsetOf(const Analysis &analysis, const DetectionChain &chain, std::size_t model)
     {
-        const auto *smd = dynamic_cast<const Smd *>(&chain.detector().member(model));
-        return (smd ? smd->offset() : 0.0) - (analysis.bank.empty() ? 0.0 : analysis.bank[model].offset);
+        return chain.detector().offset(model) - analysis.offsetAt(model);
     }
 
     /// The best path into a cell in the newest frame, by the tracker that follows the cell or by the detector.
@@ -64,8 +56,8 @@ namespace {
     PathInto pathInto(const Analysis &analysis, const DetectionChain &chain, Index cell)
     {
         const std::size_t model = chain.detector().winnerAt(cell);
-        const StateSpace &space = modelOf(analysis, model).space;
-        const std::span<const float> scores = chain.detector().member(model).scores();
+        const StateSpace &space = analysis.modelAt(model).space;
+        const std::span<const float> scores = chain.detector().scores(model);
         Index state = cell;
         for (Index other = cell; other < space.stateCount(); other += space.cellCount())
             if (scores[static_cast<std::size_t>(other)] > scores[static_cast<std::size_t>(state)])
@@ -90,8 +82,8 @@ namespace {
     {
     public:
         Competitors(const Analysis &analysis, std::size_t model)
-            : m_analysis(analysis), m_model(modelOf(analysis, model)), m_chain(makeScoringChain(analysis)),
-              m_detector(m_chain->detector().member(model)), m_y(static_cast<std::size_t>(analysis.grid().size())), m_statistic(m_y.size())
+            : m_analysis(analysis), m_model(analysis.modelAt(model)), m_chain(makeScoringChain(analysis)), m_number(model),
+              m_y(static_cast<std::size_t>(analysis.grid().size())), m_statistic(m_y.size())
         {
         }
 
@@ -117,11 +109,11 @@ namespace {
         Ways into(Index state, Index frame) const
         {
             Ways ways;
-            const auto *smd = dynamic_cast<const Smd *>(&m_detector);
-            const double background = std::max(0.0, smd ? -smd->offset() : 0.0);
+            const PathDetector &detector = m_chain->detector();
+            const double background = std::max(0.0, -detector.offset(m_number));
             for (const StateSpace::Predecessor &p : m_model.space.predecessors(state, frame)) {
                 const double ln = p.lnProbability * m_model.transitionScale;
-                const auto score = static_cast<double>(m_detector.scores()[static_cast<std::size_t>(p.state)]);
+                const auto score = static_cast<double>(detector.scores(m_number)[static_cast<std::size_t>(p.state)]);
                 const std::optional<int> track = forgottenFor(m_model.space.cellOf(p.state));
                 const double left = (track ? std::min(score, background) : score) + ln;
                 ways.second = std::max(ways.second, std::min(left, ways.best));
@@ -135,7 +127,7 @@ namespace {
         }
 
         /// Of the last step.
-        double lnK() const { return m_detector.regulation().stepLnK; }
+        double lnK() const { return m_chain->detector().regulation(m_number).stepLnK; }
 
     private:
         std::optional<int> forgottenFor(Index cell) const
@@ -152,7 +144,7 @@ namespace {
         const Analysis &m_analysis;
         const MarkovModel &m_model;
         std::unique_ptr<DetectionChain> m_chain;
-        const Detector &m_detector;
+        std::size_t m_number; ///< of the model
         std::vector<float> m_y;
         std::vector<float> m_statistic;
         Index m_next = 0;
@@ -183,7 +175,7 @@ namespace {
     /// The second best state of the cell.
     void findOther(Explanation &explanation, const Analysis &analysis, const DetectionChain &chain, Index frame, Index cell)
     {
-        const StateSpace &space = modelOf(analysis, explanation.model).space;
+        const StateSpace &space = analysis.modelAt(explanation.model).space;
         const StateScores scores = scoresNow(analysis, chain, frame, explanation.model);
         const Index own = explanation.steps.back().state;
         double best = minusInfinity;

@@ -41,7 +41,7 @@ RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, c
     if (model.space.axes().size() > 1 || !model.space.axes().front().transition.empty())
         return {};
     KinematicAxis axis = model.space.axes().front();
-    const bool isSpectral = dynamic_cast<const NormalisedSpectrogram *>(&frames) != nullptr;
+    const bool isSpectral = frames.spectrogram() != nullptr;
     const Index independentCells = std::max<Index>(pieceCells, 8 * axis.largestDisplacement() + 1);
     const std::function<std::unique_ptr<NoiseStream>()> makeNoise = [&] {
         return isSpectral ? spectralNoise(settings.spectrogram, effort.pieceWindowSamples)

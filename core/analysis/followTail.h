@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
-#include "analysis/calibrateOn.h"
+#include "analysis/CalibrationEffort.h"
 #include "analysis/rareRates.h"
 #include "base/RunContext.h"
 #include "spectrum/NormalisedFrames.h"

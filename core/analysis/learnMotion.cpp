@@ -23,7 +23,7 @@ namespace {
 
     const Spectrogram &spectrogramOf(const Analysis &analysis)
     {
-        return dynamic_cast<const NormalisedSpectrogram &>(*analysis.frames).spectrogram();
+        return *analysis.frames->spectrogram();
     }
 
     std::vector<const Track *> sureTracks(const Analysis &analysis)
@@ -97,7 +97,7 @@ namespace {
 bool canLearnMotion(const Analysis &analysis)
 {
     return analysis.grid().axes.size() == 1 && analysis.settings.model.motion == Motion::Slopes && analysis.settings.model.slopeChange.size() > 1
-        && dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr && !sureTracks(analysis).empty();
+        && analysis.frames->spectrogram() && !sureTracks(analysis).empty();
 }
 
 LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
@@ -133,7 +133,7 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
 AnalysisSettings withLearnedMotion(const Analysis &analysis, const LearnedMotion &motion)
 {
     AnalysisSettings settings = analysis.settings;
-    settings.spectrogram.windowSeconds = spectrogramOf(analysis).windowSamples() / analysis.recording->info().sampleRateHz;
+    settings.spectrogram.windowSeconds = spectrogramOf(analysis).windowSeconds();
     settings.model.slopeChange = motion.learned;
     return settings;
 }

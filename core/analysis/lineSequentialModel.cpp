@@ -17,8 +17,8 @@ SequentialModel lineSequentialModel(const ModelSettings &settings, const Grid &g
 
 Index framesApart(const NormalisedFrames &frames)
 {
-    const auto *spectrogram = dynamic_cast<const NormalisedSpectrogram *>(&frames);
-    return spectrogram ? spectrogram->spectrogram().settings().stepsPerWindow : 1;
+    const Spectrogram *spectrogram = frames.spectrogram();
+    return spectrogram ? spectrogram->settings().stepsPerWindow : 1;
 }
 
 void checkLikelihoodRatio(const Likelihood &likelihood, const std::string &where)

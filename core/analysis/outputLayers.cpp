@@ -20,22 +20,12 @@ namespace {
         return analysis.grid().axes[axis].step / analysis.time().step;
     }
 
-    const MarkovModel &modelOf(const Analysis &analysis, std::size_t model)
-    {
-        return analysis.bank.empty() ? analysis.model : analysis.bank[model].model;
-    }
-
-    std::size_t modelCount(const Analysis &analysis)
-    {
-        return std::max<std::size_t>(1, analysis.bank.size());
-    }
-
     /// In the axis's unit a second, by model and plane; along an axis that is not there 0.
     std::vector<std::vector<float>> ratesOfPlanes(const Analysis &analysis, std::size_t axis)
     {
-        std::vector<std::vector<float>> rates(modelCount(analysis));
+        std::vector<std::vector<float>> rates(analysis.modelCount());
         for (std::size_t model = 0; model < rates.size(); ++model) {
-            const StateSpace &space = modelOf(analysis, model).space;
+            const StateSpace &space = analysis.modelAt(model).space;
             for (Index plane = 0; plane < space.planeCount(); ++plane)
                 rates[model].push_back(
                     axis < space.axes().size() ? static_cast<float>(space.ratesOfPlane(plane)[axis] * rateUnit(analysis, axis)) : 0.0f);
@@ -48,8 +38,8 @@ namespace {
 LayerReplay::LayerReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
     : m_replay(std::move(analysis), byteBudget / 2), m_checkpoints(m_replay.interval(), byteBudget / 2)
 {
-    for (std::size_t model = 0; model < modelCount(*this->analysis()); ++model) {
-        m_models.push_back(modelOf(*this->analysis(), model));
+    for (std::size_t model = 0; model < this->analysis()->modelCount(); ++model) {
+        m_models.push_back(this->analysis()->modelAt(model));
         m_ages.states.emplace_back(static_cast<std::size_t>(m_models.back().space.stateCount()));
     }
     m_before.resize(m_models.size());
@@ -117,10 +107,9 @@ void LayerReplay::forgetAges()
 /// A model's scores as the next frame's step will find them, what it is about to forget forgotten.
 std::vector<float> LayerReplay::scoresBefore(std::size_t model) const
 {
-    const Detector &detector = m_replay.chain().detector().member(model);
-    std::vector<float> scores(detector.scores().begin(), detector.scores().end());
-    const auto *smd = dynamic_cast<const Smd *>(&detector);
-    const auto background = std::max(0.0f, static_cast<float>(smd ? -smd->offset() : 0.0));
+    const PathDetector &detector = m_replay.chain().detector();
+    std::vector<float> scores(detector.scores(model).begin(), detector.scores(model).end());
+    const auto background = std::max(0.0f, static_cast<float>(-detector.offset(model)));
     const Index cells = analysis()->grid().size();
     for (const CellBox &box : m_replay.chain().forgotten())
         box.forEachCell(analysis()->grid(), [&](Index cell) {
@@ -227,7 +216,7 @@ void LayerReplay::followPaths(std::size_t model, Index frame)
         move(m_models[model], axis, frame, m_paths, m_moved);
         std::swap(m_paths, m_moved);
     }
-    const auto lnK = static_cast<float>(m_replay.chain().detector().member(model).regulation().stepLnK);
+    const auto lnK = static_cast<float>(m_replay.chain().detector().regulation(model).stepLnK);
     for (std::size_t state = 0; state < m_paths.ages.size(); ++state)
         m_paths.ages[state] = m_paths.scores[state] + lnK > 0.0f ? m_paths.ages[state] + 1 : 0;
     std::swap(m_paths.ages, m_ages.states[model]);
@@ -263,7 +252,7 @@ void LayerReplay::project(std::span<const float> statistic)
     std::fill(m_layers.resetFraction.begin(), m_layers.resetFraction.end(), 0.0f);
     std::vector<float> best(cells, unreached);
     for (std::size_t model = 0; model < m_models.size(); ++model) {
-        const std::span<const float> scores = chain.detector().member(model).scores();
+        const std::span<const float> scores = chain.detector().scores(model);
         for (std::size_t plane = 0, state = 0; state < scores.size(); ++plane)
             for (std::size_t cell = 0; cell < cells; ++cell, ++state) {
                 if (m_layers.model[cell] != model)
@@ -421,8 +410,8 @@ LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &
 double largestRate(const Analysis &analysis, std::size_t axis)
 {
     double cellsPerFrame = 0.0;
-    for (std::size_t model = 0; model < modelCount(analysis); ++model) {
-        const KinematicAxis &own = modelOf(analysis, model).space.axes()[axis];
+    for (std::size_t model = 0; model < analysis.modelCount(); ++model) {
+        const KinematicAxis &own = analysis.modelAt(model).space.axes()[axis];
         cellsPerFrame = std::max({cellsPerFrame, std::abs(own.rate(0)), std::abs(own.rate(own.rateCount - 1))});
     }
     return (cellsPerFrame > 0.0 ? cellsPerFrame : 1.0) * rateUnit(analysis, axis);
@@ -431,7 +420,7 @@ double largestRate(const Analysis &analysis, std::size_t axis)
 CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell)
 {
     const auto i = static_cast<std::size_t>(cell);
-    const std::vector<double> rates = modelOf(analysis, layers.model[i]).space.ratesOfPlane(layers.plane[i]);
+    const std::vector<double> rates = analysis.modelAt(layers.model[i]).space.ratesOfPlane(layers.plane[i]);
     return {rates[0] * rateUnit(analysis, 0), rates.size() > 1 ? rates[1] * rateUnit(analysis, 1) : 0.0,
             static_cast<double>(layers.age[i]) * analysis.time().step, layers.isInhibited[i] != 0,
             static_cast<double>(layers.statistic[i])};

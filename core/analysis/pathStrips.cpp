@@ -31,7 +31,7 @@ void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const
     const Index cells = frames.grid().size();
     const Index frameCount = frames.time().count;
     const Index block = std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / cells);
-    const std::vector<CellBox> blind = blindBoxes(analysis);
+    const std::vector<CellBox> excluded = excludedBoxes(analysis);
     std::vector<PathStrip *> open;
     std::size_t next = 0;
     std::vector<float> values;
@@ -50,7 +50,7 @@ void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const
         frames.read(first, count, values);
         for (Index i = 0; i < count; ++i) {
             const std::span<float> y = std::span(values).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>(cells));
-            for (const CellBox &box : blind)
+            for (const CellBox &box : excluded)
                 box.forEachCell(frames.grid(), [&](Index cell) { y[static_cast<std::size_t>(cell)] = 0.0f; });
             for (PathStrip *strip : open)
                 copyFrame(y, first + i - strip->firstFrame, *strip);

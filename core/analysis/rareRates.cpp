@@ -91,7 +91,7 @@ namespace {
     /// Noise and detector at one moment.
     struct Particle {
         std::vector<float> noise;
-        std::shared_ptr<const Detector::Remembrance> detector;
+        std::shared_ptr<const DetectorState> detector;
         double reached = 0.0; ///< largest D of the frame
     };
 
@@ -113,11 +113,11 @@ namespace {
             return static_cast<double>(*std::max_element(m_statistic.begin(), m_statistic.end()));
         }
 
-        Particle particle(double reached) const { return {m_noise->state(), m_detector->remembrance(), reached}; }
+        Particle particle(double reached) const { return {m_noise->state(), m_detector->state(), reached}; }
         void take(const Particle &particle)
         {
             m_noise->setState(particle.noise);
-            m_detector->recall(*particle.detector);
+            m_detector->setState(*particle.detector);
         }
         Index cells() const { return m_noise->cells(); }
 
@@ -380,7 +380,7 @@ RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &mak
                            const SplittingSettings &settings, const RunContext &context)
 {
     constexpr std::size_t mostBytes = std::size_t(64) << 20; // of all states that a level begins from
-    const auto state = makeDetector()->remembrance();
+    const auto state = makeDetector()->state();
     if (!state || state->bytes() * static_cast<std::size_t>(settings.entries) > mostBytes)
         return {};
     std::vector<RareRates> runs;

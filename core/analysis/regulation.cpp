@@ -12,7 +12,7 @@ NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const 
     constexpr int frames = 400;
     if (rule.law != ResetLaw::Mean && rule.law != ResetLaw::Half)
         return {};
-    const MarkovModel piece = handyPiece(model);
+    const MarkovModel piece = calibrationSubgrid(model);
     Smd detector(piece, rule);
     std::vector<float> y(static_cast<std::size_t>(piece.space.cellCount()));
     std::vector<float> statistic(y.size());

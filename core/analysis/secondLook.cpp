@@ -77,7 +77,7 @@ namespace {
     public:
         SecondLook(const Analysis &analysis, const RunContext &context)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
-              m_spectrogram(dynamic_cast<const NormalisedSpectrogram &>(m_frames).spectrogram()),
+              m_spectrogram(*m_frames.spectrogram()),
               m_explanations(m_cells, [&](double bins) { return leakageBound(m_spectrogram.settings().window, bins / m_spectrogram.binsPerCell()); })
         {
             m_model.axis = &analysis.model.space.axes().front();
@@ -353,10 +353,10 @@ namespace {
 
 bool looksTwice(const Analysis &analysis)
 {
-    return analysis.settings.track.bothWays && analysis.grid().axes.size() == 1 && analysis.bank.empty()
+    return analysis.settings.track.bothWays && analysis.grid().axes.size() == 1 && !analysis.isBank()
         && std::holds_alternative<SmdSettings>(analysis.settings.detector)
         && analysis.settings.model.likelihood != LikelihoodKind::Linear
-        && dynamic_cast<const NormalisedSpectrogram *>(analysis.frames.get()) != nullptr;
+        && analysis.frames->spectrogram();
 }
 
 std::vector<Track> lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context)

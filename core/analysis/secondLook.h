@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/analyse.h"
+#include "analysis/Analysis.h"
 
 #include <vector>
 

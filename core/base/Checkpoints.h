@@ -19,11 +19,14 @@ class Checkpoints
 public:
     using Pointer = std::shared_ptr<const State>;
 
+    Checkpoints() = default; ///< none are kept
     Checkpoints(Index interval, std::size_t byteBudget) : m_interval(interval), m_budget(byteBudget) {}
 
     /// Frames between two of them, as things stand.
     Index interval() const { return m_interval; }
     std::size_t bytes() const { return m_bytes; }
+    bool isEmpty() const { return m_states.empty(); }
+    std::size_t count() const { return m_states.size(); }
 
     /// Whether the state before that frame is to be kept and is not known yet.
     bool lacks(Index frame) const { return frame > 0 && frame % m_interval == 0 && !m_states.contains(frame); }
@@ -61,14 +64,6 @@ public:
         m_bytes = 0;
     }
 
-    /// Calls visit(frame, state) for all of them, ascending.
-    template <class Visit>
-    void forEach(Visit visit) const
-    {
-        for (const auto &[frame, kept] : m_states)
-            visit(frame, kept.state);
-    }
-
 private:
     struct Kept {
         Pointer state;
@@ -84,8 +79,8 @@ private:
         return m_states.erase(at);
     }
 
-    Index m_interval;
-    std::size_t m_budget;
+    Index m_interval = 1;
+    std::size_t m_budget = 0;
     std::size_t m_bytes = 0;
     States m_states;
 };

@@ -132,10 +132,6 @@ void checkFieldValue(const FieldInfo &info, const FieldValue &value)
             refuse(info, text, "must be one of " + join(info.choices));
         break;
     }
-    case FieldKind::Text:
-        if (!std::holds_alternative<std::string>(value))
-            refuse(info, text, "must be a text");
-        break;
     }
 }
 
@@ -161,7 +157,6 @@ FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)
             value = std::move(*numbers);
         break;
     case FieldKind::Choice:
-    case FieldKind::Text:
         break;
     }
     checkFieldValue(info, value);

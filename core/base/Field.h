@@ -13,7 +13,7 @@ namespace faintline {
 /// What a setting can hold. Enumerations travel as their name.
 using FieldValue = std::variant<bool, int, double, std::string, std::vector<double>>;
 
-enum class FieldKind { Flag, Integer, Number, Choice, Text, Numbers };
+enum class FieldKind { Flag, Integer, Number, Choice, Numbers };
 
 /// What is known of one setting without an object that holds it: drives forms, documentation, checks, JSON.
 struct FieldInfo {

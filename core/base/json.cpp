@@ -131,8 +131,6 @@ void checkKeys(const Json &object, const std::string &where, const std::vector<s
 FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info)
 {
     FieldValue result = shown(value);
-    if (info.kind == FieldKind::Text && !value.is_string())
-        throw Error(info.name + " = " + shown(value), "must be a text");
     if (value.is_boolean()) {
         result = value.get<bool>();
     } else if (value.is_number() && info.kind == FieldKind::Integer) {

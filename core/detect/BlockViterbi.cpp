@@ -16,7 +16,7 @@ const std::vector<Field<BlockViterbiSettings>> &BlockViterbiSettings::fields()
 }
 
 BlockViterbi::BlockViterbi(const MarkovModel &model, Index framesPerBlock, Index phase)
-    : m_smd(model, {ResetLaw::None}), m_beginning(m_smd.memory()), m_framesPerBlock(std::max<Index>(1, framesPerBlock)),
+    : m_smd(model, {ResetLaw::None}), m_beginning(m_smd.state()), m_framesPerBlock(std::max<Index>(1, framesPerBlock)),
       m_frame(phase % m_framesPerBlock)
 {
 }
@@ -24,7 +24,7 @@ BlockViterbi::BlockViterbi(const MarkovModel &model, Index framesPerBlock, Index
 void BlockViterbi::update(std::span<const float> y, std::span<float> statistic)
 {
     if (m_frame == 0)
-        m_smd.restore(m_beginning);
+        m_smd.setState(*m_beginning);
     m_smd.update(y, statistic);
     m_frame = (m_frame + 1) % m_framesPerBlock;
     if (m_frame != 0)

@@ -36,7 +36,7 @@ public:
 
 private:
     Smd m_smd;
-    Smd::Memory m_beginning;
+    std::shared_ptr<const DetectorState> m_beginning;
     Index m_framesPerBlock;
     Index m_frame; ///< in the block
 };

@@ -2,13 +2,13 @@
 
 #include "detect/Detector.h"
 
-#include <utility>
+#include <memory>
 
 namespace faintline {
 
 /// A detector's state as a copy of the detector, for those whose members are all values. D::bytes() says what one takes.
 template <class D>
-struct CopiedState final : Detector::Remembrance {
+struct CopiedState final : DetectorState {
     explicit CopiedState(const D &copied) : detector(copied) {}
     std::size_t bytes() const override { return detector.bytes(); }
 
@@ -16,15 +16,15 @@ struct CopiedState final : Detector::Remembrance {
 };
 
 template <class D>
-std::shared_ptr<const Detector::Remembrance> copiedState(const D &detector)
+std::shared_ptr<const DetectorState> copiedState(const D &detector)
 {
     return std::make_shared<CopiedState<D>>(detector);
 }
 
 template <class D>
-void recallCopy(D &detector, const Detector::Remembrance &remembrance)
+void setCopiedState(D &detector, const DetectorState &state)
 {
-    detector = static_cast<const CopiedState<D> &>(remembrance).detector;
+    detector = static_cast<const CopiedState<D> &>(state).detector;
 }
 
 } // namespace faintline

@@ -21,6 +21,12 @@ struct CellBox {
     void forEachCell(const Grid &grid, Visit visit) const;
 };
 
+/// All that a detector's next frame depends on.
+struct DetectorState {
+    virtual ~DetectorState() = default;
+    virtual std::size_t bytes() const = 0; ///< that it takes
+};
+
 /// Something that turns frames into a statistic, one frame after the other.
 ///
 /// A frame is one y per cell (noise mean 1); the statistic is one value per cell, larger where a signal is likelier.
@@ -45,34 +51,10 @@ public:
     /// Names the cells, ascending, that a tracker looks after: until the next call their states do not count in the regulation.
     virtual void inhibit(std::span<const Index> /*cells*/) {}
 
-    /// The scores of all states after the last frame (StateSpace order), empty for detectors without states.
-    virtual std::span<const float> scores() const { return {}; }
-
-    /// Whether the statistic is the score of one path, which can be traced (tracePath) and followed on.
-    virtual bool hasPaths() const { return false; }
-
-    /// What the detector's regulation did in the last frame.
-    struct Regulation {
-        double lnK = 0.0;               ///< what the law gave for the last frame
-        double continuedFraction = 0.0; ///< of the states, those whose path went on rather than being reset
-        double stepLnK = 0.0;           ///< what was added on the way into the last frame (under Mean, the ln K of the frame before)
-    };
-    virtual Regulation regulation() const { return {}; }
-
-    /// All that the next frame depends on; recalling it resumes bit for bit. Null: the detector cannot tell.
-    struct Remembrance {
-        virtual ~Remembrance() = default;
-        virtual std::size_t bytes() const = 0; ///< that it takes
-    };
-    virtual std::shared_ptr<const Remembrance> remembrance() const { return {}; }
-    /// One of this detector's, or of another one made alike.
-    virtual void recall(const Remembrance & /*remembrance*/) {}
-
-    /// A bank of models is made of detectors; any other detector is its own only member.
-    virtual std::size_t memberCount() const { return 1; }
-    virtual const Detector &member(std::size_t /*number*/) const { return *this; }
-    /// The member whose statistic a cell shows after the last frame.
-    virtual std::size_t winnerAt(Index /*cell*/) const { return 0; }
+    /// All that the next frame depends on. Null: the detector cannot tell.
+    virtual std::shared_ptr<const DetectorState> state() const { return {}; }
+    /// Goes on from there, bit for bit: a state of this detector, or of another one made alike.
+    virtual void setState(const DetectorState & /*state*/) {}
 };
 
 template <class Visit>

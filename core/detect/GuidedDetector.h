@@ -1,6 +1,5 @@
 #pragma once
 
-#include "detect/Detector.h"
 #include "detect/Smd.h"
 
 #include <memory>
@@ -11,7 +10,7 @@ namespace faintline {
 /// led there, so that tracks can be started from any detector's events.
 ///
 /// The statistic is the first detector's; scores and regulation are the second one's.
-class GuidedDetector final : public Detector
+class GuidedDetector final : public PathDetector
 {
 public:
     GuidedDetector(std::unique_ptr<Detector> decider, const MarkovModel &model, const ResetRule &rule)
@@ -37,9 +36,9 @@ public:
         m_decider->useThreads(threads);
     }
 
-    std::span<const float> scores() const override { return m_guide.scores(); }
-    bool hasPaths() const override { return true; }
-    Regulation regulation() const override { return m_guide.regulation(); }
+    std::span<const float> scores(std::size_t /*model*/ = 0) const override { return m_guide.scores(); }
+    double offset(std::size_t /*model*/ = 0) const override { return m_guide.offset(); }
+    Regulation regulation(std::size_t /*model*/ = 0) const override { return m_guide.regulation(); }
 
 private:
     std::unique_ptr<Detector> m_decider;

@@ -37,8 +37,8 @@ public:
     /// The past of the cells becomes that of noise: D = 1.
     void forget(const Grid &grid, const CellBox &box) override;
     /// None where nothing of the past counts: with a single frame.
-    std::shared_ptr<const Remembrance> remembrance() const override { return m_past.size() == 1 ? nullptr : copiedState(*this); }
-    void recall(const Remembrance &remembrance) override { recallCopy(*this, remembrance); }
+    std::shared_ptr<const DetectorState> state() const override { return m_past.size() == 1 ? nullptr : copiedState(*this); }
+    void setState(const DetectorState &state) override { setCopiedState(*this, state); }
     std::size_t bytes() const; ///< that it takes
 
 private:

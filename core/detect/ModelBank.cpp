@@ -51,8 +51,8 @@ void ModelBank::useThreads(int threads)
         detector.useThreads(threads);
 }
 
-struct ModelBank::Remembered final : Detector::Remembrance {
-    std::vector<std::shared_ptr<const Remembrance>> members;
+struct ModelBank::State final : DetectorState {
+    std::vector<std::shared_ptr<const DetectorState>> members;
     std::vector<unsigned char> winners;
 
     std::size_t bytes() const override
@@ -64,21 +64,21 @@ struct ModelBank::Remembered final : Detector::Remembrance {
     }
 };
 
-std::shared_ptr<const Detector::Remembrance> ModelBank::remembrance() const
+std::shared_ptr<const DetectorState> ModelBank::state() const
 {
-    auto result = std::make_shared<Remembered>();
+    auto result = std::make_shared<State>();
     for (const Smd &detector : m_detectors)
-        result->members.push_back(detector.remembrance());
+        result->members.push_back(detector.state());
     result->winners = m_winners;
     return result;
 }
 
-void ModelBank::recall(const Remembrance &remembrance)
+void ModelBank::setState(const DetectorState &state)
 {
-    const auto &remembered = static_cast<const Remembered &>(remembrance);
+    const auto &saved = static_cast<const State &>(state);
     for (std::size_t i = 0; i < m_detectors.size(); ++i)
-        m_detectors[i].recall(*remembered.members[i]);
-    m_winners = remembered.winners;
+        m_detectors[i].setState(*saved.members[i]);
+    m_winners = saved.winners;
 }
 
 } // namespace faintline

@@ -15,7 +15,7 @@ namespace faintline {
 /// probability lies between one model's and m times it. Decision: D > T. Ties go to the first model.
 /// Source: Parsons 2008, section 5 ("the use of multiple target manoeuvre models in parallel"). Oracle: its members run alone.
 /// Cost and memory: the sum of the members'.
-class ModelBank final : public Detector
+class ModelBank final : public PathDetector
 {
 public:
     struct Member {
@@ -30,20 +30,20 @@ public:
     void update(std::span<const float> y, std::span<float> statistic) override;
     void forget(const Grid &grid, const CellBox &box) override;
     void inhibit(std::span<const Index> cells) override;
-    bool hasPaths() const override { return true; }
     void useThreads(int threads) override;
-    /// The first member's.
-    Regulation regulation() const override { return m_detectors.front().regulation(); }
 
-    std::shared_ptr<const Remembrance> remembrance() const override;
-    void recall(const Remembrance &remembrance) override;
+    std::size_t modelCount() const override { return m_detectors.size(); }
+    std::span<const float> scores(std::size_t model = 0) const override { return m_detectors[model].scores(); }
+    double offset(std::size_t model = 0) const override { return m_detectors[model].offset(); }
+    Regulation regulation(std::size_t model = 0) const override { return m_detectors[model].regulation(); }
 
-    std::size_t memberCount() const override { return m_detectors.size(); }
-    const Detector &member(std::size_t number) const override { return m_detectors[number]; }
+    std::shared_ptr<const DetectorState> state() const override;
+    void setState(const DetectorState &state) override;
+
     std::size_t winnerAt(Index cell) const override { return m_winners[static_cast<std::size_t>(cell)]; }
 
 private:
-    struct Remembered;
+    struct State;
 
     std::vector<Smd> m_detectors;
     std::vector<float> m_offsets;

@@ -34,8 +34,8 @@ public:
 
     void update(std::span<const float> y, std::span<float> statistic) override;
     void forget(const Grid &grid, const CellBox &box) override;
-    std::shared_ptr<const Remembrance> remembrance() const override { return copiedState(*this); }
-    void recall(const Remembrance &remembrance) override { recallCopy(*this, remembrance); }
+    std::shared_ptr<const DetectorState> state() const override { return copiedState(*this); }
+    void setState(const DetectorState &state) override { setCopiedState(*this, state); }
     std::size_t bytes() const; ///< that it takes
 
 private:

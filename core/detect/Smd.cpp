@@ -135,41 +135,42 @@ void Smd::forget(const Grid &grid, const CellBox &box)
     });
 }
 
-/// The memory, and what a chain asks for before the next frame.
-struct Smd::Remembered final : Detector::Remembrance {
-    Memory memory;
+/// What the next frame depends on, and what a chain asks for before it.
+struct Smd::State final : DetectorState {
+    std::vector<float> scores;
+    double lnK = 0.0;
+    double offset = 0.0;
+    Index frames = 0; ///< taken so far
     Regulation regulation;
     std::vector<Index> inhibited;
 
     std::size_t bytes() const override
     {
-        return sizeof *this + memory.scores.capacity() * sizeof(float) + inhibited.capacity() * sizeof(Index);
+        return sizeof *this + scores.capacity() * sizeof(float) + inhibited.capacity() * sizeof(Index);
     }
 };
 
-std::shared_ptr<const Detector::Remembrance> Smd::remembrance() const
+std::shared_ptr<const DetectorState> Smd::state() const
 {
-    auto result = std::make_shared<Remembered>();
-    result->memory = memory();
+    auto result = std::make_shared<State>();
+    result->scores.assign(m_scores.begin(), m_scores.end());
+    result->lnK = m_lnK;
+    result->offset = m_offset;
+    result->frames = m_frames;
     result->regulation = m_regulation;
     result->inhibited = m_inhibited;
     return result;
 }
 
-void Smd::recall(const Remembrance &remembrance)
+void Smd::setState(const DetectorState &state)
 {
-    const auto &remembered = static_cast<const Remembered &>(remembrance);
-    restore(remembered.memory);
-    m_regulation = remembered.regulation;
-    m_inhibited = remembered.inhibited;
-}
-
-void Smd::restore(const Memory &memory)
-{
-    m_scores.assign(memory.scores.begin(), memory.scores.end());
-    m_lnK = memory.lnK;
-    m_offset = memory.offset;
-    m_frames = memory.frames;
+    const auto &saved = static_cast<const State &>(state);
+    m_scores.assign(saved.scores.begin(), saved.scores.end());
+    m_lnK = saved.lnK;
+    m_offset = saved.offset;
+    m_frames = saved.frames;
+    m_regulation = saved.regulation;
+    m_inhibited = saved.inhibited;
 }
 
 } // namespace faintline

@@ -2,7 +2,7 @@
 
 #include "base/Field.h"
 #include "base/LargeVector.h"
-#include "detect/Detector.h"
+#include "detect/PathDetector.h"
 #include "detect/Recursion.h"
 #include "model/MarkovModel.h"
 
@@ -43,7 +43,7 @@ struct ResetRule {
 /// Half is integral control, ln K += gain·(½ - fraction continued), whose answer takes some ten frames; gains of 1 and more swing.
 /// Source: Billon 2005 section 3, Parsons 2008 eq. 8 and 10. Oracle: enumeration of all paths;
 /// Lindley's recursion in closed form for one-to-one transitions.
-class Smd final : public Detector
+class Smd final : public PathDetector
 {
 public:
     Smd(const MarkovModel &model, const ResetRule &rule);
@@ -53,28 +53,16 @@ public:
     void useThreads(int threads) override { m_recursion.useThreads(threads); }
     void forget(const Grid &grid, const CellBox &box) override;
     void inhibit(std::span<const Index> cells) override { m_inhibited.assign(cells.begin(), cells.end()); }
-    std::span<const float> scores() const override { return m_scores; }
-    bool hasPaths() const override { return true; }
-    Regulation regulation() const override { return m_regulation; }
+    std::span<const float> scores(std::size_t /*model*/ = 0) const override { return m_scores; }
+    /// K(t) under Mean, 0 otherwise.
+    double offset(std::size_t /*model*/ = 0) const override { return m_offset; }
+    Regulation regulation(std::size_t /*model*/ = 0) const override { return m_regulation; }
 
-    /// What is to be added to a score to get the statistic: K(t) under Mean, 0 otherwise.
-    double offset() const { return m_offset; }
-
-    /// All that the next frame depends on; restoring it resumes bit for bit.
-    struct Memory {
-        std::vector<float> scores;
-        double lnK = 0.0;
-        double offset = 0.0;
-        Index frames = 0; ///< taken so far
-    };
-    Memory memory() const { return {{m_scores.begin(), m_scores.end()}, m_lnK, m_offset, m_frames}; }
-    void restore(const Memory &memory);
-
-    std::shared_ptr<const Remembrance> remembrance() const override;
-    void recall(const Remembrance &remembrance) override;
+    std::shared_ptr<const DetectorState> state() const override;
+    void setState(const DetectorState &state) override;
 
 private:
-    struct Remembered;
+    struct State;
 
     void start(std::span<const float> y, std::span<float> statistic);
     Continued advance(std::span<const float> y, std::span<float> statistic);

@@ -99,7 +99,7 @@ void SumDetector::forget(const Grid &grid, const CellBox &box)
 }
 
 /// What the next frame depends on, and the scores of the last.
-struct SumDetector::Remembered final : Detector::Remembrance {
+struct SumDetector::State final : DetectorState {
     std::vector<double> weights;
     std::vector<float> scores;
     double scale = 0.0;
@@ -112,9 +112,9 @@ struct SumDetector::Remembered final : Detector::Remembrance {
     }
 };
 
-std::shared_ptr<const Detector::Remembrance> SumDetector::remembrance() const
+std::shared_ptr<const DetectorState> SumDetector::state() const
 {
-    auto result = std::make_shared<Remembered>();
+    auto result = std::make_shared<State>();
     result->weights = m_weights;
     result->scores = m_scores;
     result->scale = m_scale;
@@ -123,14 +123,14 @@ std::shared_ptr<const Detector::Remembrance> SumDetector::remembrance() const
     return result;
 }
 
-void SumDetector::recall(const Remembrance &remembrance)
+void SumDetector::setState(const DetectorState &state)
 {
-    const auto &remembered = static_cast<const Remembered &>(remembrance);
-    m_weights = remembered.weights;
-    m_scores = remembered.scores;
-    m_scale = remembered.scale;
-    m_lnMean = remembered.lnMean;
-    m_frames = remembered.frames;
+    const auto &saved = static_cast<const State &>(state);
+    m_weights = saved.weights;
+    m_scores = saved.scores;
+    m_scale = saved.scale;
+    m_lnMean = saved.lnMean;
+    m_frames = saved.frames;
 }
 
 } // namespace faintline

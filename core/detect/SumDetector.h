@@ -25,16 +25,16 @@ public:
 
     void update(std::span<const float> y, std::span<float> statistic) override;
     void forget(const Grid &grid, const CellBox &box) override;
-    std::shared_ptr<const Remembrance> remembrance() const override;
-    void recall(const Remembrance &remembrance) override;
-    std::span<const float> scores() const override { return m_scores; }
-    Regulation regulation() const override { return {m_rule.lnK, 1.0, m_rule.lnK}; }
+    std::shared_ptr<const DetectorState> state() const override;
+    void setState(const DetectorState &state) override;
+    /// Of all states after the last frame, in nats (StateSpace order).
+    std::span<const float> scores() const { return m_scores; }
 
     /// ln of the mean of A over all states: the log-likelihood ratio of the uniform initial law.
     double lnMean() const { return m_lnMean; }
 
 private:
-    struct Remembered;
+    struct State;
 
     void updateWide(std::span<const double> lambda);
 

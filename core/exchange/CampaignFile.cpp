@@ -1,3 +1,4 @@
+#include "evaluate/experiments/campaignCurve.h"
 #include "exchange/CampaignFile.h"
 
 #include "base/AtomicFile.h"
@@ -5,7 +6,7 @@
 #include "base/checksum.h"
 #include "base/oneLine.h"
 #include "base/readingJson.h"
-#include "evaluate/sweepCurve.h"
+#include "evaluate/experiments/sweepCurve.h"
 #include "exchange/csvText.h"
 
 #include <algorithm>

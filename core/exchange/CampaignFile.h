@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/Campaign.h"
+#include "evaluate/experiments/campaignCurve.h"
 
 #include <string>
 

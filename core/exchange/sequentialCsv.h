@@ -1,7 +1,7 @@
 #pragma once
 
 #include "detect/inspectStages.h"
-#include "evaluate/ScanTest.h"
+#include "evaluate/sequential/ScanTest.h"
 
 #include <string>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/Chart.h"
+#include "evaluate/experiments/Chart.h"
 
 #include <string>
 

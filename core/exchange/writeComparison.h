@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/compareAnalyses.h"
+#include "evaluate/comparison/compareAnalyses.h"
 #include "spectrum/PeakPyramid.h"
 
 #include <string>

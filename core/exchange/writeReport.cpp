@@ -244,7 +244,7 @@ namespace {
     std::string ladder(const Analysis &analysis, const ReportMaterial::Ladder &one)
     {
         const Explanation &why = one.explanation;
-        const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[why.model].model.space;
+        const StateSpace &space = analysis.modelAt(why.model).space;
         const std::vector<Axis> &axes = analysis.grid().axes;
         // Of a detector without paths: its statistic there, and the path of the detector that guides its tracks.
         const bool isScore = isScoreOfPaths(analysis.settings.detector);

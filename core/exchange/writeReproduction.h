@@ -1,6 +1,6 @@
 #pragma once
 
-#include "evaluate/reproduce.h"
+#include "evaluate/reproduce/Reproduction.h"
 
 #include <string>
 

@@ -2,7 +2,6 @@
 
 #include "base/multiversion.h"
 #include "spectrum/between.h"
-#include "spectrum/noiseStretch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include "base/Axis.h"
 #include "base/Field.h"
 #include "base/RunContext.h"
+#include "spectrum/NoiseStretch.h"
 #include "spectrum/Spectrogram.h"
-#include "spectrum/noiseSources.h"
 
 #include <memory>
 #include <span>
@@ -20,17 +20,6 @@ struct NormaliserSettings {
 
     static const std::vector<Field<NormaliserSettings>> &fields();
     bool operator==(const NormaliserSettings &) const = default;
-};
-
-/// A stretch of time in which the noise changes its colour: what its sources have of each frame.
-struct NoiseStretch {
-    Index firstLevel = 0;          ///< of the background's level times
-    NoiseSources sources;          ///< colours over `lnPower`
-    std::vector<float> lnPower;    ///< of each cell
-    std::vector<float> sourceLevels; ///< level times × sources
-    float floor = 0.0f;            ///< ln power of rounding
-
-    Index levelCount() const { return sources.count() > 0 ? std::ssize(sourceLevels) / sources.count() : 0; }
 };
 
 /// The coarse background of a recording: mean noise power per time block and resolution cell.

@@ -2,6 +2,7 @@
 
 #include "base/fastmath.h"
 #include "base/multiversion.h"
+#include "spectrum/levels.h"
 #include "spectrum/medians.h"
 
 #include <algorithm>
@@ -105,7 +106,7 @@ void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const
     const double binsPerCell = m_spectrogram->binsPerCell();
     const auto bands = static_cast<std::size_t>(NoiseBackground::subBandCount(static_cast<double>(values.size()) / binsPerCell));
     constexpr Index half = 20;
-    const double allowed = 1.0 + 4.0 * 1.44 / std::sqrt(2.0 * half + 1.0);
+    const double allowed = 1.0 + 4.0 * inverseLn2 / std::sqrt(2.0 * half + 1.0);
     const auto limit = static_cast<float>(allowed * std::numbers::ln2_v<double>);
     bool isLoud = false;
     for (std::size_t band = 0; band < bands; ++band) {

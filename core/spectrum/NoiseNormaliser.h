@@ -19,7 +19,7 @@ public:
 
     void read(Index first, Index count, std::span<float> out) const override;
 
-    const Spectrogram &spectrogram() const { return *m_spectrogram; }
+    const Spectrogram *spectrogram() const override { return m_spectrogram.get(); }
     const NoiseBackground &background() const { return *m_background; }
 
 private:

@@ -8,6 +8,8 @@
 
 namespace faintline {
 
+class Spectrogram;
+
 /// Frames whose noise has mean 1 in every cell: the only input a detector takes.
 ///
 /// A frame is one value y ≥ 0 per cell of `grid`, power over noise power, or NaN where nothing was observed. Frames are read by index, in any order, from
@@ -22,6 +24,9 @@ public:
 
     /// Writes frames first … first+count-1, count × grid().size() values, row by row.
     virtual void read(Index first, Index count, std::span<float> out) const = 0;
+
+    /// The spectrogram that the frames were made from; null for ready-made frames.
+    virtual const Spectrogram *spectrogram() const { return nullptr; }
 
 protected:
     NormalisedFrames(Axis time, Grid grid) : m_time(std::move(time)), m_grid(std::move(grid)) {}

@@ -225,4 +225,9 @@ void Spectrogram::transformFrame(std::span<const float> samples, Fft::Buffer &bu
     }
 }
 
+double Spectrogram::windowSeconds() const
+{
+    return m_windowSamples / m_recording->info().sampleRateHz;
+}
+
 } // namespace faintline

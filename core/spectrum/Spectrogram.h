@@ -64,6 +64,7 @@ public:
 
     Index firstSample() const { return m_firstSample; } ///< of the recording, in the first frame
     int windowSamples() const { return m_windowSamples; }
+    double windowSeconds() const; ///< T_FT as it is, in whole samples
     int hopSamples() const { return m_hopSamples; }
     int transformLength() const { return m_fft->length(); }
     /// Bins per resolution cell as realised: transform length over window length.

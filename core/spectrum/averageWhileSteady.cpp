@@ -25,7 +25,7 @@ namespace {
         for (Index cell = 0; cell < cells; cell += stride)
             differences.push_back(upper[cell] - lower[cell]);
         const float level = medianOf(differences);
-        const double chance = 3.0 * 1.44 * std::sqrt(2.0 * 2.0 / (framesUsed * static_cast<double>(cells)));
+        const double chance = 3.0 * inverseLn2 * std::sqrt(2.0 * 2.0 / (framesUsed * static_cast<double>(cells)));
         return static_cast<double>(std::abs(level)) < chance ? 0.0f : level;
     }
 
@@ -49,7 +49,7 @@ void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &r
     for (Index cell = 0; cell < cells; ++cell) {
         const double inward = static_cast<double>(std::min({cell, cells - 1 - cell, half})) / static_cast<double>(half);
         const double effective = pivotCells + (2.0 * static_cast<double>(half) + 1.0 - pivotCells) * inward;
-        tolerance[static_cast<std::size_t>(cell)] = static_cast<float>(4.0 * 1.44 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
+        tolerance[static_cast<std::size_t>(cell)] = static_cast<float>(4.0 * inverseLn2 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
     }
     const double mostRatio = mostNoiseRatio(framesUsed);
     const auto lnMost = static_cast<float>(std::log(mostRatio));

@@ -4,7 +4,7 @@
 #include "spectrum/averageWhileSteady.h"
 #include "spectrum/bandLevels.h"
 #include "spectrum/blockBackground.h"
-#include "spectrum/noiseStretch.h"
+#include "spectrum/addStretch.h"
 #include "spectrum/unevenness.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
 {
     const bool isSketch = depth == BackgroundDepth::Sketch;
     SpectrogramSettings coarse = spectrogram.settings();
-    coarse.windowSeconds = spectrogram.windowSamples() / spectrogram.recording().info().sampleRateHz;
+    coarse.windowSeconds = spectrogram.windowSeconds();
     coarse.stepsPerWindow = 1;
     coarse.binsPerCell = 1;
     // The band's neighbourhood belongs to the estimate: a narrow band has no noise of its own to speak of.

@@ -81,12 +81,12 @@ double medianMean(int n)
 
 double lnMedianMean(std::ptrdiff_t n)
 {
-    return std::log(medianMean(static_cast<int>(n))) - 0.5 * 1.44 * 1.44 * likeness / static_cast<double>(n);
+    return std::log(medianMean(static_cast<int>(n))) - 0.5 * inverseLn2 * inverseLn2 * likeness / static_cast<double>(n);
 }
 
 double medianScatter(double cells)
 {
-    return 1.44 * std::sqrt(likeness / cells);
+    return inverseLn2 * std::sqrt(likeness / cells);
 }
 
 double meanScatter(double cells, double likeness)

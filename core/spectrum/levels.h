@@ -9,6 +9,9 @@ namespace faintline {
 // How loud noise is, from cells that are exponential with lines among them, and what a series of such levels tells.
 // Neighbouring cells are taken to be alike by the window's main lobe: one and a half tell as much as one.
 
+/// √n times the deviation of the logarithm of the median of n exponential cells: 1/ln 2, rounded.
+inline constexpr double inverseLn2 = 1.44;
+
 /// The lower median; reorders the values, of which there is at least one.
 float medianOf(std::vector<float> &values);
 

@@ -34,7 +34,7 @@ namespace {
 
     /// A path usually comes to its signal over some frames of noise that happened to suit it. The signal begins where the score
     /// begins to grow: the change point between no growth and half the path's own mean growth.
-    void dropRunUp(std::vector<TrackPoint> &points)
+    void trimOnset(std::vector<TrackPoint> &points)
     {
         const double tilt = 0.5 * points.back().statistic / static_cast<double>(points.size());
         std::size_t onset = 0;
@@ -52,12 +52,12 @@ namespace {
 
 } // namespace
 
-DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<Detector> detector, ChainSettings settings)
+DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<PathDetector> detector, ChainSettings settings)
     : DetectionChain(std::vector{model}, grid, std::move(detector), std::move(settings))
 {
 }
 
-DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<Detector> detector,
+DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<PathDetector> detector,
                                ChainSettings settings)
     : m_models(std::move(models)), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
       m_seenLimit(framesOf(grid, m_settings)), m_checkpointLimit(checkpointsOf(m_models, m_settings)), m_lambda(static_cast<std::size_t>(grid.size()))
@@ -86,15 +86,15 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         m_boxes.push_back(boxRound(tracker.coordinates(), y));
         m_boxTracks.push_back(tracker.track().id);
     }
-    for (const std::vector<Index> &place : m_settings.blind) {
+    for (const std::vector<Index> &place : m_settings.excluded) {
         m_boxes.push_back(boxRound(place, y));
         m_boxTracks.push_back(0);
     }
     const std::size_t leftAlone = m_settings.inhibits ? 0 : m_excursions + m_trackers.size();
     keepFromDetector(std::span(m_boxes).subspan(leftAlone), seen.y);
     m_detector->update(seen.y, statistic);
-    for (std::size_t i = 0; i < m_detector->memberCount(); ++i)
-        seen.lnK.push_back(m_detector->member(i).regulation().stepLnK);
+    for (std::size_t i = 0; i < m_detector->modelCount(); ++i)
+        seen.lnK.push_back(m_detector->regulation(i).stepLnK);
     remember(frame, std::move(seen));
 
     const auto clusters = findClusters(m_grid, statistic, m_settings.threshold, m_settings.shoulder, m_settings.linkCells);
@@ -134,7 +134,7 @@ void DetectionChain::remember(Index frame, Seen seen)
     checkpoint.frame = frame;
     checkpoint.scores.resize(m_models.size());
     for (std::size_t i = 0; i < m_models.size(); ++i) {
-        const std::span<const float> scores = m_detector->member(i).scores();
+        const std::span<const float> scores = m_detector->scores(i);
         checkpoint.scores[i].assign(scores.begin(), scores.end());
     }
     m_checkpoints.push_back(std::move(checkpoint));
@@ -186,12 +186,12 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     std::vector<std::vector<Index>> places; // as of the last frame: some trackers are about to move or end
     for (const HmmTracker &tracker : m_trackers)
         places.push_back(tracker.coordinates());
-    places.insert(places.end(), m_settings.blind.begin(), m_settings.blind.end());
+    places.insert(places.end(), m_settings.excluded.begin(), m_settings.excluded.end());
     const PlaceIndex index(m_grid, std::move(places));
     for (std::size_t i = 0; i < m_trackers.size(); ++i) {
         HmmTracker &tracker = m_trackers[i];
-        const auto hidden = hideOthers(index, i);
-        const bool goesOn = tracker.update(frame, m_lambda, m_detector->member(tracker.track().model).regulation().lnK);
+        const auto hidden = maskNeighbours(index, i);
+        const bool goesOn = tracker.update(frame, m_lambda, m_detector->regulation(tracker.track().model).lnK);
         for (const auto &[cell, value] : hidden)
             m_lambda[static_cast<std::size_t>(cell)] = value;
         if (goesOn)
@@ -203,7 +203,7 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     endDuplicates();
 }
 
-std::vector<std::pair<Index, float>> DetectionChain::hideOthers(const PlaceIndex &places, std::size_t own)
+std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceIndex &places, std::size_t own)
 {
     // A tracker must not slip over to a stronger signal that another one follows: what lies nearer to the other is its.
     const auto distance = [this](const std::vector<Index> &a, const std::vector<Index> &b) {
@@ -280,8 +280,8 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
     CellBox box{centre, m_settings.inhibitCells};
     const Index middle = m_grid.cell(centre);
     const double level = static_cast<double>(std::max(0.0f, y[static_cast<std::size_t>(middle)])); // 0 where nothing was observed
-    if (m_settings.spill)
-        box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.spill(level));
+    if (m_settings.leakageExtent)
+        box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.leakageExtent(level));
     if (m_settings.skirtStep <= 0 || level < skirtLevel)
         return box;
     // Beyond the window's own side lobes a modulated line has skirts: its hill, down to where it stops falling.
@@ -318,14 +318,14 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
 
 double DetectionChain::scoreOf(Index state, std::size_t model) const
 {
-    return static_cast<double>(m_detector->member(model).scores()[static_cast<std::size_t>(state)]);
+    return static_cast<double>(m_detector->scores(model)[static_cast<std::size_t>(state)]);
 }
 
 Index DetectionChain::bestState(Index cell) const
 {
     const std::size_t model = m_detector->winnerAt(cell);
     const StateSpace &space = m_models[model].space;
-    const std::span<const float> scores = m_detector->member(model).scores();
+    const std::span<const float> scores = m_detector->scores(model);
     Index best = cell;
     for (Index plane = 1; plane < space.planeCount(); ++plane) {
         const Index state = plane * space.cellCount() + cell;
@@ -357,33 +357,23 @@ std::vector<PathStep> DetectionChain::detectorPathInto(Index state, std::size_t 
     return tracePath(m_models[model], m_grid, record(model), m_firstSeen + std::ssize(m_seen) - 1, state, scoreOf(state, model));
 }
 
-struct DetectionChain::Snapshot {
-    std::shared_ptr<const Detector::Remembrance> detector;
-    std::vector<HmmTracker> trackers;
-    std::vector<CellBox> boxes;
-    std::vector<CellBox> newBoxes;
-    std::vector<int> boxTracks;
-    std::size_t excursions = 0;
-    int nextId = 1;
-};
-
-std::size_t DetectionChain::bytesOf(const Snapshot &snapshot)
+std::size_t ChainState::bytes() const
 {
-    std::size_t total = sizeof snapshot + snapshot.detector->bytes() + snapshot.boxTracks.capacity() * sizeof(int);
-    for (const HmmTracker &tracker : snapshot.trackers)
+    std::size_t total = sizeof *this + detector->bytes() + boxTracks.capacity() * sizeof(int);
+    for (const HmmTracker &tracker : trackers)
         total += tracker.bytes();
-    for (const std::vector<CellBox> *boxes : {&snapshot.boxes, &snapshot.newBoxes})
-        for (const CellBox &box : *boxes)
+    for (const std::vector<CellBox> *list : {&boxes, &newBoxes})
+        for (const CellBox &box : *list)
             total += sizeof box + (box.centre.capacity() + box.halfWidth.capacity()) * sizeof(Index);
     return total;
 }
 
-std::shared_ptr<const DetectionChain::Snapshot> DetectionChain::snapshot() const
+std::shared_ptr<const ChainState> DetectionChain::state() const
 {
-    auto detector = m_detector->remembrance();
+    auto detector = m_detector->state();
     if (!detector)
         return {};
-    auto result = std::make_shared<Snapshot>();
+    auto result = std::make_shared<ChainState>();
     result->detector = std::move(detector);
     result->trackers.reserve(m_trackers.size());
     for (const HmmTracker &tracker : m_trackers)
@@ -396,18 +386,18 @@ std::shared_ptr<const DetectionChain::Snapshot> DetectionChain::snapshot() const
     return result;
 }
 
-void DetectionChain::resume(const Snapshot &snapshot)
+void DetectionChain::setState(const ChainState &state)
 {
-    m_detector->recall(*snapshot.detector);
+    m_detector->setState(*state.detector);
     m_trackers.clear();
-    for (const HmmTracker &tracker : snapshot.trackers)
+    for (const HmmTracker &tracker : state.trackers)
         m_trackers.push_back(tracker.withoutPast(*m_trackerModels[tracker.track().model]));
     m_ended.clear();
-    m_boxes = snapshot.boxes;
-    m_newBoxes = snapshot.newBoxes;
-    m_boxTracks = snapshot.boxTracks;
-    m_excursions = snapshot.excursions;
-    m_nextId = snapshot.nextId;
+    m_boxes = state.boxes;
+    m_newBoxes = state.newBoxes;
+    m_boxTracks = state.boxTracks;
+    m_excursions = state.excursions;
+    m_nextId = state.nextId;
     m_seen.clear();
     m_checkpoints.clear();
 }
@@ -431,7 +421,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
         recent.firstFrame = std::max(recent.firstFrame, frame - m_settings.onsetFrames + 1);
     for (const PathStep &step : tracePath(m_models[model], m_grid, recent, frame, state, scoreOf(state, model)))
         track.points.push_back({step.frame, space.cellOf(step.state), space.planeOf(step.state), step.score});
-    dropRunUp(track.points);
+    trimOnset(track.points);
     track.onsetFrame = track.points.front().frame;
     track.isConfirmed = m_settings.track.confirmFrames <= 1 && m_settings.track.confirmNats <= 0.0;
     track.confirmFrame = track.isConfirmed ? frame : -1;
@@ -439,7 +429,7 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     track.detectStatistic = static_cast<double>(cluster.peakStatistic);
     const double offset = m_settings.trackThreshold ? 0.0 : track.detectStatistic - scoreOf(state, model);
     m_boxTracks.push_back(track.id);
-    m_trackers.emplace_back(*m_trackerModels[model], std::move(track), state, cluster.cells, m_detector->member(model).scores(), offset);
+    m_trackers.emplace_back(*m_trackerModels[model], std::move(track), state, cluster.cells, m_detector->scores(model), offset);
 
     // The box must hold the whole cluster, or its rim would start a second track in the next frame.
     CellBox box = boxRound(m_grid.coordinates(cluster.peakCell), y);

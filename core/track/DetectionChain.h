@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detect/Detector.h"
+#include "detect/PathDetector.h"
 #include "detect/PathTrace.h"
 #include "model/MarkovModel.h"
 #include "track/Cluster.h"
@@ -29,17 +29,30 @@ struct ChainSettings {
     std::vector<Index> inhibitCells;  ///< half the box kept from the detector round a track, per axis
     std::vector<Index> forgetCells;   ///< half the box the detector forgets round a new track, per axis; may be empty: as inhibitCells
     /// Cells where no signal is looked for, by coordinates: kept from the detector as if a track were there all the time.
-    std::vector<std::vector<Index>> blind;
+    std::vector<std::vector<Index>> excluded;
     TrackSettings track;
     /// How far back the beginning of a new track is looked for; 0: as far as its path goes. 1: nobody looks back, no past is remembered.
     Index onsetFrames = 0;
     bool feedback = true;             ///< false: detector only, no reset, no inhibition, no tracks
     bool resets = true;               ///< the detector forgets what a track has taken over
     bool inhibits = true;             ///< y is kept from the detector round the tracks
-    /// Half-width along the last axis over which a signal of power y spills into its neighbours; may be empty.
-    std::function<Index(double y)> spill;
+    /// Half-width along the last axis over which a signal of power y leaks into its neighbours; may be empty.
+    std::function<Index(double y)> leakageExtent;
     /// Bins of one resolution cell along the last axis: a strong signal's skirts are followed outward in such steps; 0: not.
     Index skirtStep = 0;
+};
+
+/// What the next frames' statistic depends on: the detector's state, and for each track in progress its window, whatever its age.
+struct ChainState {
+    std::shared_ptr<const DetectorState> detector;
+    std::vector<HmmTracker> trackers;
+    std::vector<CellBox> boxes;
+    std::vector<CellBox> newBoxes;
+    std::vector<int> boxTracks;
+    std::size_t excursions = 0;
+    int nextId = 1;
+
+    std::size_t bytes() const; ///< that it takes
 };
 
 /// From frames to tracks: Parsons' Figure 1.
@@ -53,10 +66,10 @@ struct ChainSettings {
 class DetectionChain
 {
 public:
-    DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<Detector> detector, ChainSettings settings);
+    DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<PathDetector> detector, ChainSettings settings);
 
     /// One model for each member of the detector, all with the same likelihood.
-    DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<Detector> detector, ChainSettings settings);
+    DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<PathDetector> detector, ChainSettings settings);
 
     /// Takes frame number `frame` (ascending, no gaps); writes the statistic of every cell.
     void update(Index frame, std::span<const float> y, std::span<float> statistic);
@@ -68,20 +81,17 @@ public:
     /// The same after the end, those that are pieces of one signal joined; handed over, so that there are none left.
     std::vector<Track> takeJoinedTracks();
     const std::vector<HmmTracker> &trackers() const { return m_trackers; }
-    const Detector &detector() const { return *m_detector; }
+    const PathDetector &detector() const { return *m_detector; }
 
     /// The detector's best path into a state of the newest frame, by one of its models.
     std::vector<PathStep> detectorPathInto(Index state, std::size_t model = 0) const;
     /// So many frames back at most, the newest included: all that is remembered.
     Index longestPath() const { return static_cast<Index>(m_seenLimit); }
 
-    /// What the next frames' statistic depends on; null where the detector cannot tell.
-    struct Snapshot;
-    std::shared_ptr<const Snapshot> snapshot() const;
-    /// What it takes of memory: the states, and for each track in progress its window, whatever its age.
-    static std::size_t bytesOf(const Snapshot &snapshot);
-    /// Goes on from there, with the same bytes; `snapshot` is of this chain or of one made alike. Paths and tracks begin anew.
-    void resume(const Snapshot &snapshot);
+    /// Null where the detector cannot tell its state.
+    std::shared_ptr<const ChainState> state() const;
+    /// Goes on from there, with the same bytes: a state of this chain, or of one made alike. Paths and tracks begin anew.
+    void setState(const ChainState &state);
 
     /// The boxes that the detector forgets before it takes the next frame.
     std::span<const CellBox> forgotten() const;
@@ -116,7 +126,7 @@ private:
     void keepExcursions();
     void keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y);
     void updateTrackers(Index frame, std::span<const float> y);
-    std::vector<std::pair<Index, float>> hideOthers(const PlaceIndex &places, std::size_t own);
+    std::vector<std::pair<Index, float>> maskNeighbours(const PlaceIndex &places, std::size_t own);
     void endDuplicates();
     CellBox boxRound(const std::vector<Index> &centre, std::span<const float> y) const;
     void startTrack(Index frame, const Cluster &cluster, std::span<const float> y);
@@ -126,7 +136,7 @@ private:
 
     std::vector<MarkovModel> m_models;
     Grid m_grid;
-    std::unique_ptr<Detector> m_detector;
+    std::unique_ptr<PathDetector> m_detector;
     ChainSettings m_settings;
     std::vector<std::unique_ptr<TrackerModel>> m_trackerModels;
     std::vector<HmmTracker> m_trackers;

@@ -1,4 +1,5 @@
 #include "analysis/StateReplay.h"
+#include "analysis/analyse.h"
 
 #include "analysis/chain.h"
 #include "base/Random.h"
@@ -148,7 +149,7 @@ private slots:
         const auto analysis = analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false},
                                                                    Grid{{{"frequency", "Hz", 100.0, 0.5, cells, false}}}, std::move(y)),
                                       chosen);
-        QCOMPARE(analysis->checkpoints.size(), std::size_t(6)); // every 64 frames
+        QCOMPARE(analysis->checkpoints.count(), std::size_t(6)); // every 64 frames
         QVERIFY(!analysis->tracks.empty());
         Analysis alone = *analysis;
         alone.checkpoints.clear();

@@ -1,5 +1,5 @@
 #include "analysis/analyse.h"
-#include "analysis/lineInNoise.h"
+#include "analysis/scaledInjection.h"
 #include "recording/InjectedRecording.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/openRecording.h"
@@ -136,7 +136,7 @@ private slots:
         Found ordinary;
         for (const double scale : {1.0, 1e-21, 1e14}) {
             const RecordingPointer base = open(QStringLiteral("rf32_le"), scale);
-            const InjectedLine injected = lineInNoise(line, base, settings(), {});
+            const InjectedLine injected = scaledInjection(line, base, settings(), {});
             const auto made = std::make_shared<InjectedRecording>(base, std::vector{injected}, 0, 7);
             const Found now = found(*analyse(made, settings()));
             if (scale == 1.0) {

@@ -123,7 +123,7 @@ void tst_chooseWindow::sweepsTakeAShorterOne()
     const auto analysis = analysed(sweeps());
     QVERIFY2(windowOf(*analysis) < 0.03, qPrintable(QString::number(windowOf(*analysis))));
     QVERIFY(analysis->settings.model.highestSlope == laws::glide().highestSlope);
-    QVERIFY(analysis->statistic && analysis->input && !analysis->checkpoints.empty());
+    QVERIFY(analysis->statistic && analysis->input && !analysis->checkpoints.isEmpty());
     QVERIFY(analysis->answers(AnalysisSettings()));
     // One track each; two at most come of noise.
     QVERIFY2(analysis->tracks.size() >= 8 && analysis->tracks.size() <= 10, qPrintable(QString::number(analysis->tracks.size())));

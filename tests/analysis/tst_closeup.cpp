@@ -80,7 +80,7 @@ private slots:
         QFETCH(int, kind);
         const auto analysis = analysed(kind == 0 ? DetectorSettings(SmdSettings{}) : DetectorSettings(PofNSettings{}));
         QVERIFY(!analysis->tracks.empty()); // so trackers take part
-        QCOMPARE(analysis->checkpoints.empty(), kind == 1);
+        QCOMPARE(analysis->checkpoints.isEmpty(), kind == 1);
         QCOMPARE(analysis->statistic->framesPerRow(0), Index(1));
         const Index frames = analysis->time().count;
         for (const FrameStretch &stretch : {FrameStretch{0, 9}, {63, 66}, {130, 300}, {frames - 5, frames}}) {

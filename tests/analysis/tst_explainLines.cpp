@@ -16,7 +16,7 @@ constexpr Index frameCount = 90;
 constexpr Index cellCount = 48;
 
 /// Noise with a line that climbs a cell every third frame from frame 20 to 59.
-std::shared_ptr<const Analysis> lineInNoise(double thresholdNats, double linkCells = 3.0, Index frames = frameCount)
+std::shared_ptr<const Analysis> scaledInjection(double thresholdNats, double linkCells = 3.0, Index frames = frameCount)
 {
     std::vector<float> y(static_cast<std::size_t>(frames * cellCount));
     Random random(8, 1);
@@ -64,7 +64,7 @@ class tst_explainLines : public QObject
 private slots:
     void runnerUpsAndResetsAreThoseOfAllStates()
     {
-        const auto analysis = lineInNoise(1000.0); // no track: nothing is forgotten
+        const auto analysis = scaledInjection(1000.0); // no track: nothing is forgotten
         const StateSpace &space = analysis->model.space;
         StateReplay replay(analysis);
         int resets = 0;
@@ -97,7 +97,7 @@ private slots:
 
     void theOtherStateIsTheNextBestOfTheCell()
     {
-        const auto analysis = lineInNoise(14.0);
+        const auto analysis = scaledInjection(14.0);
         QVERIFY(!analysis->tracks.empty());
         StateReplay replay(analysis);
         for (const Index frame : {10, 50}) {
@@ -116,7 +116,7 @@ private slots:
 
     void whatATrackTookOverIsForgotten()
     {
-        const auto analysis = lineInNoise(14.0, 8.0); // so much round a cluster is forgotten with it
+        const auto analysis = scaledInjection(14.0, 8.0); // so much round a cluster is forgotten with it
         const Track &track = analysis->tracks.front();
         int forgotten = 0;
         for (Index cell = track.points.front().cell - 12; cell < track.points.front().cell + 24; ++cell) {
@@ -133,7 +133,7 @@ private slots:
 
     void inhibitedCellsNameTheirTrack()
     {
-        const auto analysis = lineInNoise(14.0);
+        const auto analysis = scaledInjection(14.0);
         const Track &track = analysis->tracks.front();
         const TrackPoint &point = track.points.back();
         QCOMPARE(at(*analysis, point.frame, point.cell).inhibitedFor, std::optional(track.id));
@@ -143,8 +143,8 @@ private slots:
     void farIntoALongOneItGoesOnFromTheRunsCheckpoints()
     {
         constexpr Index frames = 4096 + 400; // more than a chain remembers
-        const auto analysis = lineInNoise(14.0, 3.0, frames);
-        QVERIFY(analysis->checkpoints.size() > 60);
+        const auto analysis = scaledInjection(14.0, 3.0, frames);
+        QVERIFY(analysis->checkpoints.count() > 60);
         const Track &last = analysis->tracks.back();
         QVERIFY(last.detectFrame > frames - 300 && last.endFrame > frames - 10); // so one is followed past several checkpoints
         Analysis withoutAny = *analysis;

@@ -65,7 +65,7 @@ void check(const Analysis &analysis, Index ping, Index range, Index beam, bool i
                             .arg(why.offset)
                             .arg(why.model)));
     QCOMPARE(why.steps.back().frame, ping);
-    const StateSpace &space = analysis.bank.empty() ? analysis.model.space : analysis.bank[why.model].model.space;
+    const StateSpace &space = analysis.modelAt(why.model).space;
     QCOMPARE(space.cellOf(why.steps.back().state), grid.cell({range, beam}));
 }
 

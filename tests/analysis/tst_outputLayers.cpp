@@ -17,7 +17,7 @@ constexpr Index frameCount = 120;
 constexpr Index cellCount = 64;
 
 /// Noise with a line that climbs a cell every third frame from frame 30 to 89.
-std::shared_ptr<const Analysis> lineInNoise(SmdSettings::Reset reset)
+std::shared_ptr<const Analysis> scaledInjection(SmdSettings::Reset reset)
 {
     std::vector<float> y(static_cast<std::size_t>(frameCount * cellCount));
     Random random(5, 1);
@@ -35,7 +35,7 @@ std::shared_ptr<const Analysis> lineInNoise(SmdSettings::Reset reset)
 
 const std::shared_ptr<const Analysis> &analysed()
 {
-    static const auto result = lineInNoise(SmdSettings::Reset::Fixed);
+    static const auto result = scaledInjection(SmdSettings::Reset::Fixed);
     return result;
 }
 
@@ -86,7 +86,7 @@ private slots:
     void ageAndRateAreThoseOfTheTracedPath()
     {
         QFETCH(int, reset);
-        const auto analysis = lineInNoise(static_cast<SmdSettings::Reset>(reset));
+        const auto analysis = scaledInjection(static_cast<SmdSettings::Reset>(reset));
         QVERIFY(!analysis->tracks.empty()); // so some cells are a tracker's
         LayerReplay replay(analysis);
         int tracked = 0;
@@ -136,7 +136,7 @@ private slots:
                             {grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))});
                 const QByteArray where = QByteArray::number(ping) + " " + QByteArray::number(cell);
                 const auto i = static_cast<std::size_t>(cell);
-                const StateSpace &space = analysis->bank.empty() ? analysis->model.space : analysis->bank[why.model].model.space;
+                const StateSpace &space = analysis->modelAt(why.model).space;
                 QVERIFY2(static_cast<double>(layers.statistic[i]) == why.displayed, where);
                 QVERIFY2(std::abs(why.statistic - why.displayed) < 1e-3, where);
                 QVERIFY2(layers.model[i] == why.model, where);
@@ -211,7 +211,7 @@ private slots:
     void farIntoARunItBeginsWhereTheRunLeftACheckpoint()
     {
         const auto &analysis = analysed();
-        QCOMPARE(analysis->checkpoints.size(), std::size_t(1)); // before frame 64
+        QCOMPARE(analysis->checkpoints.count(), std::size_t(1)); // before frame 64
         Analysis alone = *analysis;
         alone.checkpoints.clear();
         LayerReplay straight(std::make_shared<const Analysis>(alone));

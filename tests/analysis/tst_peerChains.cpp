@@ -185,7 +185,7 @@ void tst_peerChains::anOrderIsKept()
     constexpr double ordered = 60.0;
     const double rate = ordered / (static_cast<double>(frames) * cellCount);
     const Analysis analysis = prepared(kind, framesOf(900 + kind, frames), rate);
-    const auto chain = makeChain(analysis, makeDetector(analysis), false);
+    const auto chain = makeChain(analysis, makePathDetector(analysis), false);
     std::vector<float> y(cellCount);
     std::vector<float> statistic(cellCount);
     for (Index frame = 0; frame < frames; ++frame) {

@@ -3,7 +3,7 @@
 #include "base/Random.h"
 #include "detect/PofN.h"
 #include "detect/Smd.h"
-#include "evaluate/theory.h"
+#include "evaluate/theory/theory.h"
 
 #include <QtTest>
 

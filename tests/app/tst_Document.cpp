@@ -31,8 +31,6 @@ FieldValue randomValue(const FieldInfo &info, std::mt19937 &random)
     case FieldKind::Choice:
         return info.choices[std::min(info.choices.size() - 1,
                                      static_cast<std::size_t>(fraction * double(info.choices.size())))];
-    case FieldKind::Text:
-        return std::string("text");
     case FieldKind::Numbers:
         return std::vector<double>{number};
     }

@@ -12,7 +12,7 @@
 #include "base/AtomicFile.h"
 #include "base/fileName.h"
 #include "base/oneLine.h"
-#include "evaluate/PdCurve.h"
+#include "evaluate/experiments/PdCurve.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "widgets/events/EventTable.h"

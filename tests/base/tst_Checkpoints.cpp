@@ -75,8 +75,11 @@ private:
 
     static std::vector<Index> framesOf(const Checkpoints<int> &kept)
     {
+        constexpr Index most = 1000;
         std::vector<Index> frames;
-        kept.forEach([&](Index frame, const auto &) { frames.push_back(frame); });
+        for (Index frame = 1; frame < most; ++frame)
+            if (kept.at(frame))
+                frames.push_back(frame);
         return frames;
     }
 };

@@ -1,4 +1,4 @@
-#include "evaluate/SpeedKernel.h"
+#include "app/cli/speed/SpeedKernel.h"
 
 #include <benchmark/benchmark.h>
 

@@ -67,8 +67,8 @@ void tst_ModelBank::isTheBestOfItsMembers()
         }
     }
     QVERIFY(wins[0] > 100 && wins[1] > 100); // both do
-    QCOMPARE(bank.memberCount(), std::size_t(2));
-    QVERIFY(std::equal(second.scores().begin(), second.scores().end(), bank.member(1).scores().begin()));
+    QCOMPARE(bank.modelCount(), std::size_t(2));
+    QVERIFY(std::equal(second.scores().begin(), second.scores().end(), bank.scores(1).begin()));
 }
 
 void tst_ModelBank::offsetsDecideWhoWins()

@@ -157,7 +157,7 @@ void tst_Smd::resumesFromMemory()
     for (int t = 0; t < 20; ++t)
         whole.update(frames[static_cast<std::size_t>(t)], statistic);
     Smd resumed(fiveSlopes(100), {ResetLaw::Half, 0.5});
-    resumed.restore(whole.memory());
+    resumed.setState(*whole.state());
     std::vector<float> again(100);
     for (int t = 20; t < 40; ++t) {
         whole.update(frames[static_cast<std::size_t>(t)], statistic);

@@ -1,6 +1,6 @@
 #include "base/Random.h"
 #include "detect/Smd.h"
-#include "evaluate/plainForms.h"
+#include "app/cli/speed/plainForms.h"
 
 #include <QtTest>
 

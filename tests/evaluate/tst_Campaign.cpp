@@ -1,10 +1,11 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Random.h"
-#include "evaluate/Campaign.h"
-#include "evaluate/PdCurve.h"
-#include "evaluate/SignalMask.h"
-#include "evaluate/measuredThreshold.h"
+#include "evaluate/experiments/campaignCurve.h"
+#include "evaluate/experiments/Campaign.h"
+#include "evaluate/experiments/PdCurve.h"
+#include "evaluate/experiments/SignalMask.h"
+#include "evaluate/experiments/measuredThreshold.h"
 #include "exchange/CampaignFile.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/openRecording.h"
@@ -22,9 +23,9 @@ using namespace faintline;
 
 namespace {
 
-    Contestant contestant(const char *name, const DetectorSettings &detector)
+    DetectorUnderTest detectorUnderTest(const char *name, const DetectorSettings &detector)
     {
-        Contestant result{name, {}};
+        DetectorUnderTest result{name, {}};
         result.settings.model = laws::billon(); // the law of ln K = 0.69
         result.settings.detector = detector;
         return result;
@@ -39,8 +40,8 @@ namespace {
         experiment.durationWindows = 20.0;
         experiment.snrDb = {-3.0, 3.0};
         experiment.wanderCells = 0.5;
-        experiment.detectors = {contestant("SMD", SmdSettings{SmdSettings::Reset::Fixed, 0.69}), contestant("3 of 4", PofNSettings{3, 4}),
-                                contestant("integrator", IntegratorSettings{IntegratorSettings::Shape::Boxcar, 20.0})};
+        experiment.detectors = {detectorUnderTest("SMD", SmdSettings{SmdSettings::Reset::Fixed, 0.69}), detectorUnderTest("3 of 4", PofNSettings{3, 4}),
+                                detectorUnderTest("integrator", IntegratorSettings{IntegratorSettings::Shape::Boxcar, 20.0})};
         return experiment;
     }
 
@@ -130,7 +131,7 @@ void tst_Campaign::shardsMergeToTheWhole()
 void tst_Campaign::namesOfDetectorsInACurve()
 {
     LineExperiment experiment = smallExperiment();
-    experiment.detectors = {contestant("a\",9\n\"b\",1,1,1,1,1,1", PofNSettings{3, 4})};
+    experiment.detectors = {detectorUnderTest("a\",9\n\"b\",1,1,1,1,1,1", PofNSettings{3, 4})};
     Campaign campaign = begin(experiment);
     carryOut(campaign, firstRuns(1));
     writeCurve(campaign, path("names.csv"));
@@ -195,7 +196,7 @@ void tst_Campaign::everyTrialCanBeMadeAgain()
 {
     LineExperiment experiment = smallExperiment();
     experiment.wanderCells = 0.0;
-    experiment.detectors = {contestant("energy", EnergySettings{})};
+    experiment.detectors = {detectorUnderTest("energy", EnergySettings{})};
     const RunOutcome outcome = runExperiment(experiment, {2}).front();
     for (const int signal : {0, 3, experiment.signalsPerRun() - 1}) {
         const LineTrial trial = remakeTrial(experiment, experiment.snrDb[1], 2, signal);
@@ -261,7 +262,7 @@ void tst_Campaign::jsonRoundTrip()
     InjectionExperiment injection;
     injection.recording = "a.wav";
     injection.settings.spectrogram.windowSeconds = 0.5;
-    injection.detectors = {contestant("SMD", SmdSettings{})};
+    injection.detectors = {detectorUnderTest("SMD", SmdSettings{})};
     injection.wanderHz = 0.1;
     QVERIFY(experimentFromJson(toJson(Experiment(injection)), "test") == Experiment(injection));
 }
@@ -278,7 +279,7 @@ void tst_Campaign::injectedIntoARecording()
     injection.snrDb = {-30.0, 12.0};
     injection.durationSeconds = 20.0;
     injection.settings.spectrogram.windowSeconds = 0.5;
-    injection.detectors = {contestant("energy", EnergySettings{}), contestant("3 of 4", PofNSettings{3, 4})};
+    injection.detectors = {detectorUnderTest("energy", EnergySettings{}), detectorUnderTest("3 of 4", PofNSettings{3, 4})};
     Campaign campaign = begin(injection);
     QCOMPARE(campaign.thresholds.size(), std::size_t(2));
     carryOut(campaign, firstRuns(6), onThreads(2));
@@ -309,7 +310,7 @@ void tst_Campaign::allDetectorsAreTriedWhereNoSignalIs()
     injection.snrDb = {-30.0, 15.0};
     injection.durationSeconds = 20.0;
     injection.settings.spectrogram.windowSeconds = 0.5;
-    injection.detectors = {contestant("energy", EnergySettings{}), contestant("3 of 4", PofNSettings{3, 4}), contestant("SMD", SmdSettings{})};
+    injection.detectors = {detectorUnderTest("energy", EnergySettings{}), detectorUnderTest("3 of 4", PofNSettings{3, 4}), detectorUnderTest("SMD", SmdSettings{})};
     Campaign campaign = begin(injection);
     carryOut(campaign, firstRuns(12), onThreads(2));
     const InjectionTrials trials(injection, openRecording(injection.recording));
@@ -369,7 +370,7 @@ void tst_Campaign::aBlockThatEndsAfterItsLineCounts()
     experiment.runs = 3;
     experiment.durationWindows = 40.0;
     experiment.snrDb = {6.0};
-    experiment.detectors = {contestant("block Viterbi", BlockViterbiSettings{40.0})};
+    experiment.detectors = {detectorUnderTest("block Viterbi", BlockViterbiSettings{40.0})};
     Campaign campaign{experiment, {}, {}};
     carryOut(campaign, firstRuns(3), onThreads(2));
     for (const RunOutcome &outcome : campaign.outcomes)

@@ -1,9 +1,9 @@
 #include "base/logmath.h"
 #include "detect/averagedStages.h"
 #include "detect/inspectStages.h"
-#include "evaluate/ScanTest.h"
-#include "evaluate/scanCurves.h"
-#include "evaluate/walkOnLine.h"
+#include "evaluate/sequential/ScanTest.h"
+#include "evaluate/sequential/scanCurves.h"
+#include "evaluate/theory/walkOnLine.h"
 
 #include <QtTest>
 

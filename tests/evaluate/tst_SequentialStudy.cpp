@@ -1,6 +1,6 @@
 #include "base/logmath.h"
-#include "evaluate/SequentialStudy.h"
-#include "evaluate/waldTheory.h"
+#include "evaluate/sequential/SequentialStudy.h"
+#include "evaluate/theory/waldTheory.h"
 
 #include <QtTest>
 

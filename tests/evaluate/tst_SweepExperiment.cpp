@@ -1,5 +1,6 @@
-#include "evaluate/Campaign.h"
-#include "evaluate/sweepCurve.h"
+#include "evaluate/experiments/campaignCurve.h"
+#include "evaluate/experiments/Campaign.h"
+#include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
 #include "recording/SimulatedRecording.h"
 

@@ -1,7 +1,7 @@
-#include "evaluate/campaignCharts.h"
+#include "evaluate/experiments/campaignCharts.h"
 
-#include "evaluate/peers.h"
-#include "evaluate/theory.h"
+#include "evaluate/experiments/peers.h"
+#include "evaluate/theory/theory.h"
 
 #include <QtTest>
 
@@ -104,7 +104,7 @@ void tst_campaignCharts::shownThresholdIsExceededByItsShareOfBlocks()
 
 void tst_campaignCharts::peersAreTheirOwnNames()
 {
-    for (const Contestant &one : peers(40.0))
+    for (const DetectorUnderTest &one : peers(40.0))
         QCOMPARE(peer(one.name, 40.0), one);
     QVERIFY_EXCEPTION_THROWN(peer("none", 1.0), Error);
     QCOMPARE(std::get<IntegratorSettings>(peer("integrator", 40.0).settings.detector).durationWindows, 40.0);

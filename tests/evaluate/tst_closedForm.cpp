@@ -1,5 +1,5 @@
-#include "evaluate/boxExceedance.h"
-#include "evaluate/closedForm.h"
+#include "evaluate/theory/boxExceedance.h"
+#include "evaluate/theory/closedForm.h"
 
 #include <QtTest>
 

@@ -1,7 +1,7 @@
-#include "evaluate/compareAnalyses.h"
-#include "evaluate/differencePicture.h"
-#include "evaluate/measureCost.h"
-#include "evaluate/settingDifferences.h"
+#include "evaluate/comparison/compareAnalyses.h"
+#include "evaluate/comparison/differencePicture.h"
+#include "evaluate/experiments/measureCost.h"
+#include "evaluate/comparison/settingDifferences.h"
 #include "exchange/writeComparison.h"
 
 #include "base/Error.h"

@@ -1,6 +1,6 @@
 #include "base/Error.h"
 #include "base/json.h"
-#include "evaluate/measureSpeed.h"
+#include "app/cli/speed/measureSpeed.h"
 
 #include <QtTest>
 

@@ -1,4 +1,4 @@
-#include "evaluate/noiseFit.h"
+#include "evaluate/comparison/noiseFit.h"
 
 #include "base/Random.h"
 

@@ -1,5 +1,5 @@
 #include "base/Random.h"
-#include "evaluate/reproduce.h"
+#include "evaluate/reproduce/reproduce.h"
 
 #include <QtTest>
 

@@ -1,4 +1,4 @@
-#include "evaluate/reproduce.h"
+#include "evaluate/reproduce/reproduce.h"
 
 #include <QtTest>
 

@@ -1,8 +1,8 @@
-#include "evaluate/showTrial.h"
+#include "evaluate/experiments/showTrial.h"
 
 #include "analysis/chain.h"
-#include "evaluate/campaignCharts.h"
-#include "evaluate/peers.h"
+#include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/peers.h"
 
 #include <QtTest>
 

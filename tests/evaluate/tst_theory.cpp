@@ -3,7 +3,7 @@
 #include "detect/Integrator.h"
 #include "detect/PofN.h"
 #include "detect/Smd.h"
-#include "evaluate/theory.h"
+#include "evaluate/theory/theory.h"
 
 #include <QtTest>
 

@@ -1,4 +1,4 @@
-#include "evaluate/trackScore.h"
+#include "evaluate/comparison/trackScore.h"
 
 #include <QtTest>
 

@@ -1,6 +1,6 @@
 #include "base/Random.h"
 #include "base/logmath.h"
-#include "evaluate/waldTheory.h"
+#include "evaluate/theory/waldTheory.h"
 
 #include <QtTest>
 

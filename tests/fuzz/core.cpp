@@ -10,7 +10,7 @@
 #include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
-#include "evaluate/ScanTest.h"
+#include "evaluate/sequential/ScanTest.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"

@@ -85,7 +85,7 @@ private slots:
     void statisticIsAboveThresholdWhileTracked();
     void lineOffTheGridEnds();
     void noiseSeldomCrosses();
-    void aSnapshotDoesNotGrowWithATracksAge();
+    void aStateDoesNotGrowWithATracksAge();
     void manyLinesCostLittleMoreThanTheirNumber();
 };
 
@@ -177,7 +177,7 @@ void tst_DetectionChain::nothingIsSeenAtBlindPlaces()
     const Scene scene{64, 300, {[](Index) { return Index(0); }, [](Index) { return Index(7); }}};
     ChainSettings chain = settings(line64, 15.0);
     QCOMPARE(run(scene, chain, line64).size(), std::size_t(2));
-    chain.blind = {{0}};
+    chain.excluded = {{0}};
     const auto tracks = run(scene, chain, line64);
     QCOMPARE(tracks.size(), std::size_t(1));
     for (const TrackPoint &point : tracks[0].points)
@@ -221,7 +221,7 @@ void tst_DetectionChain::noiseSeldomCrosses()
     QVERIFY(run({64, 2000, {}}, settings(line64, 4.0), line64).size() > 3); // and does where it should
 }
 
-void tst_DetectionChain::aSnapshotDoesNotGrowWithATracksAge()
+void tst_DetectionChain::aStateDoesNotGrowWithATracksAge()
 {
     const Scene scene{64, 6000, {[](Index) { return Index(30); }}};
     const MarkovModel m = model(scene.cells);
@@ -232,15 +232,15 @@ void tst_DetectionChain::aSnapshotDoesNotGrowWithATracksAge()
     Random random(11, 1);
     std::vector<float> statistic(64);
     std::vector<std::size_t> bytes;
-    std::shared_ptr<const DetectionChain::Snapshot> young;
+    std::shared_ptr<const ChainState> young;
     std::vector<std::vector<float>> after;
     for (Index t = 0; t < scene.frames; ++t) {
         if (t % 1000 == 500) {
             QCOMPARE(chain->trackers().size(), std::size_t(1));
-            bytes.push_back(DetectionChain::bytesOf(*chain->snapshot()));
+            bytes.push_back(chain->state()->bytes());
         }
         if (t == 5500)
-            young = chain->snapshot();
+            young = chain->state();
         const std::vector<float> y = scene.frame(t, random);
         chain->update(t, y, statistic);
         if (t >= 5500)
@@ -253,7 +253,7 @@ void tst_DetectionChain::aSnapshotDoesNotGrowWithATracksAge()
     QVERIFY2(bytes.back() < 64 * 5 * sizeof(float) + 4096, qPrintable(QString::number(bytes.back())));
     // It goes on from there with the same bytes, and ends where the other ends.
     const auto resumed = fresh();
-    resumed->resume(*young);
+    resumed->setState(*young);
     std::vector<float> again(64);
     for (std::size_t i = 0; i < after.size(); ++i)
         resumed->update(5500 + static_cast<Index>(i), after[i], again);

@@ -1,5 +1,5 @@
 #include "detect/ModelBank.h"
-#include "evaluate/trackScore.h"
+#include "evaluate/comparison/trackScore.h"
 #include "model/sonarModels.h"
 #include "spectrum/SimulatedPings.h"
 #include "track/DetectionChain.h"
@@ -186,7 +186,7 @@ void tst_pingChain::pathTermsAddUp()
         const auto chain = run(pings, settings(), bank);
         for (Index cell = 0; cell < pings.grid().size(); cell += 97) {
             const std::size_t model = chain->detector().winnerAt(cell);
-            const std::span<const float> scores = chain->detector().member(model).scores();
+            const std::span<const float> scores = chain->detector().scores(model);
             Index best = cell;
             for (Index state = cell; state < std::ssize(scores); state += pings.grid().size())
                 if (scores[static_cast<std::size_t>(state)] > scores[static_cast<std::size_t>(best)])

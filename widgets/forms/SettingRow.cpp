@@ -178,8 +178,7 @@ void SettingRow::makeEditor()
         break;
     }
     case FieldKind::Number:
-    case FieldKind::Numbers:
-    case FieldKind::Text: {
+    case FieldKind::Numbers: {
         if (m_stepsInOne > 0) {
             auto *box = new ArrowBox([this](int steps) { stepBy(steps); });
             connect(box, &QAbstractSpinBox::editingFinished, this, [this, box] {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "analysis/PicturesSoFar.h"
+#include "base/RunContext.h"
+#include "spectrum/Spectrogram.h"
+
+#include <chrono>
+#include <memory>
+
+namespace faintline {
+
+/// Publishes pictures of a run that takes long, or has to wait for a calibration, and not so often that the run takes longer.
+class ProgressPublisher
+{
+public:
+    ProgressPublisher() = default; ///< publishes nothing
+    ProgressPublisher(const PictureSink &sink, const Axis &time, const Axis &frequency, const AnalysisSettings &settings);
+
+    void publishQuickLook(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings, const RunContext &context);
+    /// What has been gone through so far.
+    void publish(const std::shared_ptr<PeakPyramid> &input, const PeakPyramid &statistic);
+
+private:
+    PictureSink m_sink;
+    PicturesSoFar m_pictures;
+    bool m_isWanted = false;
+    std::chrono::steady_clock::time_point m_last{};
+};
+
+} // namespace faintline

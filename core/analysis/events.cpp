@@ -1,0 +1,102 @@
+#include "analysis/events.h"
+
+#include "base/logmath.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    /// Least-squares slope of the track's position along an axis against time, per second.
+    double driftOf(const Track &track, const Axis &time, const Grid &grid, std::size_t along)
+    {
+        const Axis &axis = grid.axes[along];
+        const auto n = static_cast<double>(track.points.size());
+        if (n < 2.0)
+            return 0.0;
+        double sumT = 0.0;
+        double sumF = 0.0;
+        double sumTT = 0.0;
+        double sumTF = 0.0;
+        double before = 0.0;
+        const bool isLast = along + 1 == grid.axes.size();
+        for (std::size_t i = 0; i < track.points.size(); ++i) {
+            const TrackPoint &point = track.points[i];
+            const double t = static_cast<double>(point.frame - track.points.front().frame) * time.step;
+            double f = axis.value(isLast ? track.lastPosition(i, axis) : static_cast<double>(point.cell / grid.stride(along) % axis.count));
+            if (axis.cyclic && i > 0) {
+                const double turn = axis.step * static_cast<double>(axis.count);
+                f += turn * std::round((before - f) / turn);
+            }
+            before = f;
+            sumT += t;
+            sumF += f;
+            sumTT += t * t;
+            sumTF += t * f;
+        }
+        return (n * sumTF - sumT * sumF) / (n * sumTT - sumT * sumT);
+    }
+
+    /// What only the look from both ends knows.
+    void describe(Event &event, const Track &track, const Analysis &analysis)
+    {
+        const auto count = static_cast<double>(track.points.size());
+        double level = 0.0;
+        double band = 0.0;
+        for (const SmoothedPoint &point : track.smoothed) {
+            level += static_cast<double>(point.level) / count;
+            band += static_cast<double>(point.high - point.low) / count;
+        }
+        event.snrDb = dbFromRatio(level);
+        event.bandWidth = band * analysis.grid().axes.back().step;
+        const double cellFrames = static_cast<double>(analysis.grid().size()) * static_cast<double>(analysis.time().count);
+        event.noiseProbability = -std::expm1(-analysis.calibration->eventRateAt(event.statistic) * cellFrames);
+    }
+
+} // namespace
+
+double statisticOf(const Track &track, const Analysis &analysis)
+{
+    return isScoreOfPaths(analysis.settings.detector) ? track.peakStatistic : track.detectStatistic;
+}
+
+std::vector<Event> events(const Analysis &analysis)
+{
+    return events(analysis, analysis.tracks);
+}
+
+std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tracks)
+{
+    const Axis &time = analysis.time();
+    const Grid &grid = analysis.grid();
+    std::vector<Event> result;
+    for (const Track &track : tracks) {
+        Event event;
+        event.id = track.id;
+        event.onsetSeconds = time.value(static_cast<double>(track.onsetFrame));
+        event.detectSeconds = time.value(static_cast<double>(track.detectFrame));
+        event.endSeconds = time.value(static_cast<double>(track.endFrame));
+        const auto at = std::find_if(track.points.begin(), track.points.end(),
+                                     [&](const TrackPoint &point) { return point.frame >= track.detectFrame; });
+        const auto detection = static_cast<std::size_t>(std::min(at, track.points.end() - 1) - track.points.begin());
+        event.position = track.positionOf(detection, grid);
+        for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
+            event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
+        event.driftPerSecond = event.ratesPerSecond.back();
+        event.model = track.model;
+        event.statistic = statisticOf(track, analysis);
+        event.isConfirmed = track.isConfirmed;
+        event.isOpen = track.isOpen;
+        if (!track.smoothed.empty())
+            describe(event, track, analysis);
+        result.push_back(std::move(event));
+    }
+    std::stable_sort(result.begin(), result.end(), [](const Event &a, const Event &b) {
+        return a.onsetSeconds != b.onsetSeconds ? a.onsetSeconds < b.onsetSeconds : a.position < b.position;
+    });
+    return result;
+}
+
+} // namespace faintline

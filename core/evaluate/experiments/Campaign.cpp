@@ -1,0 +1,158 @@
+#include "evaluate/experiments/Campaign.h"
+
+#include "base/Error.h"
+#include "base/fileName.h"
+#include "base/wholeNumber.h"
+#include "recording/openRecording.h"
+
+#include <algorithm>
+#include <set>
+
+namespace faintline {
+
+namespace {
+
+    template <class... F>
+    struct Overloaded : F... {
+        using F::operator()...;
+    };
+    template <class... F>
+    Overloaded(F...) -> Overloaded<F...>; // clang 14 does not find it by itself
+
+    InjectionTrials trialsOf(const InjectionExperiment &experiment, const RunContext &context)
+    {
+        OpenOptions options;
+        options.iq = experiment.iq;
+        return InjectionTrials(experiment, openRecording(fileNameFromText(experiment.recording), options), context);
+    }
+
+    SweepTrials trialsOf(const SweepExperiment &experiment, const RunContext &context)
+    {
+        if (experiment.recording.empty())
+            return SweepTrials(experiment, nullptr, context);
+        OpenOptions options;
+        options.iq = experiment.iq;
+        return SweepTrials(experiment, openRecording(fileNameFromText(experiment.recording), options), context);
+    }
+
+    bool inRunOrder(const RunOutcome &a, const RunOutcome &b)
+    {
+        return a.run < b.run;
+    }
+
+} // namespace
+
+Experiment experimentFromJson(const Json &json, const std::string &where)
+{
+    if (!json.is_object())
+        throw Error(where, "must be a JSON object");
+    const Json kind = json.value("kind", Json("lines"));
+    if (kind == "lines")
+        return lineExperimentFromJson(json, where);
+    if (kind == "injection")
+        return injectionExperimentFromJson(json, where);
+    if (kind == "sweep")
+        return sweepExperimentFromJson(json, where);
+    throw Error(jsonName(where, "kind") + (kind.is_string() ? " = " + kind.get<std::string>() : ""), "must be lines, injection or sweep");
+}
+
+Json toJson(const Experiment &experiment)
+{
+    return std::visit([](const auto &one) { return toJson(one); }, experiment);
+}
+
+int runCount(const Experiment &experiment)
+{
+    return std::visit(Overloaded{[](const LineExperiment &lines) { return lines.runs; },
+                                 [](const InjectionExperiment &injection) { return injection.trials; },
+                                 [](const SweepExperiment &sweep) { return sweep.runs(); }},
+                      experiment);
+}
+
+int runFromJson(const Json &json, const Experiment &experiment, const std::string &where)
+{
+    const int run = wholeNumber<int>(json, where);
+    if (run < 0 || run >= runCount(experiment))
+        throw Error(where + " = " + std::to_string(run), "must lie in 0 … " + std::to_string(runCount(experiment) - 1));
+    return run;
+}
+
+std::vector<double> snrsOf(const Experiment &experiment)
+{
+    return std::visit(Overloaded{[](const SweepExperiment &sweep) { return std::vector{sweep.snrDb}; },
+                                 [](const auto &one) { return one.snrDb; }},
+                      experiment);
+}
+
+std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment)
+{
+    return std::visit(Overloaded{[](const SweepExperiment &sweep) {
+                                     std::vector<DetectorUnderTest> detectors;
+                                     for (std::size_t i = 0; i < sweep.values.size(); ++i)
+                                         detectors.push_back({sweep.parameter + " = " + formatNumber(sweep.values[i]), settingsAt(sweep, i)});
+                                     return detectors;
+                                 },
+                                 [](const auto &one) { return one.detectors; }},
+                      experiment);
+}
+
+void setSeed(Experiment &experiment, int seed)
+{
+    std::visit([seed](auto &one) { one.seed = seed; }, experiment);
+}
+
+Campaign begin(const Experiment &experiment, const RunContext &context)
+{
+    Campaign campaign{experiment, {}, {}};
+    if (const auto *injection = std::get_if<InjectionExperiment>(&experiment))
+        campaign.thresholds = trialsOf(*injection, context).thresholds();
+    else if (const auto *sweep = std::get_if<SweepExperiment>(&experiment))
+        campaign.thresholds = trialsOf(*sweep, context).thresholds();
+    return campaign;
+}
+
+void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context, const RunSink &sink)
+{
+    std::set<int> done;
+    for (const RunOutcome &outcome : campaign.outcomes)
+        done.insert(outcome.run);
+    std::vector<int> open;
+    std::copy_if(runs.begin(), runs.end(), std::back_inserter(open), [&](int run) { return !done.contains(run); });
+    const auto outcomes = std::visit(
+        Overloaded{[&](const LineExperiment &lines) { return runExperiment(lines, open, context, sink); },
+                   [&](const auto &one) { return trialsOf(one, context.part(0.0, 0.1)).run(open, context.part(0.1, 1.0), sink); }},
+        campaign.experiment);
+    campaign.outcomes.insert(campaign.outcomes.end(), outcomes.begin(), outcomes.end());
+    std::sort(campaign.outcomes.begin(), campaign.outcomes.end(), inRunOrder);
+}
+
+std::vector<int> runsOfShard(const Experiment &experiment, int index, int count)
+{
+    std::vector<int> runs;
+    for (int run = 0; run < runCount(experiment); ++run)
+        if (run % count == index % count)
+            runs.push_back(run);
+    return runs;
+}
+
+Campaign merge(std::vector<Campaign> parts)
+{
+    if (parts.empty())
+        throw Error("merge", "needs at least one part");
+    Campaign whole = std::move(parts.front());
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        if (!(parts[i].experiment == whole.experiment) || parts[i].thresholds != whole.thresholds)
+            throw Error("merge: part " + std::to_string(i + 1), "belongs to another experiment than the first");
+        whole.outcomes.insert(whole.outcomes.end(), parts[i].outcomes.begin(), parts[i].outcomes.end());
+    }
+    std::stable_sort(whole.outcomes.begin(), whole.outcomes.end(), inRunOrder);
+    for (std::size_t i = 1; i < whole.outcomes.size(); ++i)
+        if (whole.outcomes[i].run == whole.outcomes[i - 1].run)
+            throw Error("merge", "run " + std::to_string(whole.outcomes[i].run) + " is in two parts");
+    for (int run = 0; run < runCount(whole.experiment); ++run)
+        if (static_cast<std::size_t>(run) >= whole.outcomes.size() || whole.outcomes[static_cast<std::size_t>(run)].run != run)
+            throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(runCount(whole.experiment)) + " is in no part: a shard is missing");
+    return whole;
+}
+
+} // namespace faintline

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "base/Interval.h"
+#include "evaluate/experiments/LineExperiment.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// One estimate of a detection probability.
+struct PdPoint {
+    double snrDb = 0.0;
+    double pd = 0.0;
+    Interval interval;
+    std::int64_t trials = 0; ///< signals behind it
+};
+
+/// Billon's estimate at one false alarm per noise block in the mean (2005, section 5):
+///
+///   Pd = (1/I²) Σᵢ Σⱼ [ D₁ᵢ > D₀ⱼ ]   per run, averaged over the runs; strictly greater
+///
+/// D₁ᵢ the largest statistic on signal i, D₀ⱼ that of noise block j: every block's maximum serves as threshold once. The
+/// interval comes from the scatter of the runs (Wilson's, of the signals, where there are fewer than five).
+PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr);
+
+/// The detection probability at a fixed threshold, with Wilson's interval.
+PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr,
+                      double threshold);
+
+/// The threshold that a noise block exceeds with the given probability: a quantile of all blocks' maxima.
+double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector, double probability);
+
+/// One point of a receiver operating characteristic.
+struct RocPoint {
+    double threshold = 0.0;
+    double falseAlarmsPerBlock = 0.0; ///< -ln P(no block exceeds): mean number of false alarms
+    double pd = 0.0;
+    Interval interval;
+};
+
+/// Pd against false alarms as the threshold falls, one point for every noise block's maximum that differs; ascending in false alarms.
+std::vector<RocPoint> rocCurve(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr);
+
+} // namespace faintline

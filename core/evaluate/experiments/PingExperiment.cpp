@@ -1,0 +1,90 @@
+#include "evaluate/experiments/PingExperiment.h"
+
+#include "analysis/chain.h"
+#include "base/Error.h"
+#include "base/parallel.h"
+#include "detect/Smd.h"
+#include "spectrum/SimulatedPings.h"
+
+namespace faintline {
+
+namespace {
+
+    PingScene seeded(PingScene scene, std::uint64_t seed)
+    {
+        scene.seed = static_cast<int>(seed & 0x7fffffff);
+        return scene;
+    }
+
+    /// All that makes a chain, without a run.
+    AnalysisPlan planOf(const PingExperiment &experiment)
+    {
+        AnalysisPlan plan;
+        plan.settings = experiment.settings;
+        plan.frames = std::make_shared<SimulatedPings>(experiment.scene);
+        plan.model = makeModel(experiment.settings.model, plan.grid());
+        auto calibration = std::make_shared<Calibration>();
+        calibration->lnK = std::get<SmdSettings>(experiment.settings.detector).lnK;
+        plan.calibration = calibration;
+        plan.threshold = experiment.settings.decide.thresholdNats;
+        return plan;
+    }
+
+    std::shared_ptr<const DetectorState> settle(const PingExperiment &experiment, const AnalysisPlan &plan, const ResetRule &rule, const RunContext &context)
+    {
+        PingScene scene = seeded(experiment.scene, experiment.seed);
+        scene.targets.clear();
+        scene.pings = std::max(1, experiment.settlingPings);
+        const SimulatedPings noise(scene);
+        Smd detector(plan.model, rule);
+        std::vector<float> y(static_cast<std::size_t>(noise.grid().size()));
+        std::vector<float> statistic(y.size());
+        for (int ping = 0; ping < experiment.settlingPings; ++ping) {
+            context.checkpoint(static_cast<double>(ping) / experiment.settlingPings, "settling on noise");
+            noise.read(ping, 1, y);
+            detector.update(y, statistic);
+        }
+        return detector.state();
+    }
+
+    TrackScore runOnce(const PingExperiment &experiment, const AnalysisPlan &plan, const ResetRule &rule, const DetectorState &settled,
+                       std::uint64_t run, const RunContext &context)
+    {
+        const SimulatedPings pings(seeded(experiment.scene, experiment.seed + 7919u * (run + 1)));
+        auto detector = std::make_unique<Smd>(plan.model, rule);
+        detector->setState(settled);
+        const auto chain = makeChain(plan, std::move(detector));
+        std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
+        std::vector<float> statistic(y.size());
+        for (Index ping = 0; ping < pings.time().count; ++ping) {
+            if (context.stop.stop_requested())
+                throw Cancelled();
+            pings.read(ping, 1, y);
+            chain->update(ping, y, statistic);
+        }
+        chain->finish();
+        return scoreTracks(chain->tracks(), pings.truth(), pings.grid(), experiment.gateCells);
+    }
+
+} // namespace
+
+std::vector<TrackScore> runPings(const PingExperiment &experiment, const RunContext &context)
+{
+    checkSettings(experiment.settings);
+    const auto *smd = std::get_if<SmdSettings>(&experiment.settings.detector);
+    if (!smd || experiment.settings.model.motion == Motion::Bank)
+        throw Error("experiment", "runs one sequential Markov detector; choose detector.kind = smd and one model");
+    const AnalysisPlan plan = planOf(experiment);
+    const ResetRule rule = resetRule(*smd, smd->lnK);
+    const auto settled = settle(experiment, plan, rule, context.part(0.0, 0.2));
+    std::vector<TrackScore> scores(static_cast<std::size_t>(experiment.runs));
+    parallelFor(experiment.runs, context.part(0.2, 1.0), "following targets", [&]() -> std::function<void(Index)> {
+        return [&](Index run) {
+            scores[static_cast<std::size_t>(run)] =
+                runOnce(experiment, plan, rule, *settled, static_cast<std::uint64_t>(run), context);
+        };
+    });
+    return scores;
+}
+
+} // namespace faintline

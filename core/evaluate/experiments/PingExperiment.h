@@ -1,0 +1,26 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+#include "base/RunContext.h"
+#include "evaluate/comparison/trackScore.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace faintline {
+
+/// The whole chain of Parsons' Figure 1 against known targets: independent runs, each with noise of its own, all of them from one
+/// field of settled noise.
+struct PingExperiment {
+    PingScene scene;           ///< run by run with another seed
+    AnalysisSettings settings; ///< one model, threshold in nats
+    int runs = 12;
+    int settlingPings = 200;
+    std::uint64_t seed = 1;
+    std::vector<Index> gateCells{3, 1};
+};
+
+/// The scores of the runs, in order: a pure function of (experiment, run), whatever the number of threads. Throws Error, Cancelled.
+std::vector<TrackScore> runPings(const PingExperiment &experiment, const RunContext &context = {});
+
+} // namespace faintline

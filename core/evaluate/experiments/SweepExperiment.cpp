@@ -1,0 +1,365 @@
+#include "evaluate/experiments/SweepExperiment.h"
+
+#include "analysis/Calibration.h"
+#include "analysis/analyse.h"
+#include "analysis/scaledInjection.h"
+#include "analysis/slopeUnit.h"
+#include "base/Error.h"
+#include "base/parallel.h"
+#include "base/Random.h"
+#include "evaluate/experiments/measureCost.h"
+#include "recording/InjectedRecording.h"
+#include "recording/SimulatedRecording.h"
+#include "spectrum/NoiseNormaliser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double reachCells = 1.5;   ///< of a track round its line
+    constexpr double bandMargin = 0.1;   ///< of the band at either edge, kept free of lines
+    constexpr double neverDetected = -std::numeric_limits<double>::infinity();
+
+    const Field<AnalysisSettings> &parameterField(const std::string &parameter)
+    {
+        const Field<AnalysisSettings> &field = settingField(parameter);
+        if (!isSweepable(field))
+            throw Error("parameter = " + parameter, "must be a setting that is one number, such as model.snr");
+        return field;
+    }
+
+    FieldValue valueOf(const FieldInfo &field, double value)
+    {
+        if (field.kind != FieldKind::Integer)
+            return value;
+        if (value != std::round(value))
+            throw Error(field.name + " = " + formatNumber(value), "must be a whole number");
+        return static_cast<int>(value);
+    }
+
+    /// How a track lies with the line.
+    enum class Bond { None, Touches, OnIt };
+
+    Bond bondOf(const Track &track, const Analysis &analysis, const TruthLine &truth)
+    {
+        const Spectrogram &spectrogram = *analysis.frames->spectrogram();
+        const Axis &frequency = analysis.grid().axes.front();
+        const double reach = reachCells * spectrogram.binsPerCell() * frequency.step;
+        const double window = spectrogram.windowSeconds();
+        const double centreHz = analysis.recording->info().centreHz;
+        int during = 0;
+        int on = 0;
+        bool isTouching = false;
+        for (const TrackPoint &point : track.points) {
+            const double seconds = analysis.time().value(static_cast<double>(point.frame));
+            const double hz = frequency.value(static_cast<double>(point.cell));
+            const bool isNear = std::abs(hz - (truth.frequencyAt(seconds) - centreHz)) <= reach;
+            if (seconds >= truth.startSeconds && seconds <= truth.endSeconds) {
+                ++during;
+                on += isNear ? 1 : 0;
+            }
+            isTouching = isTouching || (isNear && seconds >= truth.startSeconds - window && seconds <= truth.endSeconds + window);
+        }
+        return on > 0 && 2 * on >= during ? Bond::OnIt : isTouching ? Bond::Touches : Bond::None;
+    }
+
+    RunOutcome scored(int run, const Analysis &analysis, const TruthLine &truth)
+    {
+        std::ptrdiff_t falseAlarms = 0;
+        double latency = neverDetected;
+        for (const Track &track : analysis.tracks) {
+            const Bond bond = bondOf(track, analysis, truth);
+            falseAlarms += bond == Bond::None ? 1 : 0;
+            if (bond != Bond::OnIt)
+                continue;
+            const double after = std::max(0.0, analysis.time().value(static_cast<double>(track.detectFrame)) - truth.startSeconds);
+            latency = latency < 0.0 ? after : std::min(latency, after);
+        }
+        return sweepOutcome(run, falseAlarms, static_cast<double>(analysis.time().count) * analysis.time().step, latency);
+    }
+
+    /// The values of "values": a list, or a range.
+    std::vector<double> valuesFromJson(const Json &json, const std::string &parameter, const std::string &where)
+    {
+        const auto found = json.find("values");
+        const std::string name = jsonName(where, "values");
+        if (found == json.end())
+            throw Error(name, "must be a list of values, or {\"from\": …, \"to\": …, \"steps\": …}");
+        FieldInfo list{name, "", -1e300, 1e300, "", {}, FieldKind::Numbers};
+        if (found->is_array())
+            return std::get<std::vector<double>>(fieldValueFromJson(*found, list));
+        checkKeys(*found, name, {"from", "to", "steps", "scale"});
+        const auto number = [&](const char *key) {
+            if (!found->contains(key))
+                throw Error(jsonName(name, key), "is missing");
+            return std::get<double>(fieldValueFromJson((*found)[key], {jsonName(name, key), "", -1e300, 1e300, "", {}, FieldKind::Number}));
+        };
+        const std::string scale = found->value("scale", std::string("linear"));
+        if (scale != "linear" && scale != "log")
+            throw Error(jsonName(name, "scale") + " = " + scale, "must be linear or log");
+        const double steps = number("steps");
+        if (steps != std::round(steps) || steps < 2.0 || steps > 1000.0)
+            throw Error(jsonName(name, "steps") + " = " + formatNumber(steps), "must be a whole number in 2 … 1000");
+        return sweepValues(parameter, number("from"), number("to"), static_cast<int>(steps), scale == "log");
+    }
+
+} // namespace
+
+const std::vector<Field<SweepExperiment>> &SweepExperiment::fields()
+{
+    using S = SweepExperiment;
+    static const std::vector<Field<S>> table{
+        field(&S::iq, "iq", "Take two channels as I and Q."),
+        field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
+        field(&S::trials, "trials", "", 1.0, 1e6, "Lines to try every value on."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratio in a frame of a rectangular window."),
+        field(&S::durationSeconds, "durationSeconds", "s", 1e-6, 1e6, "Duration of a line."),
+        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line."),
+        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander."),
+        field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e7, "Correlation time of the wander."),
+        field(&S::marginSeconds, "marginSeconds", "s", 0.0, 1e6, "Noise before and after a line, in which false alarms are counted."),
+        field(&S::sampleRateHz, "sampleRateHz", "Hz", 1e-3, 1e9, "Sample rate of simulated noise."),
+    };
+    return table;
+}
+
+bool isSweepable(const FieldInfo &field)
+{
+    return (field.kind == FieldKind::Integer || field.kind == FieldKind::Number) && !field.name.starts_with("selection.")
+        && !field.name.starts_with("conventional.");
+}
+
+std::vector<double> sweepValues(const std::string &parameter, double from, double to, int steps, bool isLogarithmic)
+{
+    const Field<AnalysisSettings> &field = parameterField(parameter);
+    if (isLogarithmic && !(from > 0.0 && to > 0.0))
+        throw Error("values.from, values.to", "must be above 0 on a logarithmic scale");
+    std::vector<double> values;
+    for (int i = 0; i < steps; ++i) {
+        const double share = steps > 1 ? static_cast<double>(i) / (steps - 1) : 0.0;
+        double value = isLogarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
+        // Nobody wants to read, or type, the digits that a division leaves behind.
+        const double scale = std::pow(10.0, 5.0 - std::ceil(std::log10(std::max(std::abs(value), 1e-300))));
+        value = field.kind == FieldKind::Integer ? std::round(value) : value == 0.0 ? 0.0 : std::round(value * scale) / scale;
+        if (values.empty() || value != values.back())
+            values.push_back(value);
+    }
+    return values;
+}
+
+AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value)
+{
+    AnalysisSettings settings = experiment.settings;
+    const Field<AnalysisSettings> &field = parameterField(experiment.parameter);
+    const FieldValue held = valueOf(field, experiment.values[value]);
+    checkFieldValue(field, held);
+    field.set(settings, held);
+    if (!field.get(settings))
+        throw Error("parameter = " + experiment.parameter, "belongs to another detector than the one chosen");
+    checkSettings(settings);
+    return settings;
+}
+
+void checkExperiment(const SweepExperiment &experiment)
+{
+    checkFields(experiment, SweepExperiment::fields());
+    if (experiment.values.empty())
+        throw Error("values", "must hold at least one value");
+    constexpr std::size_t mostRuns = 10'000'000;
+    if (experiment.values.size() > mostRuns / static_cast<std::size_t>(experiment.trials))
+        throw Error("trials = " + std::to_string(experiment.trials),
+                    "of each of " + std::to_string(experiment.values.size()) + " values are more than 10 million");
+    for (std::size_t i = 0; i < experiment.values.size(); ++i)
+        settingsAt(experiment, i);
+    if (!experiment.recording.empty())
+        return;
+    LineScene scene;
+    scene.sampleRateHz = experiment.sampleRateHz;
+    scene.durationSeconds = experiment.trialSeconds();
+    checkScene(scene);
+}
+
+SweepExperiment sweepExperimentFromJson(const Json &json, const std::string &where)
+{
+    SweepExperiment experiment;
+    readFields(json, SweepExperiment::fields(), experiment, where, {"kind", "recording", "settings", "parameter", "values"});
+    if (json.contains("recording")) {
+        if (!json["recording"].is_string())
+            throw Error(jsonName(where, "recording"), "must be the path of a recording");
+        experiment.recording = json["recording"].get<std::string>();
+    }
+    if (!json.contains("parameter") || !json["parameter"].is_string())
+        throw Error(jsonName(where, "parameter"), "must name the setting to vary");
+    experiment.parameter = json["parameter"].get<std::string>();
+    const Json base = json.contains("settings") ? json["settings"] : Json::object();
+    experiment.settings = settingsFromJson(base.dump(), jsonName(where, "settings"));
+    experiment.values = valuesFromJson(json, experiment.parameter, where);
+    checkExperiment(experiment);
+    return experiment;
+}
+
+Json toJson(const SweepExperiment &experiment)
+{
+    Json whole{{"kind", "sweep"}};
+    if (!experiment.recording.empty())
+        whole["recording"] = experiment.recording;
+    whole.update(writeFields(experiment, SweepExperiment::fields()));
+    whole["settings"] = Json::parse(settingsToJson(experiment.settings));
+    whole["parameter"] = experiment.parameter;
+    whole["values"] = experiment.values;
+    return whole;
+}
+
+RunOutcome sweepOutcome(int run, std::ptrdiff_t falseAlarms, double seconds, double latencySeconds)
+{
+    RunOutcome outcome;
+    outcome.run = run;
+    outcome.noise = {{static_cast<float>(falseAlarms), static_cast<float>(seconds)}};
+    outcome.signal = {{{static_cast<float>(latencySeconds)}}};
+    return outcome;
+}
+
+namespace {
+
+    /// As `settingsAt`, slopes in bins a frame of the window of that value.
+    AnalysisSettings settingsOfTrial(const SweepExperiment &experiment, std::size_t value, const Recording *recording)
+    {
+        RecordingInfo info;
+        info.sampleRateHz = experiment.sampleRateHz;
+        return withSlopesInBins(settingsAt(experiment, value), recording ? recording->info() : info);
+    }
+
+} // namespace
+
+SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer recording, const RunContext &context)
+    : m_experiment(experiment), m_recording(std::move(recording))
+{
+    checkExperiment(experiment);
+    if (m_recording && experiment.trialSeconds() >= m_recording->info().durationSeconds())
+        throw Error("durationSeconds, marginSeconds", "a trial of " + formatNumber(experiment.trialSeconds())
+                        + " s must be shorter than the recording, " + formatNumber(m_recording->info().durationSeconds()) + " s");
+    if (experiment.settings.spectrogram.windowSeconds == 0.0) {
+        // What is chosen for a recording must not change with the stretch that is looked at.
+        RecordingInfo info;
+        info.sampleRateHz = experiment.sampleRateHz;
+        info.sampleCount = static_cast<Index>(experiment.trialSeconds() * experiment.sampleRateHz);
+        m_experiment.settings.spectrogram.windowSeconds =
+            Spectrogram::automaticWindowSeconds(m_recording ? m_recording->info() : info);
+    }
+    const auto count = static_cast<double>(experiment.values.size());
+    for (std::size_t i = 0; i < experiment.values.size(); ++i) {
+        const RunContext part = context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+        const AnalysisSettings settings = settingsOfTrial(m_experiment, i, m_recording.get());
+        const Made made = remake(static_cast<int>(i));
+        const Spectrogram spectrogram(made.recording, settings.spectrogram, made.settings.selection);
+        const double cellFramesPerHour = static_cast<double>(spectrogram.frequency().count) * 3600.0 / spectrogram.time().step;
+        m_thresholds.push_back(thresholdNats(settings.decide, *calibrateBand(settings, spectrogram.frequency().count, part), cellFramesPerHour));
+    }
+}
+
+SweepTrials::Made SweepTrials::remake(int run) const
+{
+    const int trial = m_experiment.trialOf(run);
+    Made made{nullptr, {}, settingsOfTrial(m_experiment, static_cast<std::size_t>(m_experiment.valueOf(run)), m_recording.get())};
+    Random places(static_cast<std::uint64_t>(m_experiment.seed), static_cast<std::uint64_t>(trial));
+    const double wherePlaced = places.uniform();
+    const double whenPlaced = places.uniform();
+    const double whole = m_experiment.trialSeconds();
+
+    RecordingInfo info;
+    info.sampleRateHz = m_experiment.sampleRateHz;
+    if (m_recording)
+        info = m_recording->info();
+    const SelectionSettings &selection = m_experiment.settings.selection;
+    const bool hasBand = selection.lowHz < selection.highHz;
+    const double lowest = hasBand ? selection.lowHz : info.isComplex ? -0.5 * info.sampleRateHz : 0.0;
+    const double highest = hasBand ? selection.highHz : 0.5 * info.sampleRateHz;
+    const double travel = m_experiment.driftHzPerSecond * m_experiment.durationSeconds;
+    const double low = lowest + bandMargin * (highest - lowest) + 4.0 * m_experiment.wanderHz + std::max(0.0, -travel);
+    const double high = highest - bandMargin * (highest - lowest) - 4.0 * m_experiment.wanderHz - std::max(0.0, travel);
+    if (!(low < high))
+        throw Error("driftHzPerSecond, wanderHz", "a line must stay within the band of " + formatNumber(highest - lowest) + " Hz");
+
+    LineSettings line;
+    line.snrDb = m_experiment.snrDb;
+    line.referenceSeconds = m_experiment.settings.spectrogram.windowSeconds;
+    line.startSeconds = m_experiment.marginSeconds;
+    line.durationSeconds = m_experiment.durationSeconds;
+    line.frequencyHz = info.centreHz + low + wherePlaced * (high - low);
+    line.driftHzPerSecond = m_experiment.driftHzPerSecond;
+    line.wanderHz = m_experiment.wanderHz;
+    line.wanderSeconds = m_experiment.wanderSeconds;
+    // Noise, phase and wander belong to the trial.
+    const std::uint64_t own = static_cast<std::uint64_t>(m_experiment.seed) * 1000003 + static_cast<std::uint64_t>(trial);
+    if (!m_recording) {
+        LineScene scene;
+        scene.sampleRateHz = m_experiment.sampleRateHz;
+        scene.durationSeconds = whole;
+        scene.seed = static_cast<int>(own % 2147483647);
+        scene.lines = {line};
+        const auto simulated = std::make_shared<SimulatedRecording>(scene);
+        made.truth = simulated->truth().lines.front();
+        made.recording = simulated;
+        made.settings.selection.fromSeconds = made.settings.selection.toSeconds = 0.0;
+        made.settings.selection.channel = 0;
+        return made;
+    }
+    const double from = selection.fromSeconds;
+    const double to = selection.toSeconds > from ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
+    if (to - from < whole)
+        throw Error("durationSeconds, marginSeconds", "a trial of " + formatNumber(whole) + " s must fit into the selection of "
+                        + formatNumber(to - from) + " s");
+    const double begin = from + whenPlaced * (to - from - whole);
+    line.startSeconds += begin;
+    made.settings.selection.fromSeconds = begin;
+    made.settings.selection.toSeconds = begin + whole;
+    AnalysisSettings placing = m_experiment.settings; // the line is the same for every value
+    placing.selection = made.settings.selection;
+    const InjectedLine injected = scaledInjection(line, m_recording, placing);
+    const auto with = std::make_shared<InjectedRecording>(m_recording, std::vector{injected}, selection.channel, own);
+    made.truth = with->truth().lines.front();
+    made.recording = with;
+    return made;
+}
+
+std::vector<RunOutcome> SweepTrials::run(const std::vector<int> &runs, const RunContext &context, const RunSink &sink) const
+{
+    std::vector<RunOutcome> outcomes(runs.size());
+    std::mutex guard;
+    parallelFor(std::ssize(runs), context, "trying values", [&] {
+        return [&](Index i) {
+            RunOutcome &outcome = outcomes[static_cast<std::size_t>(i)];
+            const int run = runs[static_cast<std::size_t>(i)];
+            const Made made = remake(run);
+            RunContext quiet;
+            quiet.stop = context.stop;
+            outcome = scored(run, *analyse(made.recording, made.settings, quiet), made.truth);
+            if (sink) {
+                const std::lock_guard lock(guard);
+                sink(outcome);
+            }
+        };
+    });
+    return outcomes;
+}
+
+std::vector<double> SweepTrials::costs(const RunContext &context) const
+{
+    std::vector<double> seconds;
+    RunContext quiet;
+    quiet.stop = context.stop;
+    for (std::size_t i = 0; i < m_experiment.values.size(); ++i) {
+        context.checkpoint(static_cast<double>(i) / static_cast<double>(m_experiment.values.size()), "measuring the cost");
+        const Made made = remake(static_cast<int>(i));
+        seconds.push_back(measureCost(*analyse(made.recording, made.settings, quiet), quiet));
+    }
+    return seconds;
+}
+
+} // namespace faintline

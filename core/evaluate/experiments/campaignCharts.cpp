@@ -1,0 +1,231 @@
+#include "evaluate/experiments/campaignCurve.h"
+#include "evaluate/experiments/campaignCharts.h"
+
+#include "base/Field.h"
+#include "base/logmath.h"
+#include "evaluate/experiments/PdCurve.h"
+#include "evaluate/experiments/sweepCurve.h"
+#include "evaluate/theory/theory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double snrStep = 0.25; ///< dB, of theory curves
+
+    bool hasTheory(const LineExperiment &lines, const DetectorUnderTest &detectorUnderTest)
+    {
+        const auto *integrator = std::get_if<IntegratorSettings>(&detectorUnderTest.settings.detector);
+        return integrator && integrator->shape == IntegratorSettings::Shape::Boxcar
+               && integrator->durationWindows == lines.durationWindows && lines.durationWindows >= 1.0
+               && lines.wanderCells == 0.0 && lines.driftCellsPerWindow == 0.0 && lines.fading == Fading::None
+               && lines.window == WindowShape::Rectangular;
+    }
+
+    /// Pd of the integrator for a mean number of false alarms per block.
+    double integratorPd(const LineExperiment &lines, double falseAlarms, double snrDb)
+    {
+        const int looks = static_cast<int>(std::lround(lines.durationWindows));
+        const double cells =
+            static_cast<double>(lines.blockFrames) / lines.stepsPerWindow * lines.blockBins / lines.binsPerCell;
+        const double pfa = std::min(1.0, falseAlarms * lines.durationWindows / cells);
+        return pfa >= 1.0 ? 1.0 : pdOfMeanPower(thresholdOfMeanPower(pfa, looks), looks, ratioFromDb(snrDb));
+    }
+
+    Curve theoryAgainstSnr(const LineExperiment &lines, const std::string &name)
+    {
+        Curve curve{name + ", Marcum Q", Curve::Kind::Theory, {}};
+        const auto [low, high] = std::minmax_element(lines.snrDb.begin(), lines.snrDb.end());
+        for (double db = *low; db <= *high + 1e-9; db += snrStep)
+            curve.points.push_back({db, integratorPd(lines, 1.0, db), {}});
+        return curve;
+    }
+
+    Curve theoryAgainstFalseAlarms(const LineExperiment &lines, const std::string &name, double snrDb, double low,
+                                   double high)
+    {
+        constexpr int points = 60;
+        Curve curve{name + ", Marcum Q", Curve::Kind::Theory, {}};
+        for (int i = 0; i <= points; ++i) {
+            const double falseAlarms = low * std::pow(high / low, static_cast<double>(i) / points);
+            curve.points.push_back({falseAlarms, integratorPd(lines, falseAlarms, snrDb), {}});
+        }
+        return curve;
+    }
+
+    void addLines(Chart &chart, const Campaign &campaign, const LineExperiment &lines, std::size_t snr)
+    {
+        double low = 1.0;
+        double high = 1.0;
+        for (std::size_t d = 0; d < lines.detectors.size(); ++d) {
+            Curve curve{lines.detectors[d].name, Curve::Kind::Measured, {}};
+            for (const RocPoint &point : rocCurve(lines, campaign.outcomes, d, snr)) {
+                if (!std::isfinite(point.falseAlarmsPerBlock) || point.falseAlarmsPerBlock <= 0.0)
+                    continue; // the lowest and highest threshold have no place on a logarithmic axis
+                curve.points.push_back({point.falseAlarmsPerBlock, point.pd, point.interval});
+                low = std::min(low, point.falseAlarmsPerBlock);
+                high = std::max(high, point.falseAlarmsPerBlock);
+            }
+            chart.curves.push_back(std::move(curve));
+        }
+        for (const DetectorUnderTest &detectorUnderTest : lines.detectors)
+            if (hasTheory(lines, detectorUnderTest) && low < high)
+                chart.curves.push_back(theoryAgainstFalseAlarms(lines, detectorUnderTest.name, lines.snrDb[snr], low, high));
+    }
+
+    /// On a recording: how often the path without the line exceeds a threshold, against how often it does with it.
+    void addInjected(Chart &chart, const Campaign &campaign, const InjectionExperiment &injection, std::size_t snr)
+    {
+        for (std::size_t d = 0; d < injection.detectors.size(); ++d) {
+            Curve curve{injection.detectors[d].name, Curve::Kind::Measured, {}};
+            std::vector<float> noise;
+            std::vector<float> signal;
+            for (const RunOutcome &outcome : campaign.outcomes) {
+                noise.push_back(outcome.noise[d].front());
+                signal.push_back(outcome.signal[d][snr].front());
+            }
+            std::sort(noise.begin(), noise.end());
+            std::sort(signal.begin(), signal.end());
+            const auto above = [](const std::vector<float> &values, float threshold) {
+                return values.end() - std::upper_bound(values.begin(), values.end(), threshold);
+            };
+            const auto trials = std::ssize(noise);
+            for (auto threshold = noise.rbegin(); threshold != noise.rend(); ++threshold) {
+                const auto falseAlarms = above(noise, *threshold);
+                if (falseAlarms == 0 || (threshold != noise.rbegin() && *threshold == threshold[-1]))
+                    continue;
+                const auto detections = above(signal, *threshold);
+                curve.points.push_back({static_cast<double>(falseAlarms) / static_cast<double>(trials),
+                                        static_cast<double>(detections) / static_cast<double>(trials),
+                                        wilsonInterval(detections, trials)});
+            }
+            chart.curves.push_back(std::move(curve));
+        }
+    }
+
+    /// The detector of the campaign that works as the current settings do.
+    std::optional<std::size_t> detectorLike(const Campaign &campaign, const AnalysisSettings &current)
+    {
+        if (campaign.outcomes.empty() || std::holds_alternative<SweepExperiment>(campaign.experiment))
+            return {};
+        const std::vector<DetectorUnderTest> detectors = detectorsOf(campaign.experiment);
+        for (std::size_t d = 0; d < detectors.size(); ++d)
+            if (detectors[d].settings.model == current.model && detectors[d].settings.detector == current.detector)
+                return d;
+        return {};
+    }
+
+    std::string nameAt(const Campaign &campaign, std::size_t detector, double threshold)
+    {
+        return detectorsOf(campaign.experiment)[detector].name + ", T = " + formatNumber(std::round(100.0 * threshold) / 100.0);
+    }
+
+    /// Of all values of the runs' lists, the share above a threshold.
+    template <class ListOf>
+    std::pair<std::int64_t, std::int64_t> countAbove(const Campaign &campaign, double threshold, ListOf listOf)
+    {
+        std::int64_t above = 0;
+        std::int64_t all = 0;
+        for (const RunOutcome &outcome : campaign.outcomes)
+            for (const float value : listOf(outcome)) {
+                ++all;
+                above += static_cast<double>(value) > threshold ? 1 : 0;
+            }
+        return {above, all};
+    }
+
+    Curve::Point pdPoint(const Campaign &campaign, std::size_t detector, std::size_t snr, double threshold, double x)
+    {
+        const auto signals = [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.signal[detector][snr]; };
+        const auto [above, all] = countAbove(campaign, threshold, signals);
+        return {x, static_cast<double>(above) / static_cast<double>(all), wilsonInterval(above, all)};
+    }
+
+} // namespace
+
+std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const AnalysisSettings &current, double threshold)
+{
+    const std::optional<std::size_t> detector = detectorLike(campaign, current);
+    if (!detector)
+        return {};
+    Curve curve{nameAt(campaign, *detector, threshold), Curve::Kind::Theory, {}};
+    const std::vector<double> snrs = snrsOf(campaign.experiment);
+    for (std::size_t s = 0; s < snrs.size(); ++s) {
+        const Curve::Point point = pdPoint(campaign, *detector, s, threshold, snrs[s]);
+        curve.points.push_back({point.x, point.y, {}});
+    }
+    return curve;
+}
+
+std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, const AnalysisSettings &current, double threshold)
+{
+    const std::optional<std::size_t> detector = detectorLike(campaign, current);
+    if (!detector)
+        return {};
+    const auto [above, all] =
+        countAbove(campaign, threshold, [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.noise[*detector]; });
+    // None above, or all, has no place on a logarithmic axis: half a block away from it.
+    const double share = std::clamp(static_cast<double>(above), 0.5, static_cast<double>(all) - 0.5) / static_cast<double>(all);
+    const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
+    return Curve{nameAt(campaign, *detector, threshold), Curve::Kind::Paper,
+                 {pdPoint(campaign, *detector, snr, threshold, isInBlocks ? -std::log1p(-share) : share)}};
+}
+
+Chart pdChart(const Campaign &campaign)
+{
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        return sweepChart(campaign, SweepMeasure::Pd);
+    const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
+    Chart chart{"Detection probability",
+                "SNR (dB), at 1 false alarm per block",
+                "Pd",
+                false,
+                false,
+                {}};
+    if (const auto *injection = std::get_if<InjectionExperiment>(&campaign.experiment)) {
+        chart.title = "Detection probability in this recording";
+        chart.xLabel = "SNR (dB), at " + formatNumber(injection->falseAlarmsPerHour) + (injection->falseAlarmsPerHour == 1.0 ? " false alarm/h" : " false alarms/h");
+    }
+    for (const CurvePoint &point : pdCurve(campaign)) {
+        if (chart.curves.empty() || chart.curves.back().name != point.detector)
+            chart.curves.push_back({point.detector, Curve::Kind::Measured, {}});
+        chart.curves.back().points.push_back({point.snrDb, point.pd, point.interval});
+    }
+    if (lines && !campaign.outcomes.empty())
+        for (const DetectorUnderTest &detectorUnderTest : lines->detectors)
+            if (hasTheory(*lines, detectorUnderTest))
+                chart.curves.push_back(theoryAgainstSnr(*lines, detectorUnderTest.name));
+    return chart;
+}
+
+Chart rocChart(const Campaign &campaign, std::size_t snr)
+{
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        return tradeOffChart(campaign);
+    const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
+    Chart chart{"Receiver operating characteristic",
+                lines ? "False alarms per block" : "P(path without the line exceeds)",
+                "Pd",
+                true,
+                false,
+                {}};
+    if (campaign.outcomes.empty())
+        return chart;
+    if (lines)
+        addLines(chart, campaign, *lines, snr);
+    else
+        addInjected(chart, campaign, std::get<InjectionExperiment>(campaign.experiment), snr);
+    return chart;
+}
+
+double shownThreshold(const Campaign &campaign, std::size_t detector)
+{
+    const double share = 1.0 - std::exp(-1.0);
+    return campaign.thresholds.empty() ? blockThreshold(campaign.outcomes, detector, share)
+                                       : campaign.thresholds[detector];
+}
+
+} // namespace faintline

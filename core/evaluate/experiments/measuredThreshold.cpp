@@ -1,0 +1,23 @@
+#include "evaluate/experiments/measuredThreshold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace faintline {
+
+double measuredThreshold(std::vector<float> maxima, double falseAlarms, const Calibration &calibration, double eventsPerCellFrame)
+{
+    constexpr double least = 10.0;
+    const auto blocks = static_cast<double>(maxima.size());
+    const double counted = std::max(falseAlarms, std::min(least, 0.5 * blocks));
+    const auto exceeding = static_cast<std::size_t>(std::llround(blocks * -std::expm1(-counted / blocks)));
+    std::sort(maxima.begin(), maxima.end(), std::greater<>());
+    const double calibrated = calibration.thresholdForEventRate(eventsPerCellFrame);
+    if (exceeding == 0 || exceeding >= maxima.size() || !std::isfinite(maxima[exceeding]))
+        return calibrated;
+    const double measured = 0.5 * (static_cast<double>(maxima[exceeding - 1]) + static_cast<double>(maxima[exceeding]));
+    return measured + calibrated - calibration.thresholdForEventRate(eventsPerCellFrame * counted / falseAlarms);
+}
+
+} // namespace faintline

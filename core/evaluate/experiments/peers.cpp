@@ -1,0 +1,45 @@
+#include "evaluate/experiments/peers.h"
+
+#include "base/Error.h"
+
+namespace faintline {
+
+namespace {
+
+    DetectorUnderTest detectorUnderTest(const char *name, const DetectorSettings &detector)
+    {
+        DetectorUnderTest result{name, {}};
+        result.settings.model = laws::billon();
+        result.settings.detector = detector;
+        return result;
+    }
+
+} // namespace
+
+std::vector<DetectorUnderTest> peers(double durationWindows)
+{
+    std::vector<DetectorUnderTest> list{
+        detectorUnderTest("SMD 5 slopes", SmdSettings()),
+        detectorUnderTest("SMD stable", SmdSettings()),
+        detectorUnderTest("3 of 4", PofNSettings{3, 4}),
+        detectorUnderTest("6 of 8", PofNSettings{6, 8}),
+        detectorUnderTest("integrator", IntegratorSettings{IntegratorSettings::Shape::Boxcar, durationWindows}),
+        detectorUnderTest("energy", EnergySettings()),
+        detectorUnderTest("block Viterbi", BlockViterbiSettings{durationWindows}),
+    };
+    list[1].settings.model = laws::steady();
+    return list;
+}
+
+DetectorUnderTest peer(std::string_view name, double durationWindows)
+{
+    std::string names;
+    for (const DetectorUnderTest &one : peers(durationWindows)) {
+        if (one.name == name)
+            return one;
+        names += (names.empty() ? "" : ", ") + one.name;
+    }
+    throw Error("detector " + std::string(name), "is not known; there are " + names);
+}
+
+} // namespace faintline

@@ -1,0 +1,102 @@
+#include "evaluate/experiments/showTrial.h"
+
+#include "evaluate/experiments/campaignCharts.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    /// Ready-made frames know neither windows nor resolution cells: lengths are restated in frames and bins.
+    DetectorSettings inFrames(DetectorSettings detector, const LineExperiment &lines)
+    {
+        if (auto *integrator = std::get_if<IntegratorSettings>(&detector))
+            integrator->durationWindows *= lines.stepsPerWindow;
+        if (auto *viterbi = std::get_if<BlockViterbiSettings>(&detector))
+            viterbi->durationWindows *= lines.stepsPerWindow;
+        if (auto *pOfN = std::get_if<PofNSettings>(&detector))
+            pOfN->widthCells *= lines.binsPerCell;
+        return detector;
+    }
+
+    void setThreshold(AnalysisSettings &settings, double threshold)
+    {
+        const FieldInfo &range = settingField("decide.thresholdNats");
+        settings.decide.by = DecideSettings::By::Nats;
+        settings.decide.thresholdNats = std::clamp(threshold, range.minimum, range.maximum);
+    }
+
+    ShownTrial showLine(const Campaign &campaign, const LineExperiment &lines, std::size_t detector, std::size_t snr,
+                        const TrialPlace &place, const RunContext &context)
+    {
+        LineExperiment alone = lines;
+        alone.detectors = {lines.detectors[detector]};
+        AnalysisSettings settings = alone.detectors.front().settings;
+        if (auto *smd = std::get_if<SmdSettings>(&settings.detector);
+            smd && smd->reset == SmdSettings::Reset::Calibrated)
+            *smd = {SmdSettings::Reset::Fixed, calibratedResets(alone, context.part(0.0, 0.3)).front().lnK};
+        settings.detector = inFrames(settings.detector, lines);
+        setThreshold(settings, shownThreshold(campaign, detector));
+
+        context.checkpoint(0.3, "making the trial again");
+        const LineTrial trial = remakeTrial(lines, lines.snrDb[snr], place.run, place.signal);
+        const Axis &time = trial.frames->time();
+        const Axis &frequency = trial.frames->grid().axes.front();
+        TruthLine truth;
+        truth.startSeconds = time.value(static_cast<double>(trial.firstFrame));
+        truth.endSeconds = time.value(static_cast<double>(trial.firstFrame + std::ssize(trial.path) - 1));
+        truth.snrDb = lines.snrDb[snr];
+        truth.referenceSeconds = 1.0;
+        truth.stepSeconds = time.step;
+        for (const Index bin : trial.path)
+            truth.frequencyHz.push_back(frequency.value(static_cast<double>(bin)));
+        return {
+            analyse(trial.frames, makeModel(settings.model, trial.frames->grid()), settings, context.part(0.4, 1.0)),
+            {{truth}}};
+    }
+
+    ShownTrial showInjected(const Campaign &campaign, const InjectionExperiment &injection,
+                            const InjectionTrials &trials, std::size_t detector, std::size_t snr,
+                            const TrialPlace &place, const RunContext &context)
+    {
+        AnalysisSettings settings = injection.settings;
+        settings.model = injection.detectors[detector].settings.model;
+        settings.detector = injection.detectors[detector].settings.detector;
+        setThreshold(settings, shownThreshold(campaign, detector));
+        const InjectionTrials::Made made = trials.remake(place.run, injection.snrDb[snr]);
+        return {analyse(made.recording, settings, context), {{made.truth}}};
+    }
+
+} // namespace
+
+std::vector<TrialOutcome> trialsOf(const Campaign &campaign, std::size_t detector, std::size_t snr)
+{
+    std::vector<TrialOutcome> result;
+    if (campaign.outcomes.empty())
+        return result;
+    const double threshold = shownThreshold(campaign, detector);
+    for (const RunOutcome &outcome : campaign.outcomes) {
+        const std::vector<float> &signals = outcome.signal[detector][snr];
+        for (std::size_t i = 0; i < signals.size(); ++i) {
+            const auto statistic = static_cast<double>(signals[i]);
+            result.push_back({{outcome.run, static_cast<int>(i)}, statistic, statistic > threshold});
+        }
+    }
+    return result;
+}
+
+ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, std::size_t detector, std::size_t snr,
+                     const TrialPlace &place, const RunContext &context)
+{
+    if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment))
+        return showLine(campaign, *lines, detector, snr, place, context);
+    if (std::holds_alternative<SweepExperiment>(campaign.experiment))
+        throw Error("trial", "a sweep's trials cannot be shown; take its value over and inject a line");
+    if (!trials)
+        throw Error("trial", "of an injection that was done elsewhere: run it here to look at its trials");
+    return showInjected(campaign, std::get<InjectionExperiment>(campaign.experiment), *trials, detector, snr, place,
+                        context);
+}
+
+} // namespace faintline

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "evaluate/reproduce/Reproduction.h"
+
+#include <vector>
+
+namespace faintline {
+
+/// Figures 2 to 4 of Grossi and Lops 2006: stages against what is known of the trajectory, correct trajectories, and the radar case.
+/// The publication's figures give no numbers; references are an independent program's with their standard errors, or exact.
+std::vector<Reproducible> grossiReproducibles();
+
+} // namespace faintline

@@ -1,0 +1,455 @@
+#include "evaluate/sequential/SequentialStudy.h"
+
+#include "base/Error.h"
+#include "base/fastmath.h"
+#include "base/multiversion.h"
+#include "base/parallel.h"
+#include "spectrum/cellAveraging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index mostStages = 1000000;
+    constexpr Index trialsOfAnItem = 1000;
+
+    struct TrialOutcome {
+        Index stages = 0;
+        SprtDecision decision = SprtDecision::Undecided;
+        double lambda = 1.0;
+        bool isLastCorrect = false;
+        bool isTrackCorrect = false;
+    };
+
+    FAINTLINE_MULTIVERSION
+    void likelihoodRatios(const float *y, std::size_t n, float slope, float offset, float *ratio)
+    {
+        for (std::size_t i = 0; i < n; ++i)
+            ratio[i] = fastExp(slope * y[i] + offset);
+    }
+
+    FAINTLINE_MULTIVERSION
+    void addFolded(float *sum, const float *ratio, std::size_t n)
+    {
+        for (std::size_t i = 0; i < n; ++i)
+            sum[i] += ratio[i];
+    }
+
+    /// Of a trial's frame: Σ p1/p0 of the cells folded into one, in the first stateCells places of `ratio`, which is as long as the frame.
+    void foldedRatios(const SequentialModel &model, std::span<const float> y, std::span<float> ratio)
+    {
+        const double snr = model.markov.likelihood.snr();
+        likelihoodRatios(y.data(), y.size(), static_cast<float>(snr / (1.0 + snr)), static_cast<float>(-std::log1p(snr)), ratio.data());
+        const auto cells = static_cast<std::size_t>(model.reduction.stateCells());
+        for (std::size_t other = cells; other < ratio.size(); other += cells)
+            addFolded(ratio.data(), ratio.data() + other, cells);
+    }
+
+    /// weights = predicted · ratio; total(lane) = Σ weights
+    FAINTLINE_MULTIVERSION
+    void weigh(const double *predicted, const double *ratio, Index cells, Index lanes, double *weights, double *total)
+    {
+        for (Index cell = 0; cell < cells; ++cell)
+            for (Index lane = 0; lane < lanes; ++lane) {
+                const double weight = predicted[cell * lanes + lane] * ratio[cell * lanes + lane];
+                weights[cell * lanes + lane] = weight;
+                total[lane] += weight;
+            }
+    }
+
+    Index lanesFor(Index states)
+    {
+        if (states > 512)
+            return 1;
+        return states > 64 ? 32 : 64;
+    }
+
+    StateSpace withLanes(const StateSpace &space, Index lanes)
+    {
+        std::vector<KinematicAxis> axes = space.axes();
+        KinematicAxis trials;
+        trials.name = "trial";
+        trials.cells = lanes;
+        axes.push_back(trials);
+        return StateSpace(std::move(axes));
+    }
+
+    void check(const SequentialStudy &study)
+    {
+        checkSprt(study.sprt, "sprt");
+        study.model.check("model");
+        if (study.model.observedEvery != 1)
+            throw Error("model.observedEvery", "must be 1 where sequential tests are simulated: their frames do not overlap");
+        if (study.model.markov.likelihood.kind() != LikelihoodKind::Exponential)
+            throw Error("model.likelihood", "must be exponential where sequential tests are simulated");
+        if (study.actualSnr && !(*study.actualSnr > 0.0 && *study.actualSnr < 1e12))
+            throw Error("actualSnr = " + formatNumber(*study.actualSnr), "must be a power ratio above 0");
+        if (study.trials < 1)
+            throw Error("trials", "must be at least 1");
+        if (const Index row = study.model.markov.space.axes().back().cells; study.averagedCells < 0 || study.averagedCells >= row)
+            throw Error("averagedCells", "must be less than the " + std::to_string(row) + " cells of the last axis");
+    }
+
+    /// Runs trials abreast in the lanes of one recursion.
+    class Runner
+    {
+    public:
+        Runner(const SequentialStudy &study, const TrajectorySampler &sampler)
+            : m_study(study), m_sampler(sampler), m_cells(study.model.markov.space.cellCount()),
+              m_states(study.model.markov.space.stateCount()), m_lanes(lanesFor(m_states)), m_initial(study.model.initialLaw()),
+              m_recursion(withLanes(study.model.markov.space, m_lanes)), m_weights(static_cast<std::size_t>(m_states * m_lanes), 0.0),
+              m_ratio(static_cast<std::size_t>(m_cells * m_lanes), 0.0), m_total(static_cast<std::size_t>(m_lanes)),
+              m_cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells())), m_slot(static_cast<std::size_t>(m_lanes))
+        {
+        }
+
+        void run(Index first, Index count, TrialOutcome *outcomes, const RunContext &context)
+        {
+            Index next = 0;
+            Index running = 0;
+            m_step = 0;
+            const Index period = m_study.model.markov.space.phaseCount();
+            for (Slot &slot : m_slot)
+                slot.trial.reset();
+            for (;;) {
+                // A trial's moves are numbered from its own start, so it begins where those of all lanes repeat.
+                for (std::size_t lane = 0; m_step % period == 0 && lane < m_slot.size() && next < count; ++lane) {
+                    if (m_slot[lane].trial)
+                        continue;
+                    m_slot[lane] = {std::make_unique<SequentialTrial>(m_study, m_sampler, first + next), next, 0};
+                    ++next;
+                    ++running;
+                }
+                if (running == 0 && next == count)
+                    return;
+                if (context.stop.stop_requested())
+                    throw Cancelled();
+                stage();
+                for (std::size_t lane = 0; lane < m_slot.size(); ++lane)
+                    running -= m_slot[lane].trial && settle(lane, outcomes) ? 1 : 0;
+            }
+        }
+
+    private:
+        struct Slot {
+            std::unique_ptr<SequentialTrial> trial;
+            Index number = 0;
+            Index stages = 0;
+        };
+
+        void stage()
+        {
+            for (std::size_t lane = 0; lane < m_slot.size(); ++lane)
+                if (m_slot[lane].trial)
+                    takeFrame(lane);
+            const std::span<double> predicted = m_recursion.predict(m_weights, m_step++);
+            for (std::size_t lane = 0; lane < m_slot.size(); ++lane)
+                if (m_slot[lane].trial && m_slot[lane].stages++ == 0)
+                    for (std::size_t n = 0; n < m_initial.size(); ++n)
+                        predicted[n * m_slot.size() + lane] = m_initial[n];
+            std::fill(m_total.begin(), m_total.end(), 0.0);
+            for (Index plane = 0; plane < m_states / m_cells; ++plane) {
+                const Index offset = plane * m_cells * m_lanes;
+                weigh(predicted.data() + offset, m_ratio.data(), m_cells, m_lanes, m_weights.data() + offset, m_total.data());
+            }
+        }
+
+        void takeFrame(std::size_t lane)
+        {
+            foldedRatios(m_study.model, m_slot[lane].trial->next(), m_cellRatio);
+            const auto cells = static_cast<std::size_t>(m_cells);
+            const double share = static_cast<double>(m_cells) / static_cast<double>(m_cellRatio.size());
+            for (std::size_t cell = 0; cell < cells; ++cell)
+                m_ratio[cell * m_slot.size() + lane] = share * static_cast<double>(m_cellRatio[cell]);
+        }
+
+        /// Whether the lane's trial is over; its outcome is written and its lane cleared then.
+        bool settle(std::size_t lane, TrialOutcome *outcomes)
+        {
+            Slot &slot = m_slot[lane];
+            const double lambda = m_total[lane];
+            const SprtDecision decision = decide(m_study.sprt, std::log(lambda), slot.stages);
+            if (decision == SprtDecision::Undecided && slot.stages < mostStages)
+                return false;
+            TrialOutcome &outcome = outcomes[slot.number];
+            outcome.stages = slot.stages;
+            outcome.decision = decision;
+            outcome.lambda = lambda;
+            slot.trial.reset();
+            for (std::size_t n = 0; n < m_initial.size(); ++n)
+                m_weights[n * m_slot.size() + lane] = 0.0;
+            for (std::size_t cell = 0; cell < static_cast<std::size_t>(m_cells); ++cell)
+                m_ratio[cell * m_slot.size() + lane] = 0.0;
+            return true;
+        }
+
+        const SequentialStudy &m_study;
+        const TrajectorySampler &m_sampler;
+        Index m_cells;
+        Index m_states;
+        Index m_lanes;
+        Index m_step = 0;
+        std::vector<double> m_initial;
+        Recursion<SumProduct> m_recursion;
+        std::vector<double> m_weights;
+        std::vector<double> m_ratio;
+        std::vector<double> m_total;
+        std::vector<float> m_cellRatio;
+        std::vector<Slot> m_slot;
+    };
+
+    /// Estimates the trajectory of an accepted trial and holds it against the truth.
+    class TrajectoryJudge
+    {
+    public:
+        TrajectoryJudge(const SequentialStudy &study, const TrajectorySampler &sampler)
+            : m_study(study), m_sampler(sampler), m_map(study.model)
+        {
+        }
+
+        void judge(Index number, TrialOutcome &outcome)
+        {
+            const Index cells = m_study.model.reduction.stateCells();
+            const Index folded = m_study.model.reduction.foldedCells();
+            const double lnFolded = std::log(static_cast<double>(folded));
+            SequentialTrial trial(m_study, m_sampler, number);
+            std::vector<Index> truth;
+            m_lambda.assign(static_cast<std::size_t>(outcome.stages * cells), 0.0);
+            m_best.assign(m_lambda.size(), 0);
+            for (Index stage = 0; stage < outcome.stages; ++stage) {
+                const std::span<const float> y = trial.next();
+                truth.push_back(position(trial.state(), trial.folded()));
+                for (Index cell = 0; cell < cells; ++cell) {
+                    Index best = 0;
+                    for (Index d = 1; d < folded; ++d)
+                        if (y[static_cast<std::size_t>(d * cells + cell)] > y[static_cast<std::size_t>(best * cells + cell)])
+                            best = d;
+                    const auto at = static_cast<std::size_t>(stage * cells + cell);
+                    m_best[at] = best;
+                    m_lambda[at] = m_study.model.markov.likelihood.at(static_cast<double>(y[static_cast<std::size_t>(best * cells + cell)]))
+                                   - lnFolded;
+                }
+            }
+            const MapTrajectory map = m_map.estimate(outcome.stages, [&](Index stage, std::span<double> out) {
+                std::copy_n(m_lambda.begin() + stage * cells, cells, out.begin());
+            });
+            Index worst = 0;
+            Index error = 0;
+            for (Index stage = 0; stage < outcome.stages; ++stage) {
+                const Index state = map.states[static_cast<std::size_t>(stage)];
+                const Index best = m_best[static_cast<std::size_t>(stage * cells + m_study.model.markov.space.cellOf(state))];
+                error = distance(position(state, best), truth[static_cast<std::size_t>(stage)]);
+                worst = std::max(worst, error);
+            }
+            outcome.isLastCorrect = error <= m_study.lastWithinCells;
+            outcome.isTrackCorrect = worst <= m_study.trackWithinCells;
+        }
+
+    private:
+        bool isAllFolded() const { return m_study.model.reduction.stateCells() == 1; }
+
+        /// The cell of a state; where every axis is folded, the cell on those: a line of which nothing is known.
+        Index position(Index state, Index folded) const { return isAllFolded() ? folded : m_study.model.markov.space.cellOf(state); }
+
+        /// Largest distance along any axis.
+        Index distance(Index a, Index b) const
+        {
+            if (isAllFolded())
+                return std::abs(a - b);
+            Index largest = 0;
+            Index inner = 1;
+            const std::vector<KinematicAxis> &axes = m_study.model.markov.space.axes();
+            for (std::size_t axis = axes.size(); axis-- > 0;) {
+                Index along = std::abs(a / inner % axes[axis].cells - b / inner % axes[axis].cells);
+                if (axes[axis].cyclic)
+                    along = std::min(along, axes[axis].cells - along);
+                largest = std::max(largest, along);
+                inner *= axes[axis].cells;
+            }
+            return largest;
+        }
+
+        const SequentialStudy &m_study;
+        const TrajectorySampler &m_sampler;
+        MapEstimator m_map;
+        std::vector<double> m_lambda;
+        std::vector<Index> m_best;
+    };
+
+    Estimate meanOf(double sum, double sumOfSquares, double n)
+    {
+        const double mean = sum / n;
+        return {mean, n > 1.0 ? std::sqrt(std::max(0.0, sumOfSquares / n - mean * mean) / (n - 1.0)) : 0.0};
+    }
+
+    /// Mean, deviation, and coefficient of variation with its standard error by the delta method.
+    void summariseStages(const std::vector<TrialOutcome> &outcomes, SequentialOutcome &result)
+    {
+        const auto n = static_cast<double>(outcomes.size());
+        double mean = 0.0;
+        for (const TrialOutcome &o : outcomes)
+            mean += static_cast<double>(o.stages) / n;
+        double m2 = 0.0;
+        double m3 = 0.0;
+        double m4 = 0.0;
+        for (const TrialOutcome &o : outcomes) {
+            const double d = static_cast<double>(o.stages) - mean;
+            m2 += d * d / n;
+            m3 += d * d * d / n;
+            m4 += d * d * d * d / n;
+        }
+        result.deviationStages = std::sqrt(m2);
+        result.stages = {mean, std::sqrt(m2 / n)};
+        const double variation = result.deviationStages / mean;
+        const double relative = m2 > 0.0 ? (m4 - m2 * m2) / (4.0 * m2 * m2) + m2 / (mean * mean) - m3 / (m2 * mean) : 0.0;
+        result.variation = {variation, variation * std::sqrt(std::max(0.0, relative) / n)};
+    }
+
+    SequentialOutcome summarise(const SequentialStudy &study, const std::vector<TrialOutcome> &outcomes)
+    {
+        SequentialOutcome result;
+        result.trials = study.trials;
+        double sum = 0.0;
+        double sumOfSquares = 0.0;
+        for (const TrialOutcome &o : outcomes) {
+            result.acceptedH1 += o.decision == SprtDecision::H1 ? 1 : 0;
+            result.undecided += o.decision == SprtDecision::Undecided ? 1 : 0;
+            result.correctLast += o.isLastCorrect ? 1 : 0;
+            result.correctTrack += o.isTrackCorrect ? 1 : 0;
+            const bool isOther = o.decision == (study.actualSnr ? SprtDecision::H1 : SprtDecision::H0);
+            const double error = !isOther ? 0.0 : study.actualSnr ? 1.0 / o.lambda : o.lambda;
+            sum += error;
+            sumOfSquares += error * error;
+            if (o.stages > std::ssize(result.stopCounts))
+                result.stopCounts.resize(static_cast<std::size_t>(o.stages), 0);
+            ++result.stopCounts[static_cast<std::size_t>(o.stages - 1)];
+        }
+        summariseStages(outcomes, result);
+        result.otherError = meanOf(sum, sumOfSquares, static_cast<double>(outcomes.size()));
+        return result;
+    }
+
+} // namespace
+
+SequentialTrial::SequentialTrial(const SequentialStudy &study, const TrajectorySampler &sampler, Index trial)
+    : m_study(&study), m_sampler(&sampler), m_noise(study.seed, 2 * static_cast<std::uint64_t>(trial)),
+      m_target(study.seed, 2 * static_cast<std::uint64_t>(trial) + 1), m_frameCells(study.model.reduction.frameCells())
+{
+    // Whole blocks of four random words at a time, about 256 cells or a frame.
+    m_bufferFrames = m_frameCells % 4 == 0 ? std::max<Index>(1, 256 / m_frameCells) : 4 * std::max<Index>(1, 64 / m_frameCells);
+    m_used = m_bufferFrames;
+    m_buffer.resize(static_cast<std::size_t>(m_bufferFrames * m_frameCells));
+}
+
+std::span<const float> SequentialTrial::next()
+{
+    if (m_used == m_bufferFrames) {
+        m_noise.exponentials(m_buffer);
+        m_used = 0;
+    }
+    const std::span<float> y(m_buffer.data() + m_used * m_frameCells, static_cast<std::size_t>(m_frameCells));
+    ++m_used;
+    if (m_study->actualSnr) {
+        m_state = m_state < 0 ? m_sampler->first(m_target) : m_sampler->next(m_state, m_target, m_stage);
+        ++m_stage;
+        const StateSpace &space = m_study->model.markov.space;
+        if (const Index folded = m_study->model.reduction.foldedCells(); folded > 1)
+            m_folded = static_cast<Index>(m_target.uniform() * static_cast<double>(folded));
+        float &cell = y[static_cast<std::size_t>(m_folded * space.cellCount() + space.cellOf(m_state))];
+        cell *= static_cast<float>(1.0 + *m_study->actualSnr);
+    }
+    if (m_study->averagedCells > 0) {
+        averageCells(y, m_study->model.markov.space.axes().back().cells, m_study->averagedCells);
+        correctAveraged(y, m_study->averagedCells, m_study->model.markov.likelihood.snr());
+    }
+    return y;
+}
+
+SequentialOutcome simulate(const SequentialStudy &study, const RunContext &context)
+{
+    check(study);
+    const TrajectorySampler sampler(study.model);
+    std::vector<TrialOutcome> outcomes(static_cast<std::size_t>(study.trials));
+    const Index items = (study.trials + trialsOfAnItem - 1) / trialsOfAnItem;
+    parallelFor(items, context, "sequential tests", [&]() -> std::function<void(Index)> {
+        const auto runner = std::make_shared<Runner>(study, sampler);
+        const auto judge = study.estimatesTrajectory && study.actualSnr ? std::make_shared<TrajectoryJudge>(study, sampler) : nullptr;
+        return [&, runner, judge](Index item) {
+            const Index first = item * trialsOfAnItem;
+            const Index count = std::min(trialsOfAnItem, study.trials - first);
+            TrialOutcome *own = outcomes.data() + first;
+            runner->run(first, count, own, context);
+            for (Index i = 0; judge && i < count; ++i)
+                if (own[i].decision == SprtDecision::H1)
+                    judge->judge(first + i, own[i]);
+        };
+    });
+    return summarise(study, outcomes);
+}
+
+namespace {
+
+    /// ln Λ of every trial after every one of `largest` stages, stage by stage.
+    std::vector<double> lnRatios(const SequentialStudy &study, Index largest, const RunContext &context)
+    {
+        const TrajectorySampler sampler(study.model);
+        const auto trials = static_cast<std::size_t>(study.trials);
+        std::vector<double> lnLambda(trials * static_cast<std::size_t>(largest));
+        parallelFor(study.trials, context, "fixed-size tests", [&]() -> std::function<void(Index)> {
+            return [&](Index trial) {
+                SequentialTrial run(study, sampler, trial);
+                LikelihoodRatio ratio(study.model);
+                std::vector<float> cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells()));
+                std::vector<double> lambda(static_cast<std::size_t>(study.model.reduction.stateCells()));
+                const double lnFolded = std::log(static_cast<double>(study.model.reduction.foldedCells()));
+                for (Index stage = 0; stage < largest; ++stage) {
+                    foldedRatios(study.model, run.next(), cellRatio);
+                    for (std::size_t cell = 0; cell < lambda.size(); ++cell)
+                        lambda[cell] = std::log(static_cast<double>(cellRatio[cell])) - lnFolded;
+                    lnLambda[static_cast<std::size_t>(stage) * trials + static_cast<std::size_t>(trial)] = ratio.update(lambda);
+                }
+            };
+        });
+        return lnLambda;
+    }
+
+    /// Whether a threshold exists that misses no more than β of these runs with a target and accepts no more than α of noise, by
+    /// change of measure. Sorts them.
+    bool suffices(std::span<double> lnLambda, const SprtSettings &sprt)
+    {
+        std::sort(lnLambda.begin(), lnLambda.end());
+        const auto missed = static_cast<std::size_t>(sprt.miss * static_cast<double>(lnLambda.size()));
+        double falseAlarm = 0.0;
+        for (std::size_t i = lnLambda.size(); i-- > missed;)
+            falseAlarm += std::exp(-lnLambda[i]) / static_cast<double>(lnLambda.size());
+        return falseAlarm <= sprt.falseAlarm;
+    }
+
+} // namespace
+
+std::optional<Index> simulatedFixedSampleSize(const SequentialStudy &study, Index largest, const RunContext &context)
+{
+    check(study);
+    SequentialStudy own = study;
+    own.actualSnr = study.model.markov.likelihood.snr();
+    // Few stages first: most of the work lies in those beyond the answer.
+    Index known = 0;
+    for (Index count = std::min<Index>(largest, 8); known < largest; count = std::min(largest, 2 * count)) {
+        const double done = static_cast<double>(known) / static_cast<double>(largest);
+        std::vector<double> lnLambda =
+            lnRatios(own, count, context.part(done, static_cast<double>(count) / static_cast<double>(largest)));
+        for (Index stage = known; stage < count; ++stage)
+            if (suffices(std::span(lnLambda).subspan(static_cast<std::size_t>(stage * own.trials), static_cast<std::size_t>(own.trials)),
+                         own.sprt))
+                return stage + 1;
+        known = count;
+    }
+    return std::nullopt;
+}
+
+} // namespace faintline

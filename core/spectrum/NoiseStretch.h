@@ -1,0 +1,24 @@
+#pragma once
+
+#include "spectrum/noiseSources.h"
+
+#include <span>
+#include <vector>
+
+namespace faintline {
+
+/// A stretch of time in which the noise changes its colour: what its sources have of each frame.
+struct NoiseStretch {
+    Index firstLevel = 0;          ///< of the background's level times
+    NoiseSources sources;          ///< colours over `lnPower`
+    std::vector<float> lnPower;    ///< of each cell
+    std::vector<float> sourceLevels; ///< level times × sources
+    float floor = 0.0f;            ///< ln power of rounding
+
+    Index levelCount() const { return sources.count() > 0 ? std::ssize(sourceLevels) / sources.count() : 0; }
+};
+
+/// ln power of a stretch's noise in a frame with these levels of its sources.
+void readStretch(const NoiseStretch &stretch, std::span<const float> levels, std::span<float> ln);
+
+} // namespace faintline
