@@ -14,6 +14,7 @@ private slots:
     void core();
     void widgetsKnowNoApp();
     void commandLineKnowsTheCoreOnly();
+    void pythonKnowsTheCoreOnly();
     void wrongIncludesAreFound_data();
     void wrongIncludesAreFound();
 
@@ -137,6 +138,19 @@ void tst_layers::commandLineKnowsTheCoreOnly()
         for (const Include &include : includesOf(contentOf("app/" + path))) {
             const bool isKnown = !include.isQuoted || include.name.startsWith("app/cli/")
                 || order.contains(include.name.section('/', 0, 0));
+            QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
+        }
+    }
+    QVERIFY(seen > 1);
+}
+
+void tst_layers::pythonKnowsTheCoreOnly()
+{
+    int seen = 0;
+    for (const QString &path : filesIn("python")) {
+        ++seen;
+        for (const Include &include : includesOf(contentOf("python/" + path))) {
+            const bool isKnown = !include.isQuoted || include.name.startsWith("bindings/") || order.contains(include.name.section('/', 0, 0));
             QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
         }
     }
