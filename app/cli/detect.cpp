@@ -331,9 +331,7 @@ namespace {
             shape.push_back(axis.cells);
             projectedShape.push_back(axis.cells);
         }
-        std::optional<Smd> smd;
-        std::optional<SumDetector> sum;
-        Detector &detector = file.isSum ? static_cast<Detector &>(sum.emplace(file.model, file.reset)) : smd.emplace(file.model, file.reset);
+        const std::unique_ptr<PathDetector> detector = makePathDetector(file);
         NumPyWriter out(options.out, shape);
         std::optional<NumPyWriter> projected;
         if (!options.projected.empty())
@@ -346,17 +344,15 @@ namespace {
         for (Index frame = 0; frame < frames->time().count; ++frame) {
             context.checkpoint(static_cast<double>(frame) / static_cast<double>(frames->time().count), "recursion");
             frames->read(frame, 1, y);
-            detector.update(y, D);
-            const std::span<const float> last = smd ? smd->scores() : sum->scores();
-            scores.assign(last.begin(), last.end());
-            if (const float offset = smd ? static_cast<float>(smd->offset()) : 0.0f; offset != 0.0f)
+            detector->update(y, D);
+            scores.assign(detector->scores().begin(), detector->scores().end());
+            if (const auto offset = static_cast<float>(detector->offset()); offset != 0.0f)
                 for (float &score : scores)
                     score += offset;
             out.write(scores);
             if (projected)
                 projected->write(D);
-            const double lnK = file.reset.lnK;
-            const PathDetector::Regulation regulation = smd ? smd->regulation() : PathDetector::Regulation{lnK, 1.0, lnK};
+            const PathDetector::Regulation regulation = detector->regulation();
             log += std::to_string(frame) + "," + formatNumber(regulation.lnK) + "," + formatNumber(1.0 - regulation.continuedFraction) + ","
                 + formatNumber(static_cast<double>(*std::max_element(D.begin(), D.end()))) + "\n";
         }

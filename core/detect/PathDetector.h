@@ -7,8 +7,8 @@
 
 namespace faintline {
 
-/// A detector whose statistic is the score of one path through the states of a model, which can be traced (tracePath) and followed on; or
-/// one of several models that run in parallel, each with states of its own.
+/// A detector that scores the states of a model by the paths into them: the best one, which can be traced (tracePath) and followed on, or
+/// the sum over all of them. Or several models in parallel, each with states of its own.
 class PathDetector : public Detector
 {
 public:

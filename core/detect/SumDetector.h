@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detect/Detector.h"
+#include "detect/PathDetector.h"
 #include "detect/Recursion.h"
 #include "detect/Smd.h"
 #include "model/MarkovModel.h"
@@ -17,7 +17,7 @@ namespace faintline {
 /// "a signal since the first frame" (Grossi and Lops 2006, Algorithm 3.1). Kept as scaled weights, so that a
 /// thousand frames neither overflow nor lose digits; where the evidence of one frame spans more than a double does, they go by their
 /// logarithms (a path more than 700 nats below the best one then counts for no more than a fresh one). Oracle: enumeration of all paths in the linear domain.
-class SumDetector final : public Detector
+class SumDetector final : public PathDetector
 {
 public:
     /// Throws Error for a law other than fixed or none.
@@ -27,8 +27,9 @@ public:
     void forget(const Grid &grid, const CellBox &box) override;
     std::shared_ptr<const DetectorState> state() const override;
     void setState(const DetectorState &state) override;
-    /// Of all states after the last frame, in nats (StateSpace order).
-    std::span<const float> scores() const { return m_scores; }
+    std::span<const float> scores(std::size_t /*model*/ = 0) const override { return m_scores; }
+    double offset(std::size_t /*model*/ = 0) const override { return 0.0; }
+    Regulation regulation(std::size_t /*model*/ = 0) const override { return {m_rule.lnK, 1.0, m_rule.lnK}; }
 
     /// ln of the mean of A over all states: the log-likelihood ratio of the uniform initial law.
     double lnMean() const { return m_lnMean; }

@@ -2,6 +2,7 @@
 
 #include "base/json.h"
 #include "base/oneLine.h"
+#include "detect/SumDetector.h"
 #include "exchange/NumPy.h"
 
 #include <algorithm>
@@ -124,7 +125,7 @@ namespace {
 
     KinematicAxis readAxis(const Json &json, const std::string &where, bool mayFold = false)
     {
-        std::vector<std::string> known{"name", "cells", "cyclic", "rates", "rateChange", "step", "round", "transition"};
+        std::vector<std::string> known{"name", "cells", "cyclic", "rates", "ratesPerCell", "rateChange", "step", "round", "transition", "renormalised"};
         if (mayFold)
             known.push_back("integrate");
         checkKeys(json, where, known);
@@ -136,8 +137,13 @@ namespace {
         axis.cells = static_cast<Index>(cells);
         axis.cyclic = flag(json, where, "cyclic");
         readRates(axis, numbers(json, where, "rates"), where);
+        const double perCell = number(json, where, "ratesPerCell", 1.0);
+        if (!(perCell >= 1.0 && perCell <= 64.0 && perCell == std::floor(perCell)))
+            throw Error(where + ".ratesPerCell", "must be a whole number, 1 … 64");
+        axis.ratesPerCell = static_cast<int>(perCell);
         if (json.contains("rateChange"))
             axis.rateChange = numbers(json, where, "rateChange");
+        axis.renormalised = flag(json, where, "renormalised");
         readStep(axis, json, where);
         axis.transition = readMatrix(json, where);
         axis.rounding = static_cast<Rounding>(choice(json, where, "round", roundingNames, 0));
@@ -153,9 +159,9 @@ namespace {
         return text;
     }
 
-    Json readModelJson(const std::string &path)
+    /// Checks what all models have.
+    void checkModel(const Json &json, const std::string &path)
     {
-        Json json = readJsonFile(path);
         checkKeys(json, path, {"axes", "likelihood", "reset", "initial", "semiring", "scaleTransitions"});
         if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].empty())
             throw Error(path, "needs \"axes\", a list of at least one axis");
@@ -164,15 +170,17 @@ namespace {
             throw Error(path + ": axes", "must be at most " + std::to_string(mostAxes));
         if (!json.contains("likelihood") || !json["likelihood"].is_object())
             throw Error(path, "needs \"likelihood\", such as {\"kind\": \"rice\", \"r0\": 0.5}");
-        return json;
     }
+
+    /// Those of the settings, and evidence that somebody else has computed.
+    constexpr std::array<std::string_view, 4> modelLikelihoodNames{"rice", "exponential", "linear", "given"};
 
     Likelihood readLikelihood(const Json &json, const std::string &path)
     {
         const Json &object = json["likelihood"];
         const std::string where = path + ": likelihood";
         checkKeys(object, where, {"kind", "r0", "snr"});
-        const auto kind = static_cast<LikelihoodKind>(choice(object, where, "kind", likelihoodNames, 2));
+        const auto kind = static_cast<LikelihoodKind>(choice(object, where, "kind", modelLikelihoodNames, 2));
         const double snr = number(object, where, "r0", number(object, where, "snr", 1.0));
         if (kind == LikelihoodKind::Rice && !object.contains("r0") && !object.contains("snr"))
             throw Error(where, "rice needs \"r0\", the signal-to-noise ratio as a power ratio");
@@ -185,9 +193,26 @@ namespace {
 
 } // namespace
 
+std::unique_ptr<PathDetector> makePathDetector(const ModelFile &file)
+{
+    if (file.isSum)
+        return std::make_unique<SumDetector>(file.model, file.reset);
+    return std::make_unique<Smd>(file.model, file.reset);
+}
+
 ModelFile readModelFile(const std::string &path)
 {
-    const Json json = readModelJson(path);
+    return modelFromJson(readJsonFile(path), path);
+}
+
+KinematicAxis kinematicAxisFromJson(const Json &json, const std::string &where)
+{
+    return readAxis(json, where);
+}
+
+ModelFile modelFromJson(const Json &json, const std::string &path)
+{
+    checkModel(json, path);
     std::vector<KinematicAxis> axes;
     for (std::size_t i = 0; i < json["axes"].size(); ++i)
         axes.push_back(readAxis(json["axes"][i], path + ": axes[" + std::to_string(i) + "]"));
@@ -222,7 +247,8 @@ ModelFile readModelFile(const std::string &path)
 
 SequentialModel readSequentialModel(const std::string &path, const FrameCells *frames)
 {
-    const Json json = readModelJson(path);
+    const Json json = readJsonFile(path);
+    checkModel(json, path);
     std::vector<KinematicAxis> axes;
     std::vector<bool> isFolded;
     std::vector<Index> cells;
@@ -281,18 +307,29 @@ GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
 
 namespace {
 
+    template <class Real>
+    void checkValues(std::span<Real> values, const std::string &where)
+    {
+        const auto bad = std::find_if(values.begin(), values.end(), [](auto y) { return y < 0 || std::isinf(y); });
+        if (bad != values.end())
+            throw Error(where, "holds " + formatNumber(static_cast<double>(*bad)) + " at position " + std::to_string(bad - values.begin())
+                                   + "; normalised power is finite and not negative, or NaN where nothing was observed");
+    }
+
     template <class Array>
     void checkFrames(const Array &array, const std::string &path)
     {
         if (array.shape.size() < 2 || array.values.empty())
             throw Error(path, "must have the shape (frames, cells…) with at least one of each");
-        const auto bad = std::find_if(array.values.begin(), array.values.end(), [](auto y) { return y < 0 || std::isinf(y); });
-        if (bad != array.values.end())
-            throw Error(path, "holds " + formatNumber(static_cast<double>(*bad)) + " at position "
-                                  + std::to_string(bad - array.values.begin()) + "; normalised power is finite and not negative, or NaN where nothing was observed");
+        checkValues(std::span(array.values), path);
     }
 
 } // namespace
+
+void checkFrameValues(std::span<const float> values, const std::string &where)
+{
+    checkValues(values, where);
+}
 
 DoubleFrames readDoubleFrames(const std::string &path)
 {

@@ -120,7 +120,8 @@ namespace {
 
 Likelihood::Likelihood(LikelihoodKind kind, double snr) : m_kind(kind), m_snr(snr)
 {
-    if (kind != LikelihoodKind::Linear && !(snr > 0.0 && snr < 1e12))
+    const bool needsSnr = kind == LikelihoodKind::Rice || kind == LikelihoodKind::Exponential;
+    if (needsSnr && !(snr > 0.0 && snr < 1e12))
         throw Error(std::string("likelihood ") + std::string(likelihoodNames[static_cast<std::size_t>(kind)]) + ", SNR "
                         + formatNumber(snr),
                     "must be a power ratio above 0");
@@ -130,6 +131,8 @@ double Likelihood::at(double y) const
 {
     if (std::isnan(y))
         return 0.0;
+    if (m_kind == LikelihoodKind::Given)
+        return y;
     if (!(y > 0.0) || !std::isfinite(y))
         y = 0.0;
     switch (m_kind) {
@@ -138,6 +141,7 @@ double Likelihood::at(double y) const
     case LikelihoodKind::Exponential:
         return y * m_snr / (1.0 + m_snr) - std::log1p(m_snr);
     case LikelihoodKind::Linear:
+    case LikelihoodKind::Given:
         return y;
     }
     return 0.0;
@@ -154,6 +158,9 @@ void Likelihood::apply(std::span<const float> y, std::span<float> out) const
         break;
     case LikelihoodKind::Linear:
         affine(y.data(), y.size(), 1.0f, 0.0f, out.data());
+        break;
+    case LikelihoodKind::Given:
+        std::copy(y.begin(), y.end(), out.begin());
         break;
     }
     leaveOutUnobserved(y.data(), y.size(), out.data());

@@ -7,7 +7,12 @@
 namespace faintline {
 
 /// The signal laws p1(y) against p0(y) = e^(-y), y = power over mean noise power.
-enum class LikelihoodKind { Rice, Exponential, Linear };
+enum class LikelihoodKind {
+    Rice,
+    Exponential,
+    Linear,
+    Given ///< evidence that somebody else has computed; of no setting, so it has no name among these:
+};
 
 inline constexpr std::array<std::string_view, 3> likelihoodNames{"rice", "exponential", "linear"};
 
@@ -16,19 +21,20 @@ inline constexpr std::array<std::string_view, 3> likelihoodNames{"rice", "expone
 ///   rice         constant amplitude, SNR r0:     λ = -r0 + ln I0(2√(r0·y))         Billon 2005, section 4
 ///   exponential  fluctuating, mean SNR ρ:        λ = yρ/(1+ρ) - ln(1+ρ)            Parsons 2008 eq. 9, Grossi and Lops 2006 eq. 10
 ///   linear       the exponential one rescaled:   λ = y                             Parsons 2008 eq. 10
+///   given        frames hold λ itself, any finite number, not power
 ///
 /// `apply` works in single precision: |error| ≤ 1e-6 · max(1, |λ|) for 0 ≤ y ≤ 1e4 and beyond; rice is one polynomial behind a square
 /// root and a logarithm, without a branch. Oracle: Boost.Math's Bessel function. Thread-safe.
 class Likelihood
 {
 public:
-    /// snr: r0 or ρ as a power ratio > 0; ignored for Linear. Throws Error.
+    /// snr: r0 or ρ as a power ratio > 0; ignored for Linear and Given. Throws Error.
     explicit Likelihood(LikelihoodKind kind = LikelihoodKind::Linear, double snr = 1.0);
 
     LikelihoodKind kind() const { return m_kind; }
     double snr() const { return m_snr; }
 
-    /// λ of every value; negative or infinite ones count as 0 (no energy). NaN was not observed: λ = 0, no evidence either way.
+    /// λ of every value; negative or infinite power counts as 0 (no energy). NaN was not observed: λ = 0, no evidence either way.
     void apply(std::span<const float> y, std::span<float> out) const;
 
     /// λ of one value in double precision, from the formula; NaN as above.

@@ -18,6 +18,7 @@ private slots:
     void commandLineIncludesTheCoreOnly();
     void noUnitsInACircle();
     void circlesAreFound();
+    void pythonIncludesTheCoreOnly();
     void wrongIncludesAreFound_data();
     void wrongIncludesAreFound();
 
@@ -233,6 +234,19 @@ void tst_layers::circlesAreFound()
 {
     QCOMPARE(circleIn({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {"d"}}}), QStringList());
     QCOMPARE(circleIn({{"a", {"b"}}, {"b", {"c"}}, {"c", {"d", "b"}}}).join(" "), QString("b c b"));
+}
+
+void tst_layers::pythonIncludesTheCoreOnly()
+{
+    int seen = 0;
+    for (const QString &path : filesIn("python")) {
+        ++seen;
+        for (const Include &include : includesOf(contentOf("python/" + path))) {
+            const bool isKnown = !include.isQuoted || include.name.startsWith("bindings/") || order.contains(include.name.section('/', 0, 0));
+            QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
+        }
+    }
+    QVERIFY(seen > 1);
 }
 
 void tst_layers::wrongIncludesAreFound_data()

@@ -20,6 +20,8 @@ private slots:
     void theDocumentedExample();
     void onlyWhatIsNeeded();
     void sonarAxes();
+    void ratesBelowACell();
+    void evidenceOfOnesOwn();
     void randomWalk();
     void stepsThatStayOnTheAxis();
     void matrix();
@@ -81,6 +83,22 @@ void tst_ModelFile::theDocumentedExample()
     QCOMPARE(file.reset.law, ResetLaw::Fixed);
     QCOMPARE(file.reset.lnK, 0.6931471805599453);
     QVERIFY(!file.isSum);
+}
+
+void tst_ModelFile::ratesBelowACell()
+{
+    const ModelFile file = model(R"({"axes": [{"cells": 20, "rates": [-2, -1, 0, 1, 2], "ratesPerCell": 2, "renormalised": true,
+        "rateChange": [0.8, 0.1]}], "likelihood": {"kind": "linear"}})");
+    const KinematicAxis &axis = file.model.space.axes().front();
+    QCOMPARE(axis.rate(0), -1.0);
+    QCOMPARE(axis.phaseCount(), 2);
+    QVERIFY(axis.largestLoss() < 1e-12);
+}
+
+void tst_ModelFile::evidenceOfOnesOwn()
+{
+    const ModelFile file = model(R"({"axes": [{"cells": 3}], "likelihood": {"kind": "given"}})");
+    QCOMPARE(file.model.likelihood.at(-2.0), -2.0);
 }
 
 void tst_ModelFile::onlyWhatIsNeeded()

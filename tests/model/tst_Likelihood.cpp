@@ -21,6 +21,7 @@ private slots:
     void rice();
     void affine();
     void badValuesAreNoEvidence();
+    void givenEvidenceStaysAsItIs();
     void refusals();
 };
 
@@ -82,6 +83,16 @@ void tst_Likelihood::badValuesAreNoEvidence()
         QCOMPARE(likelihood.at(static_cast<double>(nan)), 0.0);
         QVERIFY(std::abs(static_cast<double>(lambda[5]) - likelihood.at(1.0)) < 1e-6);
     }
+}
+
+void tst_Likelihood::givenEvidenceStaysAsItIs()
+{
+    const Likelihood likelihood(LikelihoodKind::Given);
+    const std::vector<float> y{-3.5f, 0.0f, 2.0f, std::numeric_limits<float>::quiet_NaN()};
+    std::vector<float> lambda(y.size());
+    likelihood.apply(y, lambda);
+    QCOMPARE(lambda, (std::vector<float>{-3.5f, 0.0f, 2.0f, 0.0f}));
+    QCOMPARE(likelihood.at(-3.5), -3.5);
 }
 
 void tst_Likelihood::refusals()

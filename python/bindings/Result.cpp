@@ -1,0 +1,59 @@
+#include "bindings/Result.h"
+
+#include <algorithm>
+
+namespace faintline::python {
+
+std::size_t Result::valueCount() const
+{
+    constexpr double most = 0x1p31;
+    const auto cells = static_cast<double>(m_analysis->grid().size());
+    const auto frames = static_cast<double>(m_analysis->time().count);
+    if (cells * frames > most)
+        throw Error("result", "has more than 2³¹ values, which are not held in memory; detect in a shorter part (from_seconds, to_seconds) or "
+                              "save(statistic=...)");
+    return static_cast<std::size_t>(cells * frames);
+}
+
+Result::Values Result::input(const RunOptions &options)
+{
+    if (m_input)
+        return m_input;
+    const auto values = std::make_shared<std::vector<float>>(valueCount());
+    const NormalisedFrames &frames = *m_analysis->frames;
+    const Index cells = frames.grid().size();
+    const Index atOnce = std::max<Index>(1, (Index(1) << 20) / cells);
+    runInterruptibly(options, [&](const RunContext &context) {
+        for (Index first = 0; first < frames.time().count; first += atOnce) {
+            context.checkpoint(static_cast<double>(first) / static_cast<double>(frames.time().count), "reading");
+            const Index count = std::min(atOnce, frames.time().count - first);
+            frames.read(first, count, std::span(*values).subspan(static_cast<std::size_t>(first * cells), static_cast<std::size_t>(count * cells)));
+        }
+    });
+    m_input = values;
+    return m_input;
+}
+
+void Result::streamStatistic(const StatisticSink &sink, const RunContext &context) const
+{
+    const Analysis &a = *m_analysis;
+    if (a.recording)
+        analyse(a.recording, a.settings, context, &a, sink, {}, CalibrationDepth::Refined, AnalysisDepth::Tracks);
+    else
+        analyse(a.frames, a.settings, context, &a, sink);
+}
+
+Result::Values Result::statistic(const RunOptions &options)
+{
+    if (m_statistic)
+        return m_statistic;
+    const auto values = std::make_shared<std::vector<float>>(valueCount());
+    const Index cells = m_analysis->grid().size();
+    runInterruptibly(options, [&](const RunContext &context) {
+        streamStatistic([&](Index first, std::span<const float> block) { std::ranges::copy(block, values->begin() + first * cells); }, context);
+    });
+    m_statistic = values;
+    return m_statistic;
+}
+
+} // namespace faintline::python

@@ -1,0 +1,60 @@
+#include "bindings/bind.h"
+
+#include "bindings/Source.h"
+#include "bindings/jsonFromPython.h"
+#include "exchange/openFrames.h"
+#include "recording/openRecording.h"
+
+namespace faintline::python {
+
+namespace py = pybind11;
+
+namespace {
+
+    OpenOptions optionsFrom(const py::kwargs &options)
+    {
+        OpenOptions result;
+        for (const auto &[key, value] : options) {
+            const auto name = py::cast<std::string>(key);
+            if (name == "iq")
+                result.iq = py::cast<bool>(value);
+            else if (name == "raw_type")
+                result.rawType = py::cast<std::string>(value);
+            else if (name == "raw_rate")
+                result.rawRateHz = py::cast<double>(value);
+            else if (name == "raw_channels")
+                result.rawChannels = py::cast<int>(value);
+            else if (name == "raw_header")
+                result.rawHeaderBytes = py::cast<Index>(value);
+            else
+                throw Error(name, "unknown option of open; known are iq, raw_type, raw_rate, raw_channels, raw_header");
+        }
+        return result;
+    }
+
+} // namespace
+
+py::object openSource(const std::string &path, const py::kwargs &options)
+{
+    if (path.ends_with(".json"))
+        return simulatedSource(readJsonFile(path), path);
+    if (const NormalisedFramesPointer frames = openFrames(path))
+        return py::cast(HeldFrames{frames, nullptr});
+    return py::cast(HeldRecording{openRecording(path, optionsFrom(options)), nullptr});
+}
+
+void bindOpen(py::module_ &module)
+{
+    module.def(
+        "open", [](const py::object &path, const py::kwargs &options) { return openSource(pathFromPython(path), options); }, py::arg("path"),
+        R"(Opens a recording or ready-made frames, by content; reads no more than headers.
+
+path: audio (WAV, FLAC, …), SigMF, raw samples (give raw_type, such as "ci16_le", and raw_rate in Hz), a NumPy file of normalised frames
+(.npy, axes in NAME.grid.json beside it), or a scene to simulate (.json).
+Options: iq=True takes two channels as I and Q; raw_type, raw_rate, raw_channels, raw_header (bytes before the samples).
+
+Returns a Recording, or Frames where time and frequency are in the file already. Raises Error with the path, what is wrong and what would
+be accepted.)");
+}
+
+} // namespace faintline::python

@@ -1,0 +1,51 @@
+#include "bindings/eventArray.h"
+
+#include "analysis/secondLook.h"
+#include "bindings/arrays.h"
+
+namespace faintline::python {
+
+namespace py = pybind11;
+
+namespace {
+
+    /// One number of every event, as T.
+    template <class T, class Take>
+    Column column(const std::string &name, const std::vector<Event> &events, const Take &take)
+    {
+        py::array_t<T> values(static_cast<py::ssize_t>(events.size()));
+        for (std::size_t i = 0; i < events.size(); ++i)
+            values.mutable_at(i) = static_cast<T>(take(events[i]));
+        return {name, values};
+    }
+
+} // namespace
+
+py::array eventArray(const Analysis &analysis)
+{
+    const std::vector<Event> found = events(analysis);
+    const std::vector<Axis> &axes = analysis.grid().axes;
+    std::vector<Column> columns;
+    const auto number = [&](const std::string &name, const auto &take) { columns.push_back(column<double>(name, found, take)); };
+    const auto truth = [&](const std::string &name, const auto &take) { columns.push_back(column<bool>(name, found, take)); };
+    columns.push_back(column<std::int32_t>("event", found, [](const Event &e) { return e.id; }));
+    number("t_onset", [](const Event &e) { return e.onsetSeconds; });
+    number("t_detect", [](const Event &e) { return e.detectSeconds; });
+    number("t_end", [](const Event &e) { return e.endSeconds; });
+    for (std::size_t axis = 0; axis < axes.size(); ++axis)
+        number(axes.size() == 1 ? "f" : axes[axis].name, [axis](const Event &e) { return e.position[axis]; });
+    number("drift_hz_per_s", [](const Event &e) { return e.driftPerSecond; });
+    number("statistic", [](const Event &e) { return e.statistic; });
+    truth("confirmed", [](const Event &e) { return e.isConfirmed; });
+    truth("open", [](const Event &e) { return e.isOpen; });
+    for (std::size_t axis = 0; axes.size() > 1 && axis < axes.size(); ++axis)
+        number(axes[axis].name + "_per_s", [axis](const Event &e) { return e.ratesPerSecond[axis]; });
+    if (looksTwice(analysis)) {
+        number("snr_db", [](const Event &e) { return e.snrDb; });
+        number("band_hz", [](const Event &e) { return e.bandWidth; });
+        number("noise_probability", [](const Event &e) { return e.noiseProbability; });
+    }
+    return tableOf(columns);
+}
+
+} // namespace faintline::python

@@ -1,0 +1,91 @@
+"""The same bytes from the module as from the command line."""
+
+import json
+import unittest
+
+import numpy as np
+
+import faintline as fl
+from support import SCENE, InFolder
+
+WINDOW = ("--set", "spectrogram.windowSeconds=0.5", "--set", "decide.falseAlarmsPerHour=2")
+
+
+class SameBytes(InFolder):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "scene.json").write_text(json.dumps(SCENE))
+        self.command_line("simulate", "scene.json", "--out", "line.wav")
+        self.wav = self.folder / "line.wav"
+
+    def events_of_command_line(self, *arguments):
+        self.command_line(
+            "detect", "line.wav", *arguments, "--events", "c.csv", "--tracks", "ct.csv", "--statistic", "c.npy"
+        )
+
+    def assert_same_files(self, result):
+        result.save(
+            events=self.folder / "p.csv", tracks=self.folder / "pt.csv", statistic=self.folder / "p.npy"
+        )
+        for one, other in (("c.csv", "p.csv"), ("ct.csv", "pt.csv"), ("c.npy", "p.npy")):
+            self.assertEqual((self.folder / one).read_bytes(), (self.folder / other).read_bytes(), one)
+        self.assertGreater(len(result.events), 0)
+
+    def test_a_given_window(self):
+        self.events_of_command_line(*WINDOW)
+        self.assert_same_files(fl.detect(self.wav, window_seconds=0.5, false_alarms_per_hour=2))
+
+    def test_the_window_that_the_recording_chooses(self):
+        self.events_of_command_line()
+        result = fl.detect(fl.open(self.wav))
+        self.assertIsInstance(result.window_choice, str)
+        self.assert_same_files(result)
+
+    def test_samples_in_memory(self):
+        self.events_of_command_line(*WINDOW)
+        x = fl.open(self.wav).read()
+        self.assert_same_files(fl.detect(x, 1000, window_seconds=0.5, false_alarms_per_hour=2, threads=1))
+
+    def test_a_preset(self):
+        self.events_of_command_line("--preset", "billon", *WINDOW)
+        settings = {"spectrogram.windowSeconds": 0.5, "decide.falseAlarmsPerHour": 2}
+        self.assert_same_files(fl.detect(self.wav, preset="billon", settings=settings))
+
+    def test_a_simulated_recording_is_what_the_command_line_simulates(self):
+        recording = fl.simulate(SCENE)
+        recording.save(self.folder / "python.wav")
+        self.assertEqual((self.folder / "python.wav").read_bytes(), self.wav.read_bytes())
+
+    def test_arrays_are_what_is_written(self):
+        self.events_of_command_line(*WINDOW)
+        result = fl.detect(self.wav, window_seconds=0.5, false_alarms_per_hour=2)
+        self.assertTrue(np.array_equal(result.statistic, np.load(self.folder / "c.npy")))
+        table = np.genfromtxt(self.folder / "c.csv", delimiter=",", names=True, ndmin=1)
+        self.assertEqual(result.events.dtype.names, table.dtype.names)
+        for name in table.dtype.names:
+            self.assertTrue(np.array_equal(result.events[name].astype(float), table[name]), name)
+
+    def test_pings_and_stacks(self):
+        scene = {"kind": "pings", "pings": 20, "targets": [{"snrDb": 12, "rangeMetres": 5000, "bearingDegrees": 10}]}
+        (self.folder / "pings.json").write_text(json.dumps(scene))
+        self.command_line("simulate", "pings.json", "--out", "pings.npy")
+        self.command_line("detect", "pings.json", "--events", "c.csv")
+        fl.detect(fl.simulate(scene)).save(events=self.folder / "p.csv")
+        self.assertEqual((self.folder / "c.csv").read_bytes(), (self.folder / "p.csv").read_bytes())
+        frames = fl.open(self.folder / "pings.npy")
+        self.assertEqual([axis.name for axis in frames.axes], [axis.name for axis in fl.simulate(scene).axes])
+        self.assertTrue(np.array_equal(frames.read(), fl.simulate(scene).read()))
+
+    def test_an_experiment(self):
+        experiment = {"kind": "lines", "seed": 1, "runs": 4, "frames": 200, "blockFrames": 50, "durationWindows": 20,
+                      "snrDb": [0, 6], "detectors": [{"name": "3 of 4", "settings": {"detector.kind": "pOfN"}}]}
+        (self.folder / "experiment.json").write_text(json.dumps(experiment))
+        self.command_line("evaluate", "experiment.json", "--out", "c.csv")
+        table = fl.evaluate(experiment, out=self.folder / "p.csv")
+        self.assertEqual((self.folder / "c.csv").read_bytes(), (self.folder / "p.csv").read_bytes())
+        self.assertEqual(list(table["snr_db"]), [0.0, 6.0])
+        np.testing.assert_equal(fl.evaluate(experiment).tolist(), table.tolist())
+
+
+if __name__ == "__main__":
+    unittest.main()
