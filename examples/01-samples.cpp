@@ -12,8 +12,8 @@ using namespace faintline;
 
 int main()
 {
-    // One minute at 1 kHz: white noise and, 28 dB below it, a tone that drifts from 200 to 203 Hz.
-    constexpr double rate = 1000.0, seconds = 60.0, amplitude = 0.056;
+    // One minute at 1 kHz: white noise and, 21 dB below it, a tone that drifts from 200 to 203 Hz.
+    constexpr double rate = 1000.0, seconds = 60.0, amplitude = 0.12;
     std::mt19937 random(1);
     std::normal_distribution<double> noise;
     const auto samples = std::make_shared<std::vector<float>>();

@@ -25,7 +25,7 @@ try {
     const auto analysis = analyseInChosenWindow(recording, settings);
     const std::string events = argc > 2 ? argv[2] : "example.csv";
     writeEvents(*analysis, events);
-    std::printf("%zu events of %s are in %s\n", analysis->tracks.size(), path.c_str(), events.c_str());
+    std::printf("%s: wrote %zu event(s) to %s\n", path.c_str(), analysis->tracks.size(), events.c_str());
     return 0;
 } catch (const Error &error) {
     std::fprintf(stderr, "error: %s\n", error.what());

@@ -2,6 +2,8 @@
 
 #include <QtTest>
 
+#include <limits>
+
 using namespace faintline;
 
 /// States kept at even distances within a budget of bytes.
@@ -75,11 +77,9 @@ private:
 
     static std::vector<Index> framesOf(const Checkpoints<int> &kept)
     {
-        constexpr Index most = 1000;
         std::vector<Index> frames;
-        for (Index frame = 1; frame < most; ++frame)
-            if (kept.at(frame))
-                frames.push_back(frame);
+        for (Index frame = kept.latest(std::numeric_limits<Index>::max()); frame > 0; frame = kept.latest(frame - 1))
+            frames.insert(frames.begin(), frame);
         return frames;
     }
 };
