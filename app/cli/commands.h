@@ -91,7 +91,7 @@ auto inFile(const std::string &path, const Make &make)
     try {
         return make();
     } catch (const Error &error) {
-        throw Error(path + ": " + error.where(), error.why(), error.kind());
+        throw error.in(path);
     }
 }
 

@@ -44,7 +44,7 @@ ScanTest readScanTest(const QString &path)
         checkScanTest(test);
         return test;
     } catch (const Error &error) {
-        throw Error(where + ": " + error.where(), error.why());
+        throw error.in(where);
     }
 }
 

@@ -182,7 +182,7 @@ Session readSession(const QString &path)
     try {
         return sessionFromJson(json, path);
     } catch (const Error &error) {
-        throw Error(where + ": " + error.where(), error.why());
+        throw error.in(where);
     } catch (const Json::exception &error) {
         throw Error(where, "is no session of this program: " + complaint(error));
     }

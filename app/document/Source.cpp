@@ -27,7 +27,7 @@ namespace {
             else
                 source.scene = lineSceneFromJson(json);
         } catch (const Error &error) {
-            throw error.where() == where ? error : Error(where + ": " + error.where(), error.why());
+            throw error.where() == where ? error : error.in(where);
         }
     }
 

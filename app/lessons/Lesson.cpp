@@ -240,7 +240,7 @@ Lesson lessonFromJson(const std::string &text, const QString &path)
             throw Error("steps[0].open", "is missing: a lesson begins with something to look at");
         return lesson;
     } catch (const Error &error) {
-        throw Error(pathBytes(path) + ": " + error.where(), error.why());
+        throw error.in(pathBytes(path));
     }
 }
 

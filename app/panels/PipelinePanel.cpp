@@ -162,8 +162,7 @@ void PipelinePanel::showNotes()
 
 void PipelinePanel::showError(const Error &error)
 {
-    // "model.snr = -3" names a field.
-    const QString name = QString::fromStdString(error.where()).section(QLatin1Char(' '), 0, 0);
+    const QString name = QString::fromStdString(error.field());
     if (m_form->editor(name))
         m_form->setError(name, messageText(error.why()));
 }

@@ -64,9 +64,7 @@ void ScanTestForm::showValues()
 
 void ScanTestForm::showError(const Error &error)
 {
-    // "sprt.miss = 3" names a field.
-    const QString name = QString::fromStdString(error.where()).section(QLatin1Char(' '), 0, 0);
-    if (SettingRow *row = m_rows.value(name))
+    if (SettingRow *row = m_rows.value(QString::fromStdString(error.field())))
         return row->setError(messageText(error.why()));
     QPalette colours = palette();
     colours.setColor(QPalette::WindowText, Theme::colours(*this).error);

@@ -82,7 +82,7 @@ namespace {
         try {
             axis.check("model");
         } catch (const Error &error) {
-            throw Error(name + " = " + formatFieldValue(law), error.why());
+            throw fieldError(name, formatFieldValue(law), error.why());
         }
     }
 
@@ -101,24 +101,24 @@ namespace {
     void checkSlopes(const ModelSettings &model)
     {
         if (model.lowestSlope > model.highestSlope)
-            throw Error("model.lowestSlope = " + formatNumber(model.lowestSlope), "must not exceed model.highestSlope");
+            throw fieldError("model.lowestSlope", formatNumber(model.lowestSlope), "must not exceed model.highestSlope");
         if (model.slopeUnit != SlopeUnit::BinsPerFrame)
             return;
         const auto check = [&](const char *name, double slope) {
             constexpr double largest = 100.0;
             if (std::abs(slope) > largest)
-                throw Error(std::string("model.") + name + " = " + formatNumber(slope),
+                throw fieldError(std::string("model.") + name, formatNumber(slope),
                             "must lie in -100 … 100 bins/frame; longer windows make the same Hz/s more of them");
             const double inSteps = slope * model.slopesPerBin;
             if (std::abs(inSteps - std::round(inSteps)) > 1e-6)
-                throw Error(std::string("model.") + name + " = " + formatNumber(slope),
+                throw fieldError(std::string("model.") + name, formatNumber(slope),
                             "must be a multiple of 1/" + std::to_string(model.slopesPerBin)
                                 + " bin/frame (model.slopesPerBin)");
         };
         check("lowestSlope", model.lowestSlope);
         check("highestSlope", model.highestSlope);
         if (slopeCount(model) > 1001)
-            throw Error("model.slopesPerBin = " + std::to_string(model.slopesPerBin),
+            throw fieldError("model.slopesPerBin", std::to_string(model.slopesPerBin),
                         "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
     }
 
@@ -286,7 +286,7 @@ void setSetting(AnalysisSettings &settings, std::string_view name, std::string_v
     const auto &f = settingField(name);
     f.set(settings, parseFieldValue(f, text));
     if (!f.get(settings))
-        throw Error(std::string(name), "belongs to another detector than the one chosen; choose it first with detector.kind");
+        throw Error(std::string(name), "belongs to another detector than the one chosen; choose it first with detector.kind").ofField(f.name);
 }
 
 void checkSettings(const AnalysisSettings &settings)
@@ -296,7 +296,7 @@ void checkSettings(const AnalysisSettings &settings)
             checkFieldValue(f, *value);
     checkSlopes(settings.model);
     if (settings.conventional.hits > settings.conventional.window)
-        throw Error("conventional.hits = " + std::to_string(settings.conventional.hits), "must not exceed conventional.window");
+        throw fieldError("conventional.hits", std::to_string(settings.conventional.hits), "must not exceed conventional.window");
     const bool isInBins = settings.model.slopeUnit == SlopeUnit::BinsPerFrame;
     checkLaw("model.slopeChange", settings.model.slopeChange,
              isInBins ? slopeCount(settings.model) : std::max(1, static_cast<int>(settings.model.slopeChange.size())));
@@ -399,7 +399,7 @@ MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
     if (settings.motion != Motion::Slopes)
         return sonarModel(grid, settings.motion == Motion::Manoeuvring ? turning(settings) : nonManoeuvring());
     if (settings.slopeUnit != SlopeUnit::BinsPerFrame)
-        throw Error("model.slopeUnit = hzPerSecond",
+        throw fieldError("model.slopeUnit", "hzPerSecond",
                     "needs a recording, whose window says what a bin a frame is; give the slopes of frames and pings in binsPerFrame");
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)

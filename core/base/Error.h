@@ -23,10 +23,23 @@ public:
     const std::string &why() const { return m_why; }
     Kind kind() const { return m_kind; }
 
+    /// The name of the setting or member that is wrong, as its table has it; empty where it is none. Forms mark it.
+    const std::string &field() const { return m_field; }
+    Error ofField(std::string name) const
+    {
+        Error error = *this;
+        error.m_field = std::move(name);
+        return error;
+    }
+
+    /// The same, farther away: `place: where: why`.
+    Error in(const std::string &place) const { return Error(place + ": " + m_where, m_why, m_kind).ofField(m_field); }
+
 private:
     std::string m_where;
     std::string m_why;
     Kind m_kind;
+    std::string m_field;
 };
 
 /// Thrown by a long computation whose RunContext was asked to stop; its partial results are discarded.

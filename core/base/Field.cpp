@@ -20,7 +20,7 @@ namespace {
 
     [[noreturn]] void refuse(const FieldInfo &info, std::string_view text, const std::string &why)
     {
-        throw Error(info.name + " = " + std::string(text), why);
+        throw fieldError(info.name, std::string(text), why);
     }
 
     std::string rangeText(const FieldInfo &info)
@@ -133,6 +133,11 @@ void checkFieldValue(const FieldInfo &info, const FieldValue &value)
         break;
     }
     }
+}
+
+Error fieldError(const std::string &name, const std::string &value, std::string why)
+{
+    return Error(name + " = " + value, std::move(why)).ofField(name);
 }
 
 FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)

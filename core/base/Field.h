@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/Error.h"
+
 #include <functional>
 #include <optional>
 #include <span>
@@ -39,6 +41,9 @@ FieldValue parseFieldValue(const FieldInfo &info, std::string_view text);
 
 /// Checks a value against the field's range or choices; throws Error.
 void checkFieldValue(const FieldInfo &info, const FieldValue &value);
+
+/// A value of a field refused: "NAME = VALUE: WHY", and the field for forms to mark.
+Error fieldError(const std::string &name, const std::string &value, std::string why);
 
 /// Shortest text that reads back as the same value, in the C locale.
 std::string formatFieldValue(const FieldValue &value);

@@ -95,7 +95,7 @@ PofN::PofN(const Grid &grid, const PofNSettings &settings, double binsPerCell)
       m_settings(settings)
 {
     if (settings.p > settings.n)
-        throw Error("pOfN.p = " + std::to_string(settings.p), "must not exceed pOfN.n = " + std::to_string(settings.n));
+        throw fieldError("pOfN.p", std::to_string(settings.p), "must not exceed pOfN.n = " + std::to_string(settings.n));
     m_means.resize(static_cast<std::size_t>((grid.size() + mostLanes - 1) / mostLanes * mostLanes));
     m_smallest.resize(m_means.size());
     m_maxima.assign(static_cast<std::size_t>(settings.n), std::vector<float>(m_means.size(), 0.0f));

@@ -225,7 +225,7 @@ ModelFile modelFromJson(const Json &json, const std::string &path)
     try {
         file.model = {StateSpace(std::move(axes)), likelihood, scales ? (1.0 + likelihood.snr()) / likelihood.snr() : 1.0};
     } catch (const Error &error) {
-        throw Error(path + ": " + error.where(), error.why());
+        throw error.in(path);
     }
     if (json.contains("initial") && json["initial"] != "uniform")
         throw Error(path + ": initial", "must be \"uniform\" here");
@@ -269,7 +269,7 @@ SequentialModel readSequentialModel(const std::string &path, const FrameCells *f
     try {
         return makeSequentialModel(axes, isFolded, likelihood, std::move(initial));
     } catch (const Error &error) {
-        throw Error(path + ": " + error.where(), error.why());
+        throw error.in(path);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "model/sonarModels.h"
 
 #include "base/Error.h"
+#include "base/Field.h"
 
 namespace faintline {
 
@@ -52,7 +53,7 @@ const SonarMotion &sonarMotion(std::string_view name)
             return entry.motion;
         known += (known.empty() ? "" : ", ") + entry.name;
     }
-    throw Error("model.motion = " + std::string(name), "must be one of " + known);
+    throw fieldError("model.motion", std::string(name), "must be one of " + known);
 }
 
 } // namespace faintline

@@ -143,10 +143,10 @@ void checkScene(const LineScene &scene)
     checkFields(scene.noise, NoiseSettings::fields(), "noise");
     const double samples = scene.sampleRateHz * scene.durationSeconds;
     if (!(samples >= 1.0 && samples <= 1e15))
-        throw Error("durationSeconds = " + formatNumber(scene.durationSeconds),
+        throw fieldError("durationSeconds", formatNumber(scene.durationSeconds),
                     "gives " + formatNumber(std::floor(samples)) + " samples; there must be 1 … 1e15");
     if (scene.noise.levelDriftDb > 0.0 && scene.durationSeconds > 1e6 * scene.noise.levelDriftSeconds)
-        throw Error("noise.levelDriftSeconds = " + formatNumber(scene.noise.levelDriftSeconds),
+        throw fieldError("noise.levelDriftSeconds", formatNumber(scene.noise.levelDriftSeconds),
                     "must be at least a millionth of the duration");
     if (scene.lines.size() > mostLines)
         throw Error("lines", "must be at most " + std::to_string(mostLines));

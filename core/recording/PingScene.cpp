@@ -140,10 +140,10 @@ void checkScene(const PingScene &scene)
     checkFields(scene, PingScene::fields());
     const double cells = static_cast<double>(scene.rangeCells) * scene.beams;
     if (cells > 1e7)
-        throw Error("rangeCells = " + std::to_string(scene.rangeCells),
+        throw fieldError("rangeCells", std::to_string(scene.rangeCells),
                     "times beams gives " + formatNumber(cells) + " cells; there may be 1e7");
     if (scene.beamStepDegrees * scene.beams > 360.0 * (1.0 + 1e-9))
-        throw Error("beamStepDegrees = " + formatNumber(scene.beamStepDegrees),
+        throw fieldError("beamStepDegrees", formatNumber(scene.beamStepDegrees),
                     "times beams is more than 360°; at most " + formatNumber(360.0 / scene.beams) + "°");
     if (scene.reverberation) {
         checkFields(*scene.reverberation, Reverberation::fields(), "reverberation");
@@ -151,7 +151,7 @@ void checkScene(const PingScene &scene)
             throw Error("firstRangeMetres = 0", "must be above 0 where there is reverberation, whose level refers to it");
         constexpr int fewestCells = 32;
         if (scene.reverberation->normalisation == PingNormalisation::Estimated && cells < fewestCells)
-            throw Error("reverberation.normalisation = estimated", "needs at least " + std::to_string(fewestCells) + " cells in a ping");
+            throw fieldError("reverberation.normalisation", "estimated", "needs at least " + std::to_string(fewestCells) + " cells in a ping");
     }
     constexpr std::size_t mostTargets = 1000;
     constexpr double mostPlaces = 3e6; // 24 bytes each

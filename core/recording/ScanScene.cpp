@@ -59,10 +59,10 @@ void checkScene(const ScanScene &scene)
     const double cells =
         static_cast<double>(scene.azimuthCells) * scene.elevationCells * static_cast<double>(scene.rangeCells) * scene.dopplerCells;
     if (cells > 0x1p28)
-        throw Error("rangeCells = " + std::to_string(scene.rangeCells),
+        throw fieldError("rangeCells", std::to_string(scene.rangeCells),
                     "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁸ are possible");
     if (cells * scene.stages > 0x1p31)
-        throw Error("stages = " + std::to_string(scene.stages), "gives more than 2³¹ values in all");
+        throw fieldError("stages", std::to_string(scene.stages), "gives more than 2³¹ values in all");
 }
 
 ScanScene scanSceneFromJson(const Json &json)

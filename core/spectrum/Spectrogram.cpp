@@ -108,12 +108,12 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     const RecordingInfo &info = m_recording->info();
     const double rate = info.sampleRateHz;
     if (selection.channel >= info.channelCount)
-        throw Error("selection.channel = " + std::to_string(selection.channel),
+        throw fieldError("selection.channel", std::to_string(selection.channel),
                     "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
 
     const double to = selection.toSeconds > 0.0 ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
     if (selection.fromSeconds >= to)
-        throw Error("selection.fromSeconds = " + formatNumber(selection.fromSeconds),
+        throw fieldError("selection.fromSeconds", formatNumber(selection.fromSeconds),
                     "must lie before the end of the part looked at, " + seconds(to));
     m_firstSample = static_cast<Index>(std::llround(selection.fromSeconds * rate));
     const Index sampleCount = std::min(static_cast<Index>(std::llround(to * rate)), info.sampleCount) - m_firstSample;
@@ -121,11 +121,11 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     const double windowSeconds = settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info);
     const double wantedSamples = windowSeconds * rate;
     if (wantedSamples * settings.binsPerCell > 1e8)
-        throw Error("spectrogram.windowSeconds = " + formatNumber(windowSeconds),
+        throw fieldError("spectrogram.windowSeconds", formatNumber(windowSeconds),
                     "gives a transform of more than 100 million points; shorten the window");
     m_windowSamples = static_cast<int>(std::llround(wantedSamples));
     if (m_windowSamples < 2)
-        throw Error("spectrogram.windowSeconds = " + formatNumber(windowSeconds),
+        throw fieldError("spectrogram.windowSeconds", formatNumber(windowSeconds),
                     "holds fewer than 2 samples at " + formatNumber(rate) + " Hz");
     if (sampleCount < m_windowSamples)
         throw Error(info.path,
@@ -155,12 +155,13 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
             std::floor(std::min(static_cast<double>(whole.count - 1), whole.position(selection.highHz) + 1e-9)));
         if (low > high)
             throw Error("selection.lowHz … highHz = " + formatNumber(selection.lowHz) + " … " + formatNumber(selection.highHz),
-                        "holds no bin; the recording spans " + formatNumber(whole.first) + " … " + formatNumber(whole.last()) + " Hz");
+                        "holds no bin; the recording spans " + formatNumber(whole.first) + " … " + formatNumber(whole.last()) + " Hz")
+                .ofField("selection.lowHz");
         m_firstBin = low;
         m_frequency.first = whole.value(static_cast<double>(low));
         m_frequency.count = high - low + 1;
     } else if (selection.lowHz > selection.highHz) {
-        throw Error("selection.lowHz = " + formatNumber(selection.lowHz), "must not lie above selection.highHz");
+        throw fieldError("selection.lowHz", formatNumber(selection.lowHz), "must not lie above selection.highHz");
     }
 }
 

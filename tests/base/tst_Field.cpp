@@ -25,6 +25,7 @@ private slots:
     void parses();
     void refuses_data();
     void refuses();
+    void refusalsNameTheirField();
     void everythingPrintedReadsBack();
     void shortestForm_data();
     void shortestForm();
@@ -162,6 +163,23 @@ void tst_Field::refuses()
         return;
     }
     QFAIL("was taken");
+}
+
+void tst_Field::refusalsNameTheirField()
+{
+    FieldInfo info;
+    info.name = "model.snr";
+    info.maximum = 10.0;
+    try {
+        parseFieldValue(info, "11");
+        QFAIL("was taken");
+    } catch (const Error &error) {
+        QCOMPARE(error.field(), std::string("model.snr"));
+        const Error farther = error.in("settings.json");
+        QCOMPARE(farther.what(), "settings.json: model.snr = 11: must lie in 0 … 10");
+        QCOMPARE(farther.field(), std::string("model.snr"));
+    }
+    QCOMPARE(Error("x.wav", "is empty").field(), std::string());
 }
 
 void tst_Field::everythingPrintedReadsBack()

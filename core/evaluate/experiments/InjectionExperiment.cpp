@@ -201,7 +201,7 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
     shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram, experiment.settings.selection);
     const Axis &time = shared->spectrogram->time();
     if (experiment.durationSeconds >= static_cast<double>(time.count) * time.step)
-        throw Error("durationSeconds = " + formatNumber(experiment.durationSeconds),
+        throw fieldError("durationSeconds", formatNumber(experiment.durationSeconds),
                     "must be shorter than the selection, " + formatNumber(static_cast<double>(time.count) * time.step) + " s");
     shared->background = estimateBackground(*shared->spectrogram, experiment.settings.noise, context.part(0.0, 0.2));
     const double cellFramesPerHour = static_cast<double>(shared->spectrogram->frequency().count) * 3600.0 / time.step;
@@ -277,7 +277,7 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
         offsetHz = low + places.uniform() * (high - low);
     } while (!isFree() && ++attempt < attempts);
     if (attempt == attempts)
-        throw Error("durationSeconds = " + formatNumber(m_experiment.durationSeconds),
+        throw fieldError("durationSeconds", formatNumber(m_experiment.durationSeconds),
                     "leaves no place in this selection that is free of signals for so long");
     line.frequencyHz = info.centreHz + offsetHz;
     line.driftHzPerSecond = m_experiment.driftHzPerSecond;

@@ -368,12 +368,12 @@ void checkExperiment(const LineExperiment &experiment)
     if (experiment.snrDb.empty())
         throw Error("snrDb", "must hold at least one value");
     if (LineExperiment::windowSamples % experiment.stepsPerWindow != 0)
-        throw Error("stepsPerWindow = " + std::to_string(experiment.stepsPerWindow), "must divide 250, the samples of a window");
+        throw fieldError("stepsPerWindow", std::to_string(experiment.stepsPerWindow), "must divide 250, the samples of a window");
     if (experiment.blocksInTime() < 1 || experiment.blocksInFrequency() < 1)
         throw Error("blockFrames, blockBins", "a block must fit into the field of " + std::to_string(experiment.frames) + " × "
                         + std::to_string(experiment.bins()) + " cells");
     if (experiment.signalFrames() < 1 || experiment.signalFrames() > experiment.blockFrames)
-        throw Error("durationWindows = " + formatNumber(experiment.durationWindows), "a line must last 1 … blockFrames = "
+        throw fieldError("durationWindows", formatNumber(experiment.durationWindows), "a line must last 1 … blockFrames = "
                         + std::to_string(experiment.blockFrames) + " frames");
     const double room = static_cast<double>(experiment.blockBins) / experiment.binsPerCell - 4.0;
     if (std::abs(experiment.driftCellsPerWindow) * experiment.durationWindows + 4.0 * experiment.wanderCells > room)

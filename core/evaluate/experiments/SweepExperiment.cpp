@@ -30,7 +30,7 @@ namespace {
     {
         const Field<AnalysisSettings> &field = settingField(parameter);
         if (!isSweepable(field))
-            throw Error("parameter = " + parameter, "must be a setting that is one number, such as model.snr");
+            throw fieldError("parameter", parameter, "must be a setting that is one number, such as model.snr");
         return field;
     }
 
@@ -161,7 +161,7 @@ AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value
     checkFieldValue(field, held);
     field.set(settings, held);
     if (!field.get(settings))
-        throw Error("parameter = " + experiment.parameter, "belongs to another detector than the one chosen");
+        throw fieldError("parameter", experiment.parameter, "belongs to another detector than the one chosen");
     checkSettings(settings);
     return settings;
 }
@@ -173,7 +173,7 @@ void checkExperiment(const SweepExperiment &experiment)
         throw Error("values", "must hold at least one value");
     constexpr std::size_t mostRuns = 10'000'000;
     if (experiment.values.size() > mostRuns / static_cast<std::size_t>(experiment.trials))
-        throw Error("trials = " + std::to_string(experiment.trials),
+        throw fieldError("trials", std::to_string(experiment.trials),
                     "of each of " + std::to_string(experiment.values.size()) + " values are more than 10 million");
     for (std::size_t i = 0; i < experiment.values.size(); ++i)
         settingsAt(experiment, i);

@@ -94,20 +94,20 @@ void checkScanTest(const ScanTest &test)
     checkFields(test, ScanTest::fields());
     checkSprt(test.sprt, "sprt");
     if (test.sprt.cutOffStage > mostStages)
-        throw Error("sprt.cutOffStage = " + std::to_string(test.sprt.cutOffStage),
+        throw fieldError("sprt.cutOffStage", std::to_string(test.sprt.cutOffStage),
                     "must lie in 0 … " + std::to_string(mostStages) + " where tests are simulated");
     ScanScene scene = test.scene;
     scene.stages = 1;
     checkScene(scene);
     const double cells = static_cast<double>(scanGrid(scene).size());
     if (cells > mostCells)
-        throw Error("scene.rangeCells = " + std::to_string(scene.rangeCells),
+        throw fieldError("scene.rangeCells", std::to_string(scene.rangeCells),
                     "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁰ are simulated");
     if (test.averagedCells >= test.scene.rangeCells)
-        throw Error("design.averagedCells = " + std::to_string(test.averagedCells),
+        throw fieldError("design.averagedCells", std::to_string(test.averagedCells),
                     "must be less than the " + std::to_string(test.scene.rangeCells) + " range cells");
     if (test.targetSectors > test.sectors)
-        throw Error("survey.targetSectors = " + std::to_string(test.targetSectors),
+        throw fieldError("survey.targetSectors", std::to_string(test.targetSectors),
                     "must be at most the number of sectors, " + std::to_string(test.sectors));
 }
 

@@ -88,7 +88,7 @@ namespace {
         if (study.model.markov.likelihood.kind() != LikelihoodKind::Exponential)
             throw Error("model.likelihood", "must be exponential where sequential tests are simulated");
         if (study.actualSnr && !(*study.actualSnr > 0.0 && *study.actualSnr < 1e12))
-            throw Error("actualSnr = " + formatNumber(*study.actualSnr), "must be a power ratio above 0");
+            throw fieldError("actualSnr", formatNumber(*study.actualSnr), "must be a power ratio above 0");
         if (study.trials < 1)
             throw Error("trials", "must be at least 1");
         if (const Index row = study.model.markov.space.axes().back().cells; study.averagedCells < 0 || study.averagedCells >= row)

@@ -19,7 +19,7 @@ namespace {
     void checkSnr(double snr)
     {
         if (!(snr > 0.0 && snr < 1e12))
-            throw Error("SNR = " + formatNumber(snr), "must be a power ratio above 0");
+            throw fieldError("SNR", formatNumber(snr), "must be a power ratio above 0");
     }
 
     /// E e^{-t·g(y)} of one cell, g = e^{ys}/(1+ρ), s = ρ/(1+ρ), y exponential of the given mean.
@@ -208,7 +208,7 @@ Divergences mixtureDivergences(double snr, int cells)
 {
     checkSnr(snr);
     if (snr > 1000.0)
-        throw Error("SNR = " + formatNumber(snr), "is too high for the quadrature, which goes up to 1000");
+        throw fieldError("SNR", formatNumber(snr), "is too high for the quadrature, which goes up to 1000");
     if (cells < 1)
         throw Error("cells", "must be at least 1");
     const auto M = static_cast<double>(cells);
@@ -264,7 +264,7 @@ Index fixedSampleSize(const SprtSettings &settings, double snr)
     while (!isEnough(high)) {
         high *= 2;
         if (high > 100000000)
-            throw Error("SNR = " + formatNumber(snr), "needs more than 10⁸ stages of a fixed-size test");
+            throw fieldError("SNR", formatNumber(snr), "needs more than 10⁸ stages of a fixed-size test");
     }
     Index low = high / 2; // not enough, or 0
     while (high - low > 1) {
