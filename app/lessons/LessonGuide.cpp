@@ -176,15 +176,8 @@ void LessonGuide::arrange()
     else if (step.zoomSeconds || step.zoomHz)
         viewport.zoomTo(step.zoomSeconds.value_or(viewport.full().time),
                         step.zoomHz.value_or(viewport.full().frequency));
-    if (m_parts.document().hasPings()) {
-        PingViewports::Place place = m_parts.pingBench().viewports().place();
-        place.seconds = step.cursorSeconds.value_or(place.seconds);
-        place.range = step.cursorRange.value_or(place.range);
-        place.bearing = step.cursorBearing.value_or(place.bearing);
-        m_parts.pingBench().viewports().setPlace(place);
-    } else if (step.cursorSeconds && step.cursorHz) {
-        viewport.setCursor({*step.cursorSeconds, *step.cursorHz});
-    }
+    if (step.cursorSeconds || step.cursorRange || step.cursorBearing)
+        m_parts.bench().setPlace({step.cursorSeconds, step.cursorHz, step.cursorRange, step.cursorBearing});
     QWidget *target = widgetNamed(step.point);
     reveal(target);
     m_frame->pointAt(target);

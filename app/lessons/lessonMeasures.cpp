@@ -42,11 +42,11 @@ namespace {
         };
     }
 
-    template <class F>
-    Measure ofPlace(F f)
+    Measure ofPlace(std::optional<double> Bench::Place::*coordinate)
     {
-        return [f](WindowParts &window) -> Value {
-            return window.document().hasPings() ? Value(f(window.pingBench().viewports().place())) : std::nullopt;
+        return [coordinate](WindowParts &window) -> Value {
+            const auto value = window.document().analysis() ? window.bench().place().*coordinate : std::nullopt;
+            return value ? Value(*value) : std::nullopt;
         };
     }
 
@@ -223,16 +223,10 @@ namespace {
     const std::map<std::string, Measure> &measures()
     {
         static const std::map<std::string, Measure> table{
-            {"cursor.seconds",
-             [](WindowParts &window) -> Value {
-                 if (window.document().hasPings())
-                     return window.pingBench().viewports().place().seconds;
-                 const auto &cursor = window.document().viewport().cursor();
-                 return cursor ? Value(cursor->seconds) : std::nullopt;
-             }},
-            {"cursor.hz", ofCursor([](WindowParts &, const Viewport::Point &at) { return at.hz; })},
-            {"cursor.range", ofPlace([](const PingViewports::Place &place) { return place.range; })},
-            {"cursor.bearing", ofPlace([](const PingViewports::Place &place) { return place.bearing; })},
+            {"cursor.seconds", ofPlace(&Bench::Place::seconds)},
+            {"cursor.hz", ofPlace(&Bench::Place::hz)},
+            {"cursor.range", ofPlace(&Bench::Place::range)},
+            {"cursor.bearing", ofPlace(&Bench::Place::bearing)},
             {"level", ofCursor([](WindowParts &window, const Viewport::Point &at) {
                  return window.workbench().input()->valueAt(at.seconds, at.hz).value_or(-1e9);
              })},

@@ -247,7 +247,7 @@ void HandLinePanel::setCovered(bool isCovered)
         input.setLayer(layer, !isCovered);
     if (isCovered) {
         m_covers[0] =
-            new Cover(m_workbench.outputPane(), tr("Where is the line? Draw it through the input, then reveal."));
+            new Cover(m_workbench.outputView(), tr("Where is the line? Draw it through the input, then reveal."));
         m_covers[1] = new Cover(m_workbench.statisticPlot(), {});
         m_draw->setChecked(true);
     }

@@ -210,21 +210,7 @@ namespace {
 
     void placeCursor(MainWindow &window, const RenderOptions &options)
     {
-        Viewport &viewport = window.document().viewport();
-        if (window.document().hasPings()) {
-            PingViewports &viewports = window.pingBench().viewports();
-            PingViewports::Place place = viewports.place();
-            place.seconds = options.seconds.value_or(place.seconds);
-            place.range = options.range.value_or(place.range);
-            place.bearing = options.bearing.value_or(place.bearing);
-            viewports.setPlace(place);
-            return;
-        }
-        Viewport::Point point = viewport.cursor().value_or(Viewport::Point());
-        point.seconds = options.seconds.value_or(point.seconds);
-        point.hz = options.hz.value_or(point.hz);
-        viewport.setCursor(point);
-        viewport.reveal({{point.seconds, point.seconds}, {point.hz, point.hz}});
+        window.bench().setPlace({options.seconds, options.hz, options.range, options.bearing});
     }
 
     /// Of what the window shows; a radar's scans are known by their test.

@@ -42,24 +42,14 @@ namespace {
         return QApplication::translate("WindowViews", text);
     }
 
-    QWidget *input(Parts parts)
-    {
-        return parts.document().hasPings() ? static_cast<QWidget *>(parts.pingBench().input()) : parts.workbench().inputPane();
-    }
-
-    QWidget *output(Parts parts)
-    {
-        return parts.document().hasPings() ? static_cast<QWidget *>(parts.pingBench().output()) : parts.workbench().outputPane();
-    }
-
 } // namespace
 
 const std::vector<WindowView> &windowViews()
 {
     static const std::vector<WindowView> table{
         {"window", tr("Window"), Of::Recording, nullptr},
-        {"input", tr("Input"), Of::Recording, input},
-        {"output", tr("Statistic"), Of::Recording, output},
+        {"input", tr("Input"), Of::Recording, [](Parts parts) { return parts.bench().inputView(); }},
+        {"output", tr("Statistic"), Of::Recording, [](Parts parts) { return parts.bench().outputView(); }},
         {"threshold", tr("Threshold"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.thresholdPlot(); }},
         {"events", tr("Events"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.eventTable(); }},
         {"noise", tr("Noise and calibration"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.info(); }},

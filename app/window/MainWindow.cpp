@@ -365,7 +365,6 @@ void MainWindow::showWelcome()
 
 void MainWindow::showWorkbench()
 {
-    const bool hasPings = m_document.hasPings();
     m_pages->show();
     if (m_pages->currentWidget() == &bench())
         return;
@@ -373,13 +372,12 @@ void MainWindow::showWorkbench()
     m_pages->setCurrentWidget(&bench());
     if (const QByteArray panels = m_memory.layout().panels; panels.isEmpty() || !restoreState(panels))
         m_panels->takeDefault();
-    // A bench of pings has a read-out and a history of its own.
     for (QToolBar *bar : m_bottomBars)
-        bar->setVisible(!hasPings);
+        bar->setVisible(!bench().hasReadOut());
     for (QAction *action : m_viewActions)
         action->setEnabled(true);
     m_panelsMenu->setEnabled(true);
-    hasPings ? m_pings->output()->plane()->setFocus() : m_workbench->output()->setFocus();
+    bench().firstView()->setFocus();
 }
 
 void MainWindow::showAnalysis()
@@ -597,9 +595,9 @@ void MainWindow::showEquation()
 {
     const QString name = currentView(*this, *this);
     const QString detector = QString::fromLatin1(detectorNames[m_document.settings().detector.index()].data());
-    // Between pings and lines the same names stand for other pictures.
-    const bool isOfPings = m_document.hasPings() && (name == QLatin1String("input") || name == QLatin1String("output"));
-    m_equation->toggle(equationOf(isOfPings ? QStringLiteral("map") : name, detector), m_lessons->widgetNamed(name));
+    // Where the first view is a map, input and output are maps, too.
+    const bool isMap = bench().firstViewName() == QLatin1String("map") && (name == QLatin1String("input") || name == QLatin1String("output"));
+    m_equation->toggle(equationOf(isMap ? QStringLiteral("map") : name, detector), m_lessons->widgetNamed(name));
 }
 
 void MainWindow::about()

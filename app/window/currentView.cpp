@@ -38,9 +38,7 @@ QString currentView(const QWidget &window, const WindowParts &parts)
         return pointed;
     if (parts.welcome().isVisible())
         return {};
-    if (!parts.workbench().isVisible() && !parts.document().hasPings())
-        return QStringLiteral("walk");
-    return parts.document().hasPings() ? QStringLiteral("map") : QStringLiteral("output");
+    return parts.bench().isVisible() ? parts.bench().firstViewName() : QStringLiteral("walk");
 }
 
 } // namespace faintline

@@ -6,6 +6,19 @@
 
 namespace faintline {
 
+Bench::Bench(Document &document, Kind kind, QWidget *parent) : QWidget(parent), m_document(document), m_kind(kind)
+{
+    whenInUse(&document, &Document::analysisChanged, &Bench::showAnalysis);
+    whenInUse(&document, &Document::provisionalChanged, &Bench::showStatistic);
+    whenInUse(&document, &Document::shownThresholdChanged, &Bench::showThreshold);
+    whenInUse(&document, &Document::shownEventsChanged, &Bench::showEvents);
+}
+
+bool Bench::isInUse() const
+{
+    return m_document.hasPings() == (m_kind == Kind::Pings);
+}
+
 QByteArray Bench::saveSplitters() const
 {
     QByteArray state;

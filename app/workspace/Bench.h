@@ -1,9 +1,11 @@
 #pragma once
 
+#include "app/document/Document.h"
 #include "app/document/Session.h"
 
 #include <QWidget>
 
+#include <optional>
 #include <vector>
 
 class QSplitter;
@@ -11,13 +13,33 @@ class QSplitter;
 namespace faintline {
 
 /// What fills the middle of the window while something is open: the pictures, and what moves about in them. There is one for lines over
-/// time and frequency, one for a sonar's pings.
+/// time and frequency, one for a sonar's pings. Each hears of the document only while the document's frames are of its kind.
 class Bench : public QWidget
 {
     Q_OBJECT
 
 public:
-    using QWidget::QWidget;
+    enum class Kind { Lines, Pings };
+
+    /// Where the cursor is, in the units of the axes; what a kind of frames does not have is not given.
+    struct Place {
+        std::optional<double> seconds;
+        std::optional<double> hz;
+        std::optional<double> range;
+        std::optional<double> bearing;
+    };
+
+    Bench(Document &document, Kind kind, QWidget *parent = nullptr);
+
+    virtual Place place() const = 0;
+    /// Moves the cursor; what is not given stays. Brings it into view.
+    virtual void setPlace(const Place &place) = 0;
+
+    virtual QWidget *inputView() const = 0; ///< with its colour bar
+    virtual QWidget *outputView() const = 0;
+    virtual QWidget *firstView() const = 0;      ///< that has the focus at first
+    virtual QString firstViewName() const = 0;   ///< as in `windowViews`
+    virtual bool hasReadOut() const = 0;         ///< of its own, and a history
 
     /// What the panes say while there is nothing to see.
     virtual void setEmptySentence(const QString &sentence) = 0;
@@ -36,10 +58,34 @@ public:
 protected:
     virtual std::vector<QSplitter *> splitters() const = 0;
 
+    // Called only while the document's frames are of this kind.
+    virtual void showAnalysis() = 0;
+    virtual void showHeading() = 0;
+    virtual void showStatistic() = 0; ///< the analysis's, or the provisional one
+    virtual void showThreshold() = 0;
+    virtual void showEvents() = 0;
+    virtual void readCursor() = 0;
+
+    bool isInUse() const; ///< the document's frames are of this kind
+    /// Calls a member function when a signal is emitted, if this is in use.
+    template <class Sender, class Signal, class B>
+    void whenInUse(Sender *sender, Signal signal, void (B::*slot)())
+    {
+        connect(sender, signal, this, [this, slot] {
+            if (isInUse())
+                (static_cast<B *>(this)->*slot)();
+        });
+    }
+
+    Document &m_document;
+
 public slots:
     virtual void selectEvent(int id) = 0; ///< marks it, puts the cursor on it and brings it into view
     virtual void stepFrames(int frames) = 0;
     virtual void setPlaying(bool isPlaying) = 0;
+
+private:
+    Kind m_kind;
 
 signals:
     void eventActivated(int id);

@@ -54,7 +54,7 @@ namespace {
 } // namespace
 
 PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
-    : Bench(parent), m_document(document), m_layers(layers), m_viewports(document.viewport()),
+    : Bench(document, Kind::Pings, parent), m_layers(layers), m_viewports(document.viewport()),
       m_input(new PingMap(tr("Input (dB over noise)"), m_viewports.map())),
       m_output(new PingMap(tr("Statistic D (nat)"), m_viewports.map())),
       m_rangeHistory(new WaterfallView(tr("D over range, best bearing"))),
@@ -111,13 +111,9 @@ PingBench::PingBench(Document &document, OutputLayers &layers, QWidget *parent)
     linkViews();
     layers.addPings(*m_output, m_viewports);
     connect(&layers, &OutputLayers::layerChanged, this, &PingBench::showHeading);
-    connect(&layers, &OutputLayers::readingChanged, this, &PingBench::readCursor);
+    whenInUse(&layers, &OutputLayers::readingChanged, &PingBench::readCursor);
 
     connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = true; });
-    connect(&document, &Document::analysisChanged, this, &PingBench::showAnalysis);
-    connect(&document, &Document::provisionalChanged, this, &PingBench::showStatistic);
-    connect(&document, &Document::shownThresholdChanged, this, &PingBench::showThreshold);
-    connect(&document, &Document::shownEventsChanged, this, &PingBench::showEvents);
     m_player.setInterval(playerInterval);
     connect(&m_player, &QTimer::timeout, this, &PingBench::play);
     auto *backward = new QShortcut(QKeySequence(Qt::SHIFT | Qt::Key_Space), this);
@@ -231,9 +227,9 @@ void PingBench::linkViews()
         connect(map->plane(), &WaterfallView::orientationChanged, other->plane(), &WaterfallView::setOrientation);
         connect(map, &PingMap::polarChanged, other, &PingMap::setPolar);
         connect(map, &PingMap::hovered, this, &PingBench::read);
-        connect(map, &PingMap::hoverEnded, this, &PingBench::readCursor);
+        whenInUse(map, &PingMap::hoverEnded, &PingBench::readCursor);
     }
-    connect(&m_viewports, &PingViewports::placeChanged, this, &PingBench::followPlace);
+    whenInUse(&m_viewports, &PingViewports::placeChanged, &PingBench::followPlace);
 }
 
 void PingBench::setEmptySentence(const QString &sentence)
@@ -256,8 +252,6 @@ void PingBench::setEmptySentence(const QString &sentence)
 
 void PingBench::showAnalysis()
 {
-    if (!m_document.hasPings())
-        return;
     const Analysis &analysis = *m_document.analysis();
     const Grid &grid = analysis.grid();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
@@ -286,7 +280,7 @@ void PingBench::showHeading()
 {
     const bool isStatistic = m_layers.layer() == OutputLayer::Statistic || m_layers.isOverlay();
     m_output->setColourBarShown(isStatistic);
-    if (!m_document.hasPings() || !m_document.analysis())
+    if (!m_document.analysis() || !isInUse())
         return;
     const bool isProvisional = provisional() != nullptr;
     const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
@@ -318,13 +312,12 @@ void PingBench::showRegulation()
 
 void PingBench::showThreshold()
 {
-    if (m_document.hasPings())
-        m_output->plane()->setThreshold(m_document.shownThreshold());
+    m_output->plane()->setThreshold(m_document.shownThreshold());
 }
 
 void PingBench::showEvents()
 {
-    if (!m_document.hasPings() || !m_document.analysis())
+    if (!m_document.analysis())
         return;
     const Analysis &analysis = *m_document.analysis();
     const std::vector<Track> tracks = m_document.shownTracks();
@@ -370,6 +363,36 @@ void PingBench::placeCursor()
         m_viewports.setPlace({m_viewports.rangeTime().full().time.middle(), map.time.middle(), map.frequency.middle()});
 }
 
+QWidget *PingBench::inputView() const
+{
+    return m_input;
+}
+
+QWidget *PingBench::outputView() const
+{
+    return m_output;
+}
+
+QWidget *PingBench::firstView() const
+{
+    return m_output->plane();
+}
+
+Bench::Place PingBench::place() const
+{
+    const PingViewports::Place &place = m_viewports.place();
+    return {place.seconds, {}, place.range, place.bearing};
+}
+
+void PingBench::setPlace(const Place &wanted)
+{
+    PingViewports::Place place = m_viewports.place();
+    place.seconds = wanted.seconds.value_or(place.seconds);
+    place.range = wanted.range.value_or(place.range);
+    place.bearing = wanted.bearing.value_or(place.bearing);
+    m_viewports.setPlace(place);
+}
+
 Index PingBench::ping() const
 {
     return m_document.analysis() ? m_document.analysis()->time().nearest(m_viewports.place().seconds) : 0;
@@ -377,7 +400,7 @@ Index PingBench::ping() const
 
 void PingBench::followPlace()
 {
-    if (!m_document.hasPings() || !m_document.analysis())
+    if (!m_document.analysis())
         return;
     const Analysis &analysis = *m_document.analysis();
     if (const Index now = ping(); now != m_shownPing) {
@@ -402,7 +425,7 @@ const PeakPyramid *PingBench::provisional() const
 
 void PingBench::showStatistic()
 {
-    if (!m_document.hasPings() || !m_document.analysis() || m_shownPing < 0)
+    if (!m_document.analysis() || m_shownPing < 0)
         return;
     const Analysis &analysis = *m_document.analysis();
     const PeakPyramid *now = provisional();
@@ -452,8 +475,6 @@ void PingBench::read(double range, double bearing)
 
 void PingBench::readCursor()
 {
-    if (!m_document.hasPings())
-        return;
     read(m_viewports.place().range, m_viewports.place().bearing);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "app/workspace/Bench.h"
-#include "app/document/Document.h"
 #include "widgets/pings/PingMarks.h"
 #include "widgets/pings/PingViewports.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -34,9 +33,16 @@ public:
     PingMap *output() const { return m_output; }
     WaterfallView *rangeHistory() const { return m_rangeHistory; }
     WaterfallView *bearingHistory() const { return m_bearingHistory; }
+    QWidget *inputView() const override;
+    QWidget *outputView() const override;
+    QWidget *firstView() const override;
+    QString firstViewName() const override { return QStringLiteral("map"); }
+    bool hasReadOut() const override { return true; }
     QWidget *histories() const;
     QWidget *maps() const;
     PingViewports &viewports() { return m_viewports; }
+    Place place() const override;
+    void setPlace(const Place &place) override;
 
     Index ping() const; ///< the one shown
     QString reading() const;
@@ -60,28 +66,27 @@ protected:
     /// Gives up what would leave the maps no room.
     void resizeEvent(QResizeEvent *event) override;
     std::vector<QSplitter *> splitters() const override { return {m_maps, m_histories, m_rows}; }
+    void showAnalysis() override;
+    void showHeading() override;
+    void showStatistic() override;
+    void showThreshold() override;
+    void showEvents() override;
+    void readCursor() override;
 
 private:
     QWidget *buildBar();
     void linkViews();
     std::vector<WaterfallView *> views() const;
-    void showAnalysis();
-    void showHeading();
     void showRegulation();
-    void showThreshold();
-    void showEvents();
     const PeakPyramid *provisional() const;
-    void showStatistic();
     void followExtents();
     void placeCursor();
     void followPlace();
     void showMarks();
     void read(double range, double bearing);
-    void readCursor();
     void startPlaying(int step);
     void play();
 
-    Document &m_document;
     OutputLayers &m_layers;
     PingViewports m_viewports;
     PingMap *m_input;

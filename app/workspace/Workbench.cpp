@@ -99,7 +99,7 @@ namespace {
 } // namespace
 
 Workbench::Workbench(Document &document, QWidget *parent)
-    : Bench(parent), m_document(document), m_input(new WaterfallView(tr("Input (dB over noise)"))),
+    : Bench(document, Kind::Lines, parent), m_input(new WaterfallView(tr("Input (dB over noise)"))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
       m_boxMeter(new BoxMeter(document, this)),
       m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
@@ -131,12 +131,8 @@ Workbench::Workbench(Document &document, QWidget *parent)
 
     connect(&document, &Document::opened, this, [this] { m_isFirstAnalysis = m_isFirstPicture = true; });
     connect(&document, &Document::picturesGrew, this, &Workbench::showPictures);
-    connect(&document, &Document::analysisChanged, this, &Workbench::showAnalysis);
-    connect(&document, &Document::provisionalChanged, this, &Workbench::showStatistic);
-    connect(&document, &Document::shownThresholdChanged, this, &Workbench::showThreshold);
-    connect(&document, &Document::shownEventsChanged, this, &Workbench::showEvents);
     m_closeup = new Closeup(document, *m_input, *m_output, this); // follows what these follow, after them
-    connect(m_closeup, &Closeup::settled, this, &Workbench::readCursor);
+    whenInUse(m_closeup, &Closeup::settled, &Workbench::readCursor);
     m_player.setInterval(playerInterval);
     connect(&m_player, &QTimer::timeout, this, &Workbench::play);
 }
@@ -158,14 +154,14 @@ void Workbench::linkViews()
         connect(view, &WaterfallView::eventActivated, this, &Workbench::eventActivated);
         connect(view, &WaterfallView::thresholdStepRequested, this, &Workbench::thresholdStepRequested);
         connect(view, &WaterfallView::hovered, this, [this](double seconds, double hz) { read({seconds, hz}); });
-        connect(view, &WaterfallView::hoverEnded, this, &Workbench::readCursor);
+        whenInUse(view, &WaterfallView::hoverEnded, &Workbench::readCursor);
     }
     connect(m_output, &WaterfallView::shownPictureChanged, this, [this] {
-        if (m_document.analysis() && !m_document.hasPings())
+        if (m_document.analysis() && isInUse())
             m_statistic->setProfile(tr("D at the cursor"), m_output->shownPicture(), m_output->frequencyAxis());
     });
-    connect(viewport, &Viewport::cursorChanged, this, &Workbench::readCursor);
-    connect(m_layers, &OutputLayers::readingChanged, this, &Workbench::readCursor);
+    whenInUse(viewport, &Viewport::cursorChanged, &Workbench::readCursor);
+    whenInUse(m_layers, &OutputLayers::readingChanged, &Workbench::readCursor);
     connect(m_layers, &OutputLayers::layerChanged, this, &Workbench::showHeading);
 }
 
@@ -190,8 +186,6 @@ void Workbench::setAutomaticRange()
 
 void Workbench::showAnalysis()
 {
-    if (m_document.hasPings())
-        return;
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.back();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
@@ -233,7 +227,7 @@ void Workbench::showHeading()
 {
     const bool isStatistic = m_layers->layer() == OutputLayer::Statistic || m_layers->isOverlay();
     m_outputPane->findChild<ColourBar *>()->setVisible(isStatistic);
-    if (!m_document.analysis() || m_document.hasPings())
+    if (!m_document.analysis() || !isInUse())
         return;
     const bool isProvisional = m_document.provisional() != nullptr;
     const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
@@ -245,7 +239,7 @@ void Workbench::showHeading()
 /// The analysis's, or what changed settings make of the visible part of it in the meantime.
 void Workbench::showStatistic()
 {
-    if (m_document.hasPings() || !m_document.analysis())
+    if (!m_document.analysis())
         return;
     showHeading();
     const auto &picture = m_document.provisional() ? m_document.provisional() : m_document.analysis()->statistic;
@@ -256,16 +250,12 @@ void Workbench::showStatistic()
 
 void Workbench::showThreshold()
 {
-    if (m_document.hasPings())
-        return;
     m_output->setThreshold(m_document.shownThreshold());
     m_statistic->setLevel(m_document.shownThreshold(), tr("threshold"));
 }
 
 void Workbench::showEvents()
 {
-    if (m_document.hasPings())
-        return;
     const std::vector<Event> events = m_document.shownEvents();
     const std::vector<Track> tracks = m_document.shownTracks();
     for (WaterfallView *view : {m_input, m_output}) {
@@ -304,6 +294,22 @@ void Workbench::placeCursor()
         viewport.setCursor({viewport.full().time.middle(), viewport.full().frequency.middle()});
 }
 
+Bench::Place Workbench::place() const
+{
+    const auto &cursor = m_document.viewport().cursor();
+    return cursor ? Place{cursor->seconds, cursor->hz, {}, {}} : Place();
+}
+
+void Workbench::setPlace(const Place &place)
+{
+    Viewport &viewport = m_document.viewport();
+    Viewport::Point point = viewport.cursor().value_or(Viewport::Point());
+    point.seconds = place.seconds.value_or(point.seconds);
+    point.hz = place.hz.value_or(point.hz);
+    viewport.setCursor(point);
+    viewport.reveal({{point.seconds, point.seconds}, {point.hz, point.hz}});
+}
+
 void Workbench::read(const Viewport::Point &point)
 {
     ReadOut::Reading reading{point.seconds, point.hz, m_input->valueAt(point.seconds, point.hz), m_output->valueAt(point.seconds, point.hz),
@@ -318,8 +324,6 @@ void Workbench::read(const Viewport::Point &point)
 
 void Workbench::readCursor()
 {
-    if (m_document.hasPings())
-        return;
     if (const auto &cursor = m_document.viewport().cursor())
         read(*cursor);
     else

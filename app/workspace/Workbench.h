@@ -1,7 +1,6 @@
 #pragma once
 
 #include "app/workspace/Bench.h"
-#include "app/document/Document.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/waterfall/WaterfallView.h"
 
@@ -26,8 +25,14 @@ public:
 
     WaterfallView *input() const { return m_input; }
     WaterfallView *output() const { return m_output; }
-    QWidget *inputPane() const { return m_inputPane; } ///< with its colour bar
-    QWidget *outputPane() const { return m_outputPane; }
+    QWidget *inputView() const override { return m_inputPane; }
+    QWidget *outputView() const override { return m_outputPane; }
+    QWidget *firstView() const override { return m_output; }
+    QString firstViewName() const override { return QStringLiteral("output"); }
+    bool hasReadOut() const override { return false; }
+
+    Place place() const override;
+    void setPlace(const Place &place) override;
     OutputLayers &layers() { return *m_layers; }
     Closeup &closeup() { return *m_closeup; }
     StripPlot *statisticPlot() const { return m_statistic; }
@@ -47,6 +52,12 @@ public slots:
 
 protected:
     std::vector<QSplitter *> splitters() const override { return {m_pictures, m_rows}; }
+    void showAnalysis() override;
+    void showHeading() override;
+    void showStatistic() override;
+    void showThreshold() override;
+    void showEvents() override;
+    void readCursor() override;
 
     /// The curves give way where there is little height: the pictures come first.
     void resizeEvent(QResizeEvent *event) override;
@@ -56,19 +67,12 @@ signals:
 
 private:
     void linkViews();
-    void showAnalysis();
     void showPictures(const PicturesSoFar &pictures);
-    void showHeading();
-    void showStatistic();
-    void showThreshold();
-    void showEvents();
     void followExtents(const Axis &time, const Axis &frequency);
     void placeCursor();
     void read(const Viewport::Point &point);
-    void readCursor();
     void play();
 
-    Document &m_document;
     WaterfallView *m_input;
     WaterfallView *m_output;
     OutputLayers *m_layers;

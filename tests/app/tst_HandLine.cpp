@@ -137,7 +137,7 @@ void tst_HandLine::coveredNothingIsGivenAway()
     QVERIFY(panel().isCovered());
     for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer})
         QVERIFY(!input().layers().testFlag(layer));
-    QWidget *pane = m_window->workbench().outputPane();
+    QWidget *pane = m_window->workbench().outputView();
     QVERIFY(pane->childAt(pane->rect().center()) != m_window->workbench().output()->canvas());
     panel().line().setPoints({{10.0, 130.0}, {50.0, 210.0}});
     QTRY_VERIFY_WITH_TIMEOUT(isSettled(), patience);
