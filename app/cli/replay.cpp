@@ -121,26 +121,12 @@ namespace {
             std::printf("made with version %s, this is %s\n", oneLine(version, 40).c_str(), FAINTLINE_VERSION);
     }
 
-    /// From now on calibrations are kept in a copy of the folder where they usually are.
-    void keepCalibrationsIn(const fs::path &folder)
-    {
-        const fs::path usual = CalibrationStore::usualFolder();
-        if (usual.empty())
-            return;
-        std::error_code ignored;
-        fs::create_directory(folder, ignored);
-        for (fs::directory_iterator entry(usual, ignored), end; entry != end; entry.increment(ignored))
-            if (std::error_code code; entry->is_regular_file(code) && CalibrationStore::isNamedSo(entry->path()))
-                fs::copy_file(entry->path(), folder / entry->path().filename(), code);
-        ::setenv("FAINTLINE_CACHE", folder.c_str(), 1);
-    }
-
     void replayWindowExport(const Json &json, const fs::path &kept, const std::string &recording, const ReadableFolders &readable,
                             const Common &common)
     {
         tellVersion(json.value("version", std::string()));
         const TemporaryFolder folder;
-        keepCalibrationsIn(folder.path() / "calibrations");
+        CalibrationStore::moveTo(folder.path() / "calibrations");
         const fs::path remade = folder.path() / kept.filename();
         const auto mayRead = [&](const std::string &path) { readable.check(path); };
         remakeWindowExport(json, kept.string(), recording, remade.string(), mayRead, common.context());
@@ -259,7 +245,7 @@ namespace {
         fs::current_path(provenance.folder);
         checkInputs(provenance, result, readable);
         const TemporaryFolder folder;
-        keepCalibrationsIn(folder.path() / "calibrations");
+        CalibrationStore::moveTo(folder.path() / "calibrations");
         const auto redirection = std::make_shared<Redirection>(Redirection{folder.path(), {}});
         Common confined = common;
         confined.keepsProvenance = false;
