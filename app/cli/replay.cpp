@@ -98,6 +98,21 @@ namespace {
         std::vector<fs::path> m_folders;
     };
 
+    /// Both files of a recording. Annotations of that name have no samples.
+    void checkSigmf(const std::string &file, const ReadableFolders &readable)
+    {
+        if (!SigmfRecording::isNamedSo(file) || !fs::exists(file))
+            return;
+        readable.check(SigmfRecording::metaPath(file));
+        std::string samples;
+        try {
+            samples = SigmfRecording::dataPath(file);
+        } catch (const Error &) {
+            return; // nothing that could be opened as a recording
+        }
+        readable.check(samples);
+    }
+
     bool sameBytes(const fs::path &a, const fs::path &b)
     {
         std::ifstream first(a, std::ios::binary);
@@ -128,7 +143,10 @@ namespace {
         const TemporaryFolder folder;
         CalibrationStore::moveTo(folder.path() / "calibrations");
         const fs::path remade = folder.path() / kept.filename();
-        const auto mayRead = [&](const std::string &path) { readable.check(path); };
+        const auto mayRead = [&](const std::string &path) {
+            readable.check(path);
+            checkSigmf(path, readable);
+        };
         remakeWindowExport(json, kept.string(), recording, remade.string(), mayRead, common.context());
         if (!compare(kept, remade))
             throw Error(kept.string(), "is not what its provenance makes", Error::Kind::Failure);
@@ -137,21 +155,6 @@ namespace {
     bool isPicture(const std::string &name)
     {
         return name.ends_with(".png") || name.ends_with(".svg") || name.ends_with(".pdf") || name.ends_with(".html");
-    }
-
-    /// Both files of a recording. Annotations of that name have no samples.
-    void checkSigmf(const std::string &file, const ReadableFolders &readable)
-    {
-        if (!SigmfRecording::isNamedSo(file) || !fs::exists(file))
-            return;
-        readable.check(SigmfRecording::metaPath(file));
-        std::string samples;
-        try {
-            samples = SigmfRecording::dataPath(file);
-        } catch (const Error &) {
-            return; // nothing that could be opened as a recording
-        }
-        readable.check(samples);
     }
 
     /// Every file that the provenance names among what went in, before anything is made of it.
