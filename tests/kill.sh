@@ -62,7 +62,9 @@ check() {
 
 killed=0
 resumed=0
-for i in $(seq "$count"); do
+i=0
+while [ "$killed" -lt "$count" ]; do # some have ended before
+    i=$((i + 1))
     case $((i % 3)) in
     0) job=detect ;;
     1) job=simulate ;;

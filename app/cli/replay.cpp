@@ -98,6 +98,21 @@ namespace {
         std::vector<fs::path> m_folders;
     };
 
+    /// Both files of a recording. Annotations of that name have no samples.
+    void checkSigmf(const std::string &file, const ReadableFolders &readable)
+    {
+        if (!SigmfRecording::isNamedSo(file) || !fs::exists(file))
+            return;
+        readable.check(SigmfRecording::metaPath(file));
+        std::string samples;
+        try {
+            samples = SigmfRecording::dataPath(file);
+        } catch (const Error &) {
+            return; // nothing that could be opened as a recording
+        }
+        readable.check(samples);
+    }
+
     bool sameBytes(const fs::path &a, const fs::path &b)
     {
         std::ifstream first(a, std::ios::binary);
@@ -121,28 +136,17 @@ namespace {
             std::printf("made with version %s, this is %s\n", oneLine(version, 40).c_str(), FAINTLINE_VERSION);
     }
 
-    /// From now on calibrations are kept in a copy of the folder where they usually are.
-    void keepCalibrationsIn(const fs::path &folder)
-    {
-        const fs::path usual = CalibrationStore::usualFolder();
-        if (usual.empty())
-            return;
-        std::error_code ignored;
-        fs::create_directory(folder, ignored);
-        for (fs::directory_iterator entry(usual, ignored), end; entry != end; entry.increment(ignored))
-            if (std::error_code code; entry->is_regular_file(code) && CalibrationStore::isNamedSo(entry->path()))
-                fs::copy_file(entry->path(), folder / entry->path().filename(), code);
-        ::setenv("FAINTLINE_CACHE", folder.c_str(), 1);
-    }
-
     void replayWindowExport(const Json &json, const fs::path &kept, const std::string &recording, const ReadableFolders &readable,
                             const Common &common)
     {
         tellVersion(json.value("version", std::string()));
         const TemporaryFolder folder;
-        keepCalibrationsIn(folder.path() / "calibrations");
+        CalibrationStore::moveTo(folder.path() / "calibrations");
         const fs::path remade = folder.path() / kept.filename();
-        const auto mayRead = [&](const std::string &path) { readable.check(path); };
+        const auto mayRead = [&](const std::string &path) {
+            readable.check(path);
+            checkSigmf(path, readable);
+        };
         remakeWindowExport(json, kept.string(), recording, remade.string(), mayRead, common.context());
         if (!compare(kept, remade))
             throw Error(kept.string(), "is not what its provenance makes", Error::Kind::Failure);
@@ -151,21 +155,6 @@ namespace {
     bool isPicture(const std::string &name)
     {
         return name.ends_with(".png") || name.ends_with(".svg") || name.ends_with(".pdf") || name.ends_with(".html");
-    }
-
-    /// Both files of a recording. Annotations of that name have no samples.
-    void checkSigmf(const std::string &file, const ReadableFolders &readable)
-    {
-        if (!SigmfRecording::isNamedSo(file) || !fs::exists(file))
-            return;
-        readable.check(SigmfRecording::metaPath(file));
-        std::string samples;
-        try {
-            samples = SigmfRecording::dataPath(file);
-        } catch (const Error &) {
-            return; // nothing that could be opened as a recording
-        }
-        readable.check(samples);
     }
 
     /// Every file that the provenance names among what went in, before anything is made of it.
@@ -259,7 +248,7 @@ namespace {
         fs::current_path(provenance.folder);
         checkInputs(provenance, result, readable);
         const TemporaryFolder folder;
-        keepCalibrationsIn(folder.path() / "calibrations");
+        CalibrationStore::moveTo(folder.path() / "calibrations");
         const auto redirection = std::make_shared<Redirection>(Redirection{folder.path(), {}});
         Common confined = common;
         confined.keepsProvenance = false;

@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+    using MayRead = std::function<void(const std::string &path)>; ///< throws where it must not be
+
     /// The one of the two that is there.
     struct Opened {
         RecordingPointer recording;
@@ -31,12 +33,14 @@ namespace {
     };
 
     /// The file that the provenance tells of by name and hash.
-    std::string find(const Json &source, const std::string &result, const std::string &recording)
+    std::string find(const Json &source, const std::string &result, const std::string &recording, const MayRead &mayRead)
     {
         const std::string name = fs::path(fileNameFromText(source.at("path").get<std::string>())).filename().string();
         const std::string path = recording.empty() ? (fs::absolute(result).parent_path() / name).string() : recording;
         if (!fs::exists(path))
             throw Error(path, "is what " + result + " was made from, and is not there; --recording says where it is");
+        if (recording.empty())
+            mayRead(path);
         if (recordingHash(path) != source.at("sha256").get<std::string>())
             throw Error(path, "is not what " + result + " was made from");
         return path;
@@ -58,14 +62,14 @@ namespace {
         return base;
     }
 
-    Opened open(const Json &source, const std::string &result, const std::string &recording)
+    Opened open(const Json &source, const std::string &result, const std::string &recording, const MayRead &mayRead)
     {
         if (source.contains("scenario") && isPingScene(source["scenario"]))
             return {nullptr, std::make_shared<SimulatedPings>(pingSceneFromJson(source["scenario"]))};
         const Json injections = source.value("injected", Json::array());
         if (source.contains("scenario"))
             return {withInjections(std::make_shared<SimulatedRecording>(lineSceneFromJson(source["scenario"])), injections), nullptr};
-        const std::string path = find(source, result, recording);
+        const std::string path = find(source, result, recording, mayRead);
         if (path.ends_with(".npy")) {
             const std::string grid = path.substr(0, path.size() - 4) + ".grid.json";
             return {nullptr, readFrames(path, fs::exists(grid) ? grid : std::string())};
@@ -80,10 +84,10 @@ namespace {
     }
 
     void remakeEvents(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,
-                      const RunContext &context)
+                      const MayRead &mayRead, const RunContext &context)
     {
         checkReviewedPath(out);
-        const Opened opened = open(provenance.at("recording"), result, recording);
+        const Opened opened = open(provenance.at("recording"), result, recording, mayRead);
         const AnalysisSettings settings = settingsFromJson(provenance.at("settings").dump(), "settings");
         const auto analysis = opened.frames ? analyse(opened.frames, settings, context)
                                             : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context);
@@ -105,8 +109,7 @@ namespace {
         return sweep ? sweep->recording : std::string();
     }
 
-    void remakeCurve(const Json &provenance, const std::string &out, const std::function<void(const std::string &)> &mayRead,
-                     const RunContext &context)
+    void remakeCurve(const Json &provenance, const std::string &out, const MayRead &mayRead, const RunContext &context)
     {
         const Experiment experiment = experimentFromJson(provenance.at("experiment"), "experiment");
         if (const std::string recording = recordingOf(experiment); !recording.empty())
@@ -131,7 +134,7 @@ bool isOfWindow(const Json &provenance)
 }
 
 void remakeWindowExport(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,
-                        const std::function<void(const std::string &path)> &mayRead, const RunContext &context)
+                        const MayRead &mayRead, const RunContext &context)
 {
     try {
         if (provenance.contains("sequential"))
@@ -140,7 +143,7 @@ void remakeWindowExport(const Json &provenance, const std::string &result, const
         if (provenance.contains("experiment"))
             return remakeCurve(provenance, out, mayRead, context);
         if (provenance.contains("recording"))
-            return remakeEvents(provenance, result, recording, out, context);
+            return remakeEvents(provenance, result, recording, out, mayRead, context);
     } catch (const Json::exception &error) {
         throw Error(result, "has a provenance that is broken: " + complaint(error));
     }

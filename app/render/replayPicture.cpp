@@ -1,5 +1,6 @@
 #include "app/render/replayPicture.h"
 
+#include "analysis/CalibrationStore.h"
 #include "app/window/MainWindow.h"
 #include "app/document/Provenance.h"
 #include "app/panels/SequentialPanel.h"
@@ -88,7 +89,8 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
         Json &source = session["recording"];
         if (source.contains("path")) {
             const QDir place = QFileInfo(absolutePath(pathText(options.picture))).dir();
-            const QString beside = place.filePath(QString::fromStdString(source["path"].get<std::string>()));
+            const QString named = QString::fromStdString(source["path"].get<std::string>());
+            const QString beside = place.filePath(QFileInfo(named).fileName()); // wherever else it says, nobody asked to read there
             const QString recording = absolutePath(options.recording.empty() ? beside : pathText(options.recording));
             if (!fileExists(recording))
                 throw Error(pathBytes(recording),
@@ -121,10 +123,11 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
 
 void replay(const ReplayOptions &options)
 {
+    const QTemporaryDir folder;
+    CalibrationStore::moveTo(pathBytes(folder.filePath(QStringLiteral("calibrations"))));
     if (isChart(options))
         return replayChart(options);
     const QImage kept = readPicture(pathText(options.picture));
-    const QTemporaryDir folder;
     const PictureOrigin origin = originOf(kept, options, folder.path());
     render(origin.options);
     const std::string remade = pictureName(origin.options, origin.view);

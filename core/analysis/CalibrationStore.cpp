@@ -21,6 +21,11 @@ namespace {
     constexpr std::string_view filePrefix = "calibration-";
     constexpr std::uintmax_t largestFileBytes = 4u << 20;
 
+    bool isNamedSo(const fs::path &file)
+    {
+        return file.filename().string().starts_with(filePrefix);
+    }
+
     std::string environment(const char *name)
     {
         const char *value = std::getenv(name);
@@ -94,9 +99,17 @@ fs::path CalibrationStore::usualFolder()
     return {};
 }
 
-bool CalibrationStore::isNamedSo(const fs::path &file)
+void CalibrationStore::moveTo(const fs::path &folder)
 {
-    return file.filename().string().starts_with(filePrefix);
+    const fs::path usual = usualFolder();
+    if (usual.empty())
+        return;
+    std::error_code ignored;
+    fs::create_directory(folder, ignored);
+    for (fs::directory_iterator entry(usual, ignored), end; entry != end; entry.increment(ignored))
+        if (std::error_code code; entry->is_regular_file(code) && isNamedSo(entry->path()))
+            fs::copy_file(entry->path(), folder / entry->path().filename(), code);
+    ::setenv("FAINTLINE_CACHE", folder.c_str(), 1);
 }
 
 fs::path CalibrationStore::fileFor(const std::string &key) const

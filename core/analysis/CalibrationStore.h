@@ -25,8 +25,8 @@ public:
     /// The folder the user wants: FAINTLINE_CACHE (a folder, or `off`), else $XDG_CACHE_HOME/faintline, else ~/.cache/faintline.
     static std::filesystem::path usualFolder();
 
-    /// Whether a file is called like one that is kept.
-    static bool isNamedSo(const std::filesystem::path &file);
+    /// From now on the program keeps its calibrations in another folder, which begins as a copy of the usual one.
+    static void moveTo(const std::filesystem::path &folder);
 
     /// What was kept under a key, or null.
     std::shared_ptr<const Calibration> load(const std::string &key) const;

@@ -95,9 +95,17 @@ namespace {
             return automatic;
         }
 
+        /// Whether there are frames enough, and memory: an automatic window is bounded however long the recording is.
+        bool isBorne(double step) const
+        {
+            RecordingInfo endless = m_recording->info();
+            endless.sampleCount = std::numeric_limits<Index>::max();
+            return m_frames / step >= fewestFrames && step * m_windowSeconds <= Spectrogram::automaticWindowSeconds(endless);
+        }
+
         std::shared_ptr<Analysis> longer(std::shared_ptr<Analysis> best)
         {
-            for (double step = factor; m_frames / step >= fewestFrames && m_trials.size() < mostTrials && isSure(*best); step *= factor) {
+            for (double step = factor; isBorne(step) && m_trials.size() < mostTrials && isSure(*best); step *= factor) {
                 auto trial = tried(step, m_asked.model);
                 const double kept = shareKept(*best, *trial);
                 (m_trials.end() - 2)->kept = kept;

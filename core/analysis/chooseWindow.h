@@ -24,8 +24,8 @@ AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
 ///            shorter window has more. Shorter windows take the law of fast signals (laws::glide).
 ///   longer   while k ≥ 0.85: a window four times as long costs next to nothing, and fainter lines stand out of the noise.
 ///
-/// Windows have at least 24 cells in the band and 16 frames. On noise nothing is sure enough to judge by, and T0 stays; at most five windows
-/// are tried. The answer's `choice` tells what was tried, its `settings` the window and law used.
+/// Windows have at least 24 cells in the band and 16 frames, and no more samples than any T0. On noise nothing is sure enough to judge by, and
+/// T0 stays; at most five windows are tried. The answer's `choice` tells what was tried, its `settings` the window and law used.
 /// A change of the threshold or the tracks' settings alone keeps the choice of `previous`, unless that was made by a first estimate.
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context = {},
                                                       const Analysis *previous = nullptr, const PictureSink &pictures = {},

@@ -71,6 +71,7 @@ private slots:
     void onNoiseTheAutomaticOneStays();
     void sweepsTakeAShorterOne();
     void linesThatStandStillTakeALongerOne();
+    void noneIsLongerThanMemoryBears();
     void noWindowSuitsNoise();
     void aChangeOfTheThresholdKeepsIt();
     void itsWords();
@@ -135,6 +136,19 @@ void tst_chooseWindow::linesThatStandStillTakeALongerOne()
     QVERIFY2(windowOf(*analysis) > 0.7, qPrintable(QString::number(windowOf(*analysis))));
     QVERIFY(analysis->settings.model == AnalysisSettings().model);
     QVERIFY(analysis->tracks.size() >= 6 && analysis->tracks.size() <= 8);
+}
+
+/// A line that stands still for an hour asks for ever longer ones: after 128 s comes one of 4.1 million samples.
+void tst_chooseWindow::noneIsLongerThanMemoryBears()
+{
+    LineScene still = scene(8000.0, 4200.0, 1);
+    still.lines.push_back(line(1000.0, 0.0, 0.0, 4200.0, 10.0, 2.0));
+    AnalysisSettings settings;
+    settings.selection.lowHz = 990.0;
+    settings.selection.highHz = 1010.0;
+    const auto analysis = analysed(still, settings);
+    QCOMPARE(analysis->choice->trials.size(), std::size_t(4));
+    QCOMPARE(windowOf(*analysis), 128.0);
 }
 
 /// Bursts of noise have more of their energy the shorter the window is: no reason to choose one.

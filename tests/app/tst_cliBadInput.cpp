@@ -303,6 +303,7 @@ void tst_cliBadInput::placesThatCannotBeWritten_data()
 {
     QTest::addColumn<QStringList>("arguments");
     QTest::newRow("tracks") << QStringList{"detect", "scene.json", "--events", "o.csv", "--tracks", "no/t.csv"};
+    QTest::newRow("statistic") << QStringList{"detect", "scene.json", "--events", "o.csv", "--statistic", "no/s.npy"};
     QTest::newRow("truth") << QStringList{"simulate", "scene.json", "--out", "o.wav", "--truth", "no/t.json"};
     QTest::newRow("truth of pings") << QStringList{"simulate", "pings.json", "--out", "o.npy", "--truth", "/dev/full"};
     QTest::newRow("truth of an injection")

@@ -2,6 +2,8 @@
 
 #include "support/slowdown.h"
 
+#include <QDir>
+#include <QDirIterator>
 #include <QImage>
 #include <QImageReader>
 #include <QProcess>
@@ -17,11 +19,16 @@ struct Outcome {
     QByteArray error;
 };
 
-Outcome run(const QStringList &arguments)
+Outcome run(const QStringList &arguments, const QString &home = {})
 {
     QProcess process;
     QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
     environment.remove("QT_QPA_PLATFORM"); // it finds its own
+    if (!home.isEmpty()) {
+        environment.insert("HOME", home);
+        for (const char *elsewhere : {"FAINTLINE_CACHE", "XDG_CACHE_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME"})
+            environment.remove(elsewhere);
+    }
     process.setProcessEnvironment(environment);
     process.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), arguments);
     if (!process.waitForFinished(120000 * faintline::test::slowdown))
@@ -38,6 +45,18 @@ QByteArray bytesOf(const QString &path)
 {
     QFile file(path);
     return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+/// Every file and folder below one, with its content.
+QMap<QString, QByteArray> contentBelow(const QString &folder)
+{
+    QMap<QString, QByteArray> all;
+    for (QDirIterator entry(folder, QDir::AllEntries | QDir::Hidden | QDir::System | QDir::NoDotAndDotDot, QDirIterator::Subdirectories);
+         entry.hasNext();) {
+        const QString path = entry.next();
+        all[path] = entry.fileInfo().isDir() ? "folder" : bytesOf(path);
+    }
+    return all;
 }
 
 } // namespace
@@ -57,6 +76,7 @@ private slots:
         QVERIFY(file.open(QIODevice::WriteOnly));
         file.write(R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 40,
                        "lines": [{"snrDb": 8, "frequencyHz": 200, "driftHzPerSecond": 1}]})");
+        file.close();
         QFile scans(path("scans.json"));
         QVERIFY(scans.open(QIODevice::WriteOnly));
         scans.write(R"({"kind": "scans", "azimuthCells": 1, "elevationCells": 1, "rangeCells": 20, "dopplerCells": 4, "stages": 12})");
@@ -66,6 +86,10 @@ private slots:
         QFile raw(path("raw.cf32"));
         QVERIFY(raw.open(QIODevice::WriteOnly));
         raw.write(QByteArray(80000, '\0'));
+        QProcess simulation;
+        simulation.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline-cli"), {"simulate", path("scene.json"), "--out", path("kept.wav")});
+        QVERIFY(simulation.waitForFinished(120000 * faintline::test::slowdown) && simulation.exitCode() == 0);
+        QCOMPARE(run({"render", path("kept.wav"), "--out", path("kept.png"), "--size", "400x300", "--view", "output", "--set", "detector.kind=energy"}).error, QByteArray());
     }
 
     void twiceIsIdentical()
@@ -148,6 +172,44 @@ private slots:
             QCOMPARE(outcome.exitCode, 2);
             QVERIFY2(outcome.error.startsWith("error: ") && outcome.error.count('\n') == 1, outcome.error.constData());
         }
+    }
+
+    void replayTouchesNothing_data()
+    {
+        QTest::addColumn<QByteArray>("from");
+        QTest::addColumn<QByteArray>("to");
+        QTest::addColumn<int>("exitCode");
+        QTest::newRow("as it was made") << QByteArray() << QByteArray() << 0;
+        QTest::newRow("another output") << QByteArray(R"("render":{)") << QByteArray(R"("render":{"out":"../mine.png","source":"../mine.wav",)") << 0;
+        QTest::newRow("a view above") << QByteArray(R"("view":"output")") << QByteArray(R"("view":"../../mine")") << 2;
+        QTest::newRow("no view") << QByteArray(R"("view":"output")") << QByteArray(R"("view":"/../../mine","views":[])") << 1;
+        QTest::newRow("a theme that is a file") << QByteArray(R"("theme":"light")") << QByteArray(R"("theme":"../mine.json")") << 1;
+        QTest::newRow("a recording elsewhere") << QByteArray(R"("path":"kept.wav")") << QByteArray(R"("path":"../mine.wav")") << 2;
+        QTest::newRow("a recording far away") << QByteArray(R"("path":"kept.wav")") << QByteArray(R"("path":"@/mine.wav")") << 2;
+    }
+
+    /// Of a picture of somebody else's, in a folder of a home folder.
+    void replayTouchesNothing()
+    {
+        QFETCH(QByteArray, from);
+        QFETCH(QByteArray, to);
+        QFETCH(int, exitCode);
+        const QTemporaryDir home;
+        const QString picture = home.filePath("gift/picture.png");
+        QVERIFY(QDir(home.path()).mkpath("gift"));
+        const bool isElsewhere = from.contains("kept.wav");
+        QVERIFY(QFile::copy(path("kept.wav"), home.filePath(isElsewhere ? "mine.wav" : "gift/kept.wav")));
+        for (const char *mine : {"mine.png", "mine.json"})
+            QVERIFY(QFile::copy(path("text.wav"), home.filePath(mine)));
+        QImage kept(path("kept.png"));
+        QByteArray told = kept.text("provenance").toUtf8();
+        QVERIFY2(from.isEmpty() || told.contains(from), told.constData());
+        kept.setText("provenance", QString::fromUtf8(told.replace(from.isEmpty() ? "{}" : from, to.isEmpty() ? "{}" : to).replace("@", home.path().toUtf8())));
+        QVERIFY(kept.save(picture));
+        const auto before = contentBelow(home.path());
+        const Outcome outcome = run({"replay", picture}, home.path());
+        QVERIFY(contentBelow(home.path()) == before);
+        QVERIFY2(outcome.exitCode == exitCode, (outcome.out + outcome.error).constData());
     }
 
     void everyViewBothThemes()

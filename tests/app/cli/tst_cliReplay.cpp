@@ -76,6 +76,12 @@ void tst_cliReplay::nothingElseIsTouched_data()
     QTest::newRow("a command after threads") << provenance(
         R"(["--threads", "1", "evaluate", "experiment.json", "--out=../mine.csv", "--chart=detect"])", R"(["detect"])");
     QTest::newRow("frames with their grid") << provenance(R"(["simulate", "pings.json", "--out", "../mine.npy"])", R"(["../mine.npy"])");
+    QTest::newRow("made in the folder above") << QByteArray(provenance(R"(["simulate", "gift/scene.json", "--out", "mine.wav"])", R"(["mine.wav"])"))
+                                                     .replace("\"folder\": \".\"", "\"folder\": \"..\"");
+    QTest::newRow("an experiment of the window") << QByteArray(R"({"version": "0", "outputs": ["../mine.csv"], "experiment": {"kind": "sweep", "trials": 2,
+        "durationSeconds": 2, "sampleRateHz": 100, "parameter": "decide.thresholdNats", "values": [5, 6], "out": "../mine.csv"}})");
+    QTest::newRow("events of the window") << QByteArray(R"({"version": "0", "outputs": ["gift.csv"], "settings": {},
+        "recording": {"path": "../mine.csv", "name": "../mine", "scenario": {"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20}}})");
     QTest::newRow("a link that leads away") << provenance(R"(["simulate", "scene.json", "--out", "gift.wav", "--truth", "link.json"])", R"(["gift.wav"])");
 }
 
@@ -133,6 +139,17 @@ void tst_cliReplay::onlyItsOwnFolderIsRead()
         QCOMPARE(outcome.code, 2);
         QVERIFY2(outcome.err.contains("lies outside"), outcome.err.constData());
     }
+
+    // Nor by events that the window exported, of a recording that is a link.
+    QVERIFY(QFile::link(path("line.wav"), path("results/link.wav")));
+    const QByteArray hash = QCryptographicHash::hash(content("line.wav"), QCryptographicHash::Sha256).toHex();
+    writeBytes(pathOf("results/shown.csv"), "look");
+    writeBytes(pathOf("results/shown.csv.provenance.json"),
+               R"({"version": "0", "settings": {}, "recording": {"path": "link.wav", "sha256": ")" + hash + "\"}}");
+    const Outcome shown = run({"replay", "results/shown.csv"});
+    QCOMPARE(shown.code, 2);
+    QVERIFY2(shown.err.contains("lies outside"), shown.err.constData());
+    QVERIFY(run({"replay", "results/shown.csv", "--allow", "."}).out.endsWith("shown.csv: differs\n"));
 
     // Nor by an experiment of the window.
     writeBytes(pathOf("results/curve.csv"), "look");

@@ -35,6 +35,9 @@ void tst_cliStreams::outputThatCannotBeWritten_data()
     QTest::newRow("info") << QStringList{"info", "line.wav"};
     QTest::newRow("describe") << QStringList{"describe"};
     QTest::newRow("summary") << QStringList{"detect", "line.wav", "--summary"} + lineSettings;
+    QTest::newRow("explanation") << QStringList{"explain", "line.wav", "--time", "15", "--frequency", "210"} + lineSettings;
+    QTest::newRow("comparison") << QStringList{"compare", "line.wav", "--set-b", "model.snr=5"} + lineSettings;
+    QTest::newRow("calibration") << QStringList{"calibrate", "line.wav"} + lineSettings;
     QTest::newRow("help") << QStringList{"--help"};
     QTest::newRow("version") << QStringList{"--version"};
 }
@@ -74,6 +77,10 @@ void tst_cliStreams::stopsWhenAsked_data()
     QTest::newRow("large pings") << QStringList{"simulate", "pings.json", "--out", "o.npy"};
     QTest::newRow("an experiment's many SNRs") << QStringList{"evaluate", "experiment.json", "--out", "o.csv"};
     QTest::newRow("calibration") << QStringList{"calibrate", "--set", "spectrogram.windowSeconds=0.7"};
+    QTest::newRow("a window that is chosen") << QStringList{"detect", "line.wav", "--events", "o.csv", "--statistic", "o.npy"};
+    QTest::newRow("a window that is chosen, to explain") << QStringList{"explain", "line.wav", "--time", "15", "--frequency", "210"};
+    QTest::newRow("windows that are chosen, to compare") << QStringList{"compare", "line.wav", "--set-b", "model.snr=5", "--events", "o.csv"};
+    QTest::newRow("a window that is chosen, to calibrate") << QStringList{"calibrate", "line.wav", "--surrogates", "5"};
     QTest::newRow("a pipe for frames") << QStringList{"detect", "--frames", "pipe", "--tracks", "o.csv"};
     QTest::newRow("a pipe for a statistic") << QStringList{"statistic", "--frames", "pipe", "--model", "model.json", "--out", "o.npy"};
     QTest::newRow("a pipe for shards") << QStringList{"merge", "pipe", "--out", "o.csv"};
