@@ -2,6 +2,7 @@
 
 #include "base/Error.h"
 #include "recording/AudioRecording.h"
+#include "recording/KiwiRecording.h"
 #include "recording/RawRecording.h"
 #include "recording/SigmfRecording.h"
 #include "recording/fileHash.h"
@@ -44,6 +45,8 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &optio
         return std::make_shared<SigmfRecording>(path, options.iq);
     if (path.ends_with(".sigmf"))
         throw Error(path, "is a SigMF archive; unpack it (tar -xf) and open the .sigmf-meta file");
+    if (KiwiRecording::recognises(path))
+        return std::make_shared<KiwiRecording>(path);
     if (const auto rawType = rawTypeOfExtension(path); rawType && !AudioRecording::recognises(path))
         return openByRawExtension(path, *rawType, options);
     return std::make_shared<AudioRecording>(path, options.iq);
