@@ -3,6 +3,7 @@
 #include "base/Error.h"
 #include "base/Field.h"
 #include "base/oneLine.h"
+#include "exchange/filterbankAxes.h"
 
 #include <algorithm>
 #include <array>
@@ -104,14 +105,20 @@ namespace {
         return values;
     }
 
-    double required(const Values &values, const std::string &name, const std::string &path, double least, double most)
+    double required(const Values &values, const std::string &name, const std::string &path)
     {
         const auto found = values.find(name);
         if (found == values.end())
             throw Error(path, "its filterbank header has no " + name);
-        if (!(found->second >= least && found->second <= most))
-            throw Error(path + ": " + name + " = " + formatNumber(found->second), "must lie in " + formatNumber(least) + " … " + formatNumber(most));
         return found->second;
+    }
+
+    double requiredWithin(const Values &values, const std::string &name, const std::string &path, double least, double most)
+    {
+        const double value = required(values, name, path);
+        if (!(value >= least && value <= most))
+            throw Error(path + ": " + name + " = " + formatNumber(value), "must lie in " + formatNumber(least) + " … " + formatNumber(most));
+        return value;
     }
 
     double valueOr(const Values &values, const std::string &name, double otherwise)
@@ -155,14 +162,8 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     const Values values = readValues(header, path);
     m_dataOffset = header.position();
 
-    const auto channels = static_cast<Index>(required(values, "nchans", path, 1.0, largestCount));
-    const double tsamp = required(values, "tsamp", path, 1e-12, 1e7);
-    constexpr double megahertz = 1e6;
-    const double fch1 = required(values, "fch1", path, -1e9, 1e9) * megahertz;
-    const double foff = required(values, "foff", path, -1e9, 1e9) * megahertz;
-    if (!(std::abs(foff) > 0.0))
-        throw Error(path + ": foff = 0", "must be the channels' distance, MHz");
-    m_bits = static_cast<int>(required(values, "nbits", path, 1.0, 32.0));
+    const auto channels = static_cast<Index>(requiredWithin(values, "nchans", path, 1.0, largestCount));
+    m_bits = static_cast<int>(requiredWithin(values, "nbits", path, 1.0, 32.0));
     m_isSigned = m_bits == 8 && valueOr(values, "signed", 0.0) != 0.0;
     const double ifs = valueOr(values, "nifs", 1.0);
     if (!(ifs >= 1.0 && ifs <= 64.0))
@@ -173,9 +174,6 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     m_info.sampleType = m_isSigned ? "int8" : sampleTypeOf(m_bits, path);
     m_info.channelCount = static_cast<int>(ifs);
     m_info.quantum = m_bits < 8 ? 1.0 : 0.0;
-    m_descends = foff < 0.0;
-    const double lowest = m_descends ? fch1 + static_cast<double>(channels - 1) * foff : fch1;
-    m_info.frequency = {"frequency", "Hz", lowest, std::abs(foff), channels, false};
     const Index bitsOfFrame = channels * m_info.channelCount * m_bits;
     if (bitsOfFrame % 8 != 0)
         throw Error(path + ": nchans = " + std::to_string(channels), "of " + std::to_string(m_bits) + " bits do not fill whole bytes");
@@ -183,15 +181,14 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     const Index frames = dataBytes / (bitsOfFrame / 8);
     if (frames < 1)
         throw Error(path, "holds no whole spectrum of its " + std::to_string(channels) + " channels");
-    m_info.time = {"time", "s", 0.5 * tsamp, tsamp, frames, false};
+    const FilterbankHeader axes{required(values, "fch1", path), required(values, "foff", path), required(values, "tsamp", path),
+                                valueOr(values, "tstart", 0.0), channels, frames};
+    setFilterbankAxes(m_info, axes, path);
+    m_descends = axes.foff < 0.0;
     if (const auto claimed = static_cast<Index>(valueOr(values, "nsamples", 0.0)); claimed > frames)
         m_info.notes.push_back("The header claims " + std::to_string(claimed) + " spectra; the " + std::to_string(frames) + " that are there are read.");
     else if (dataBytes % (bitsOfFrame / 8) != 0)
         m_info.notes.push_back("The file ends within a spectrum, which is left out.");
-    constexpr double unixDay = 40587.0; // MJD of 1970-01-01
-    const double day = valueOr(values, "tstart", 0.0);
-    if (day > unixDay && day < 1e6)
-        m_info.startUnixSeconds = (day - unixDay) * 86400.0;
 }
 
 namespace {

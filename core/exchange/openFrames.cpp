@@ -1,5 +1,6 @@
 #include "exchange/openFrames.h"
 
+#include "exchange/Hdf5Filterbank.h"
 #include "exchange/ModelFile.h"
 #include "exchange/SigprocFile.h"
 #include "spectrum/NormalisedPower.h"
@@ -36,13 +37,15 @@ std::string gridPathOf(const std::string &stackPath)
 
 bool holdsFrames(const std::string &path)
 {
-    return isStack(path) || (isFile(path) && SigprocFile::recognises(path));
+    return isStack(path) || (isFile(path) && (SigprocFile::recognises(path) || Hdf5Filterbank::recognises(path)));
 }
 
 std::shared_ptr<const PowerFrames> openPower(const std::string &path)
 {
     if (isFile(path) && SigprocFile::recognises(path))
         return std::make_shared<SigprocFile>(path);
+    if (isFile(path) && Hdf5Filterbank::recognises(path))
+        return std::make_shared<Hdf5Filterbank>(path);
     return nullptr;
 }
 

@@ -21,6 +21,7 @@ bool holdsFrames(const std::string &path);
 /// A file of power that is not normalised yet; null where it is of another kind. Reads no more than headers.
 ///
 ///   sigproc filterbank   .fil of 1, 2, 4, 8, 16, 32 bits (SigprocFile)
+///   HDF5 filterbank      .h5 (Hdf5Filterbank)
 ///
 /// Throws Error naming the file and what is wrong with it.
 std::shared_ptr<const PowerFrames> openPower(const std::string &path);

@@ -63,6 +63,6 @@ private:
 /// What openRecording accepts, for messages.
 inline constexpr const char *acceptedFormats =
     "accepted are WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and other audio files, SigMF pairs (.sigmf-meta, "
-    ".sigmf-data), and raw samples when their type and rate are given (such as --raw-type ci16_le --raw-rate 48000)";
+    ".sigmf-data), strain and filterbanks in HDF5, sigproc filterbanks, and raw samples when their type and rate are given (such as --raw-type ci16_le --raw-rate 48000)";
 
 } // namespace faintline

@@ -107,6 +107,8 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"raw", ".bin", readRaw},
         {"numpy", ".npy", [](const Input &input) { readFrames(input.path, {}); }},
         {"filterbank", ".fil", [](const Input &input) { openFrames(input.path); }},
+        {"filterbankHdf5", ".h5", [](const Input &input) { openFrames(input.path); }},
+        {"strain", ".hdf5", [](const Input &input) { readSome(openRecording(input.path)); }},
         {"numpyDoubles", ".npy", [](const Input &input) { readDoubleFrames(input.path); }},
         {"grid", ".json", [](const Input &input) { readGridFile(input.path, {3, 40}); }},
         {"model", ".json", [](const Input &input) { readModelFile(input.path); }},
