@@ -2,6 +2,7 @@
 
 #include "exchange/Hdf5Filterbank.h"
 #include "exchange/ModelFile.h"
+#include "exchange/NumPyPower.h"
 #include "exchange/SigprocFile.h"
 #include "spectrum/NormalisedPower.h"
 
@@ -42,6 +43,8 @@ bool holdsFrames(const std::string &path)
 
 std::shared_ptr<const PowerFrames> openPower(const std::string &path)
 {
+    if (isStack(path) && NumPyPower::recognises(path, gridPathOf(path)))
+        return std::make_shared<NumPyPower>(path, gridPathOf(path));
     if (isFile(path) && SigprocFile::recognises(path))
         return std::make_shared<SigprocFile>(path);
     if (isFile(path) && Hdf5Filterbank::recognises(path))
@@ -51,9 +54,9 @@ std::shared_ptr<const PowerFrames> openPower(const std::string &path)
 
 NormalisedFramesPointer openFrames(const std::string &path, const FramesOptions &options, const RunContext &context)
 {
-    if (isStack(path))
-        return readFrames(path, isFile(gridPathOf(path)) ? gridPathOf(path) : std::string());
     const std::shared_ptr<const PowerFrames> power = openPower(path);
+    if (!power && isStack(path))
+        return readFrames(path, isFile(gridPathOf(path)) ? gridPathOf(path) : std::string());
     if (!power)
         return nullptr;
     return std::make_shared<NormalisedPower>(power, partOf(power->info(), options.selection), options.noise, context);

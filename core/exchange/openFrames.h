@@ -22,6 +22,7 @@ bool holdsFrames(const std::string &path);
 ///
 ///   sigproc filterbank   .fil of 1, 2, 4, 8, 16, 32 bits (SigprocFile)
 ///   HDF5 filterbank      .h5 (Hdf5Filterbank)
+///   NumPy spectrogram    .npy of shape (frames, frequencies) whose NAME.grid.json says "values": "power" (NumPyPower)
 ///
 /// Throws Error naming the file and what is wrong with it.
 std::shared_ptr<const PowerFrames> openPower(const std::string &path);
@@ -34,7 +35,8 @@ struct FramesOptions {
 
 /// The frames of such a file; null where it is of another kind, a recording.
 ///
-///   .npy     normalised power of shape (frames, cells…), with axes from NAME.grid.json where that is there; the options do not matter
+///   .npy     normalised power of shape (frames, cells…), with axes from NAME.grid.json where that is there; the options do not matter, unless it
+///            is power
 ///   others   power, over its noise (NormalisedPower)
 ///
 /// Throws Error, Cancelled.

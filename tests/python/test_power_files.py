@@ -191,5 +191,58 @@ class Filterbanks(InFolder):
             self.assertLess(peak, 500, before)
 
 
+class Spectrograms(InFolder):
+    """NumPy files with the axes beside them."""
+
+    GRID = {
+        "values": "power",
+        "time": {"first": 0.5, "step": 1.0},
+        "axes": [{"name": "frequency", "unit": "Hz", "first": 1420e6 - 630, "step": 10.0}],
+    }
+
+    def write(self, values, grid=None):
+        path = self.folder / "p.npy"
+        np.save(path, values)
+        (self.folder / "p.grid.json").write_text(json.dumps(self.GRID if grid is None else grid))
+        return path
+
+    def test_the_same_as_a_filterbank(self):
+        power = drifting_line().astype("f4")
+        fil = self.folder / "x.fil"
+        fil.write_bytes(header() + power[:, ::-1].tobytes())
+        expected = fl.detect(fil).events
+        self.assertGreater(len(expected), 0)
+        for values in (power, power.astype("f8")):
+            np.testing.assert_equal(fl.detect(self.write(values)).events.tolist(), expected.tolist())
+
+    def test_any_unit(self):
+        power = drifting_line()
+        a = fl.detect(self.write((power * 1e-12).astype("f8"))).events
+        b = fl.detect(self.write((power * 1e9).astype("f4"))).events
+        self.assertEqual(a["t_detect"].tolist(), b["t_detect"].tolist())
+
+    def test_without_the_word_it_is_normalised_power(self):
+        y = np.random.default_rng(1).exponential(size=(50, 20)).astype("f4")
+        grid = {key: value for key, value in self.GRID.items() if key != "values"}
+        self.assertTrue(np.array_equal(fl.open(self.write(y, grid)).read(), y))
+
+    def test_hostile_axes(self):
+        power = drifting_line().astype("f4")
+        axis = self.GRID["axes"][0]
+        for grid, part in (
+            (self.GRID | {"values": "loudness"}, "values"),
+            (self.GRID | {"axes": [axis | {"step": 0}]}, "step"),
+            (self.GRID | {"axes": [axis | {"count": 63}]}, "count"),
+            (self.GRID | {"axes": [axis, axis]}, "axes"),
+            (self.GRID | {"time": {"step": -1}}, "step"),
+            (self.GRID | {"time": {"step": float("nan")}}, "line"),
+        ):
+            with self.subTest(grid):
+                self.assertIn(part, self.refusal(fl.open, self.write(power, grid)).what)
+        path = self.write(power)
+        path.write_bytes(path.read_bytes()[:-8])
+        self.assertIn("cut short", self.refusal(fl.open, path).why)
+
+
 if __name__ == "__main__":
     unittest.main()
