@@ -48,6 +48,9 @@ struct AnalysisOptions {
     void addTo(CLI::App &command, Common &common);
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
+    /// The frames of a file that is no recording: simulated pings, a stack (FILE.npy), power over time and frequency; null of others. Slopes in the
+    /// settings become bins a frame.
+    NormalisedFramesPointer frames(AnalysisSettings &settings, const RunContext &context) const;
     std::vector<std::string> inputs() const; ///< the files that it all comes from; a SigMF recording is two
 };
 

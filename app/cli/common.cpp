@@ -3,6 +3,7 @@
 #include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
 #include "base/json.h"
+#include "exchange/openFrames.h"
 #include "recording/SigmfRecording.h"
 #include "recording/SimulatedRecording.h"
 
@@ -85,7 +86,7 @@ AnalysisSettings AnalysisOptions::settings() const
             throw Error("--set " + assignment, "must be name=value, such as spectrogram.windowSeconds=0.5");
         setSetting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
     }
-    if (settings.model.slopeUnit != SlopeUnit::BinsPerFrame && !file.empty() && !file.ends_with(".npy") && !openPings(file))
+    if (settings.model.slopeUnit != SlopeUnit::BinsPerFrame && !file.empty() && !holdsFrames(file) && !openPings(file))
         settings = withSlopesInBins(settings, recording()->info());
     checkSettings(settings);
     return settings;
@@ -94,6 +95,17 @@ AnalysisSettings AnalysisOptions::settings() const
 RecordingPointer AnalysisOptions::recording() const
 {
     return openAny(file, open);
+}
+
+NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, const RunContext &context) const
+{
+    if (const auto pings = openPings(file))
+        return pings;
+    const bool isRaw = !open.rawType.empty();
+    const NormalisedFramesPointer frames = isRaw ? nullptr : openFrames(file, {settings.selection, settings.noise}, context);
+    if (frames)
+        settings = withSlopesInBins(settings, *frames);
+    return frames;
 }
 
 std::vector<std::string> AnalysisOptions::inputs() const
@@ -120,6 +132,8 @@ std::shared_ptr<const SimulatedPings> openPings(const std::string &path)
 
 RecordingPointer openAny(const std::string &path, const OpenOptions &options)
 {
+    if (options.rawType.empty() && holdsFrames(path))
+        throw Error(path, "holds frames, time and frequency already, and no samples; 'detect', 'explain', 'compare' and 'info' take it");
     if (path.ends_with(".json"))
     {
         const Json json = readJsonFile(path);

@@ -3,6 +3,7 @@
 
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
+#include "analysis/slopeUnit.h"
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/oneLine.h"
@@ -88,10 +89,12 @@ namespace {
         for (const auto &[name, value] : {std::pair{"--cells", options.tolerance.cells}, std::pair{"--frames", options.tolerance.frames}})
             if (std::isnan(value)) // which lies in every range
                 throw Error(name, "must be a number");
-        const AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
-        const AnalysisSettings settingsB = settingsOf(options.common, options.presetB, options.setB);
+        AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
+        AnalysisSettings settingsB = settingsOf(options.common, options.presetB, options.setB);
         const RunContext context = common.context();
-        const NormalisedFramesPointer frames = openPings(options.common.file);
+        const NormalisedFramesPointer frames = options.common.frames(settingsA, context);
+        if (frames)
+            settingsB = withSlopesInBins(settingsB, *frames);
         const RecordingPointer recording = frames ? nullptr : options.common.recording();
         const auto analysed = [&](const AnalysisSettings &settings, const RunContext &part, const Analysis *previous) {
             return frames ? analyse(frames, settings, part, previous) : analyseInChosenWindow(recording, settings, part, previous);

@@ -111,9 +111,8 @@ namespace {
     }
 
     std::shared_ptr<const Analysis> detectInFrames(const DetectOptions &options, const RunContext &context, const StatisticSink &sink,
-                                                   const NormalisedFramesPointer &frames)
+                                                   const NormalisedFramesPointer &frames, AnalysisSettings settings)
     {
-        AnalysisSettings settings = options.analysis.settings();
         if (options.model.empty())
             return analyse(frames, settings, context, nullptr, sink);
         MarkovModel model;
@@ -166,10 +165,11 @@ namespace {
         NormalisedFramesPointer frames;
         RecordingPointer recording;
         std::vector<Index> shape;
+        AnalysisSettings settings = options.analysis.settings();
         if (!options.frames.empty())
             frames = readFrames(options.frames, options.grid);
         else
-            frames = openPings(options.analysis.file);
+            frames = options.analysis.frames(settings, context);
         if (frames) {
             shape.push_back(frames->time().count);
             for (const Axis &axis : frames->grid().axes)
@@ -179,7 +179,6 @@ namespace {
                 throw Error("detect", "needs a recording, or --frames with ready-made frames");
             recording = options.analysis.recording();
         }
-        AnalysisSettings settings = options.analysis.settings();
         std::vector<Annotation> annotations;
         if (!options.annotations.empty()) {
             if (!recording && frames->grid().axes.size() != 1)
@@ -199,7 +198,7 @@ namespace {
         }
         std::shared_ptr<const Analysis> analysis;
         if (frames)
-            analysis = detectInFrames(options, context, sink, frames);
+            analysis = detectInFrames(options, context, sink, frames, settings);
         else if (sink)
             analysis = analyse(recording, settings, context, nullptr, sink);
         else
@@ -421,9 +420,9 @@ void addExplain(CLI::App &app, Common &common)
     command->add_flag("--json", options->json, "As JSON");
     command->callback([options, &common] {
         const RunContext context = common.context();
-        NormalisedFramesPointer frames = openPings(options->analysis.file);
-        if (options->analysis.file.ends_with(".npy"))
-            frames = readFrames(options->analysis.file, options->grid);
+        AnalysisSettings settings = options->analysis.settings();
+        const NormalisedFramesPointer frames = !options->grid.empty() ? readFrames(options->analysis.file, options->grid)
+                                                                      : options->analysis.frames(settings, context);
         std::vector<double> position;
         if (frames && frames->grid().axes.size() > 1) {
             if (!options->range || !options->bearing)
@@ -434,7 +433,6 @@ void addExplain(CLI::App &app, Common &common)
                 throw Error("explain", "needs --frequency; a cell of pings is named by --range and --bearing");
             position = {*options->hz};
         }
-        const AnalysisSettings settings = options->analysis.settings();
         const auto analysis = frames ? analyse(frames, settings, context.part(0.0, 0.5))
                                      : analyseInChosenWindow(options->analysis.recording(), settings, context.part(0.0, 0.5));
         printExplanation(explain(*analysis, options->seconds, position, context.part(0.5, 1.0)), *analysis, options->json);

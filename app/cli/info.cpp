@@ -3,6 +3,7 @@
 #include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
+#include "exchange/openFrames.h"
 
 #include <CLI/CLI.hpp>
 
@@ -39,6 +40,40 @@ namespace {
         std::printf("length        %td samples, %s s\n", info.sampleCount, formatNumber(info.durationSeconds()).c_str());
         if (info.isComplex)
             std::printf("centre        %s Hz\n", formatNumber(info.centreHz).c_str());
+        if (info.startUnixSeconds)
+            std::printf("start         %s s after 1970-01-01 UTC\n", formatNumber(*info.startUnixSeconds).c_str());
+        for (const std::string &note : info.notes)
+            std::printf("note          %s\n", oneLine(note).c_str());
+    }
+
+    Json toJson(const Axis &axis)
+    {
+        return {{"unit", axis.unit}, {"first", axis.first}, {"step", axis.step}, {"count", axis.count}};
+    }
+
+    Json toJson(const PowerInfo &info)
+    {
+        Json json;
+        json["path"] = textFromFileName(info.path);
+        json["container"] = info.container;
+        json["sampleType"] = info.sampleType;
+        json["time"] = toJson(info.time);
+        json["frequency"] = toJson(info.frequency);
+        json["channels"] = info.channelCount;
+        json["startUnixSeconds"] = info.startUnixSeconds ? Json(*info.startUnixSeconds) : Json(nullptr);
+        json["notes"] = info.notes;
+        return json;
+    }
+
+    void print(const PowerInfo &info)
+    {
+        std::printf("file          %s\n", oneLine(info.path).c_str());
+        std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
+        std::printf("frames        %td, one every %s s\n", info.time.count, formatNumber(info.time.step).c_str());
+        std::printf("frequencies   %td channels of %s Hz, %s … %s Hz\n", info.frequency.count, formatNumber(info.frequency.step).c_str(),
+                    formatNumber(info.frequency.first).c_str(), formatNumber(info.frequency.last()).c_str());
+        if (info.channelCount > 1)
+            std::printf("polarisations %d\n", info.channelCount);
         if (info.startUnixSeconds)
             std::printf("start         %s s after 1970-01-01 UTC\n", formatNumber(*info.startUnixSeconds).c_str());
         for (const std::string &note : info.notes)
@@ -111,6 +146,13 @@ void addInfo(CLI::App &app, Common &)
                 std::printf("%s\n", toJson(pings->scene()).dump(2, ' ', true).c_str());
             else
                 print(*pings, options->file);
+            return;
+        }
+        if (const auto power = options->open.rawType.empty() ? openPower(options->file) : nullptr) {
+            if (options->json)
+                std::printf("%s\n", toJson(power->info()).dump(2, ' ', true).c_str());
+            else
+                print(power->info());
             return;
         }
         const RecordingPointer recording = openAny(options->file, options->open);

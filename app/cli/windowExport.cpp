@@ -8,7 +8,7 @@
 #include "base/readingJson.h"
 #include "base/wholeNumber.h"
 #include "exchange/CampaignFile.h"
-#include "exchange/ModelFile.h"
+#include "exchange/openFrames.h"
 #include "exchange/writeReviewed.h"
 #include "recording/InjectedRecording.h"
 #include "recording/SimulatedRecording.h"
@@ -70,10 +70,8 @@ namespace {
         if (source.contains("scenario"))
             return {withInjections(std::make_shared<SimulatedRecording>(lineSceneFromJson(source["scenario"])), injections), nullptr};
         const std::string path = find(source, result, recording, mayRead);
-        if (path.ends_with(".npy")) {
-            const std::string grid = path.substr(0, path.size() - 4) + ".grid.json";
-            return {nullptr, readFrames(path, fs::exists(grid) ? grid : std::string())};
-        }
+        if (const NormalisedFramesPointer frames = openFrames(path))
+            return {nullptr, frames};
         OpenOptions options;
         options.iq = source.value("iq", false);
         options.rawType = source.value("rawType", std::string());

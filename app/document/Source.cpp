@@ -4,7 +4,7 @@
 #include "analysis/slopeUnit.h"
 #include "app/base/filePath.h"
 #include "base/json.h"
-#include "exchange/ModelFile.h"
+#include "exchange/openFrames.h"
 #include "recording/AudioRecording.h"
 #include "recording/RawRecording.h"
 #include "recording/SimulatedRecording.h"
@@ -33,8 +33,7 @@ namespace {
 
     NormalisedFramesPointer readStack(const QString &path)
     {
-        const QString grid = gridPathOf(path);
-        auto frames = readFrames(pathBytes(path), fileExists(grid) ? pathBytes(grid) : std::string());
+        auto frames = openFrames(pathBytes(path));
         if (frames->grid().axes.size() > 2)
             throw Error(pathBytes(path), "has frames on " + std::to_string(frames->grid().axes.size())
                                                 + " axes; one or two can be shown (faintline-cli sequential takes more)");
@@ -54,7 +53,7 @@ namespace {
             const auto recording = std::make_shared<SimulatedRecording>(*source.scene);
             opened.truth = recording->truth();
             opened.recording = recording;
-        } else if (source.isStack()) {
+        } else if (source.options.rawType.empty() && holdsFrames(pathBytes(source.path))) {
             opened.frames = readStack(source.path);
         } else {
             opened.recording = openRecording(pathBytes(source.path), source.options);
@@ -81,11 +80,6 @@ QString Source::name() const
 bool Source::isStack() const
 {
     return !isSimulated() && path.endsWith(QLatin1String(".npy"), Qt::CaseInsensitive);
-}
-
-QString gridPathOf(const QString &stackPath)
-{
-    return stackPath.chopped(4) + QStringLiteral(".grid.json");
 }
 
 Source sourceOf(const QString &path, const OpenOptions &options)
@@ -120,7 +114,7 @@ AnalysisSettings firstSettings(const OpenedSource &opened)
 std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context,
                                         const Analysis *previous, const PictureSink &pictures, CalibrationDepth depth)
 {
-    return opened.frames ? analyse(opened.frames, settings, context, previous)
+    return opened.frames ? analyse(opened.frames, withSlopesInBins(settings, *opened.frames), context, previous)
                          : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
                                                  previous, pictures, depth);
 }

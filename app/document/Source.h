@@ -49,9 +49,6 @@ struct OpenedSource {
     PingTruth pingTruth{}; ///< of simulated pings
 };
 
-/// Where the grid of a stack of frames is described: beside it, NAME.grid.json for NAME.npy.
-QString gridPathOf(const QString &stackPath);
-
 /// The source a path stands for: a scenario where it names a JSON file, frames where a NumPy file, otherwise a recording. Throws Error.
 Source sourceOf(const QString &path, const OpenOptions &options = {});
 

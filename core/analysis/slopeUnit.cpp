@@ -48,4 +48,10 @@ AnalysisSettings withSlopesInBins(AnalysisSettings settings, const RecordingInfo
     return settings;
 }
 
+AnalysisSettings withSlopesInBins(AnalysisSettings settings, const NormalisedFrames &frames)
+{
+    settings.model = withSlopesIn(SlopeUnit::BinsPerFrame, settings.model, frames.grid().axes.back().step / frames.time().step);
+    return settings;
+}
+
 } // namespace faintline

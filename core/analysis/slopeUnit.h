@@ -2,6 +2,7 @@
 
 #include "analysis/AnalysisSettings.h"
 #include "recording/Recording.h"
+#include "spectrum/NormalisedFrames.h"
 
 namespace faintline {
 
@@ -15,5 +16,7 @@ ModelSettings withSlopesIn(SlopeUnit unit, ModelSettings model, double hzPerSeco
 
 /// The settings with slopes in bins a frame, as all that computes with them wants them: unchanged where they are so.
 AnalysisSettings withSlopesInBins(AnalysisSettings settings, const RecordingInfo &info);
+/// The same for frames that are there already, along the last axis.
+AnalysisSettings withSlopesInBins(AnalysisSettings settings, const NormalisedFrames &frames);
 
 } // namespace faintline

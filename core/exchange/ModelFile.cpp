@@ -276,7 +276,7 @@ SequentialModel readSequentialModel(const std::string &path, const FrameCells *f
 GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
 {
     const Json json = readJsonFile(path);
-    checkKeys(json, path, {"axes", "time"});
+    checkKeys(json, path, {"axes", "time", "values"});
     if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].size() + 1 != shape.size())
         throw Error(path, "needs \"axes\", one for each of the frames' " + std::to_string(shape.size() - 1) + " cell axes");
     GridFile file;
@@ -290,9 +290,10 @@ GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
         file.grid.axes.push_back({text(axis, where, "name", "axis " + std::to_string(i + 1)), text(axis, where, "unit", ""),
                                   number(axis, where, "first", 0.0), number(axis, where, "step", 1.0), shape[i + 1],
                                   flag(axis, where, "cyclic")});
-        if (file.grid.axes.back().step <= 0.0)
+        if (!(file.grid.axes.back().step > 0.0))
             throw Error(where + ".step", "must be above 0");
     }
+    file.isPower = choice(json, path, "values", std::array<std::string_view, 2>{"normalised", "power"}, 0) == 1;
     file.time = {"time", "s", 0.0, 1.0, shape[0], false};
     if (json.contains("time")) {
         const std::string where = path + ": time";
@@ -346,6 +347,8 @@ std::string gridFileText(const GridFile &file)
         json["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"first", axis.first}, {"step", axis.step},
                                 {"count", axis.count}, {"cyclic", axis.cyclic}});
     json["time"] = {{"first", file.time.first}, {"step", file.time.step}};
+    if (file.isPower)
+        json["values"] = "power";
     return json.dump(2) + "\n";
 }
 

@@ -60,10 +60,11 @@ struct DoubleFrames {
 DoubleFrames readDoubleFrames(const std::string &path);
 
 /// Grid and time axis of a stack of frames: { "axes": [ { "name", "unit", "first", "step", "count", "cyclic" } ],
-/// "time": { "first", "step" } }; count may be left out where the frames tell it. Throws Error.
+/// "time": { "first", "step" }, "values": "normalised" | "power" }; count may be left out where the frames tell it. Throws Error.
 struct GridFile {
     Grid grid;
     Axis time;
+    bool isPower = false; ///< of a spectrogram in a unit of its own, which is not normalised yet
 };
 GridFile readGridFile(const std::string &path, const std::vector<Index> &shape);
 

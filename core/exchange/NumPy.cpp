@@ -16,6 +16,8 @@ namespace faintline {
 namespace {
 
     constexpr std::string_view magic("\x93NUMPY", 6);
+    constexpr int arrayExponent = 31; ///< of what is read as a whole
+    constexpr int fileExponent = 50;
 
     std::string shapeText(const std::vector<Index> &shape)
     {
@@ -52,7 +54,8 @@ namespace {
         return rest;
     }
 
-    std::vector<Index> parseShape(std::string_view text, const std::string &path)
+    /// A shape whose product, and that of its beginning, is at most 2^mostExponent.
+    std::vector<Index> parseShape(std::string_view text, int mostExponent, const std::string &path)
     {
         if (!text.starts_with('('))
             throw Error(path, "its NumPy header has no shape");
@@ -72,28 +75,67 @@ namespace {
                     throw Error(path, "its NumPy shape holds '" + std::string(word) + "'");
                 shape.push_back(static_cast<Index>(*number));
                 values *= *number;
-                if (values > 0x1p31)
-                    throw Error(path, "holds more than 2³¹ values");
+                if (values > std::ldexp(1.0, mostExponent))
+                    throw Error(path, "holds more than " + std::string(mostExponent == arrayExponent ? "2³¹" : "2⁵⁰") + " values");
             }
             text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 1);
         }
         return shape;
     }
 
-    template <class T, class Array>
-    void readValues(std::ifstream &file, Array &array, std::size_t total, const std::string &path)
+    Index valueCount(const NumPyLayout &layout)
     {
-        const Error cutShort(path, "is cut short: its shape " + shapeText(array.shape) + " asks for " + std::to_string(total) + " values");
+        return std::accumulate(layout.shape.begin(), layout.shape.end(), Index(1), std::multiplies<>());
+    }
+
+    Error cutShort(const NumPyLayout &layout, const std::string &path)
+    {
+        return Error(path, "is cut short: its shape " + shapeText(layout.shape) + " asks for " + std::to_string(valueCount(layout)) + " values");
+    }
+
+    NumPyLayout readLayout(std::ifstream &file, int mostExponent, const std::string &path)
+    {
+        if (!file)
+            throw Error(path, "cannot be opened; a NumPy file (.npy) is wanted");
+        char start[10] = {};
+        if (!file.read(start, 10) || std::string_view(start, 6) != magic)
+            throw Error(path, "is no NumPy file (.npy)");
+        std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
+        std::size_t before = 10;
+        if (start[6] >= 2) {
+            unsigned char more[2] = {};
+            file.read(reinterpret_cast<char *>(more), 2);
+            length += (static_cast<std::size_t>(more[0]) << 16) + (static_cast<std::size_t>(more[1]) << 24);
+            before = 12;
+        }
+        if (length > (1u << 20))
+            throw Error(path, "its NumPy header is longer than any should be");
+        std::string dictionary(length, ' ');
+        if (!file.read(dictionary.data(), static_cast<std::streamsize>(length)))
+            throw Error(path, "is cut short in its NumPy header");
+        if (entry(dictionary, "fortran_order", path).starts_with("True"))
+            throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
+        const std::string_view type = entry(dictionary, "descr", path);
+        if (!type.starts_with("'<f4'") && !type.starts_with("'<f8'"))
+            throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; float32 or float64, little-endian, is wanted");
+        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path), static_cast<Index>(before + length), type.starts_with("'<f8'")};
         std::error_code code;
         const std::uintmax_t size = std::filesystem::file_size(path, code);
-        if (!code && size < total * sizeof(T))
-            throw cutShort; // before room is made for values that are not there
+        const auto wanted = static_cast<std::uintmax_t>(valueCount(layout)) * (layout.isDouble ? sizeof(double) : sizeof(float));
+        if (!code && size - before - length < wanted) // before room is made for values that are not there
+            throw cutShort(layout, path);
+        return layout;
+    }
+
+    template <class T, class Array>
+    void readValues(std::ifstream &file, Array &array, std::size_t total, const NumPyLayout &layout, const std::string &path)
+    {
         array.values.resize(total);
         std::vector<T> chunk(1 << 16);
         for (std::size_t done = 0; done < total;) {
             const std::size_t count = std::min(chunk.size(), total - done);
             if (!file.read(reinterpret_cast<char *>(chunk.data()), static_cast<std::streamsize>(count * sizeof(T))))
-                throw cutShort;
+                throw cutShort(layout, path);
             for (std::size_t i = 0; i < count; ++i)
                 array.values[done + i] = static_cast<typename decltype(array.values)::value_type>(chunk[i]);
             done += count;
@@ -104,38 +146,24 @@ namespace {
     Array readArray(const std::string &path)
     {
         std::ifstream file(path, std::ios::binary);
-        if (!file)
-            throw Error(path, "cannot be opened; a NumPy file (.npy) is wanted");
-        char start[10] = {};
-        if (!file.read(start, 10) || std::string_view(start, 6) != magic)
-            throw Error(path, "is no NumPy file (.npy)");
-        std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
-        if (start[6] >= 2) {
-            unsigned char more[2] = {};
-            file.read(reinterpret_cast<char *>(more), 2);
-            length += (static_cast<std::size_t>(more[0]) << 16) + (static_cast<std::size_t>(more[1]) << 24);
-        }
-        if (length > (1u << 20))
-            throw Error(path, "its NumPy header is longer than any should be");
-        std::string dictionary(length, ' ');
-        if (!file.read(dictionary.data(), static_cast<std::streamsize>(length)))
-            throw Error(path, "is cut short in its NumPy header");
-        if (entry(dictionary, "fortran_order", path).starts_with("True"))
-            throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
+        const NumPyLayout layout = readLayout(file, arrayExponent, path);
+        const Index total = valueCount(layout);
         Array array;
-        array.shape = parseShape(entry(dictionary, "shape", path), path);
-        const auto total = static_cast<std::size_t>(std::accumulate(array.shape.begin(), array.shape.end(), Index(1), std::multiplies<>()));
-        const std::string_view type = entry(dictionary, "descr", path);
-        if (type.starts_with("'<f4'"))
-            readValues<float>(file, array, total, path);
-        else if (type.starts_with("'<f8'"))
-            readValues<double>(file, array, total, path);
+        array.shape = layout.shape;
+        if (layout.isDouble)
+            readValues<double>(file, array, static_cast<std::size_t>(total), layout, path);
         else
-            throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; float32 or float64, little-endian, is wanted");
+            readValues<float>(file, array, static_cast<std::size_t>(total), layout, path);
         return array;
     }
 
 } // namespace
+
+NumPyLayout readNumPyLayout(const std::string &path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return readLayout(file, fileExponent, path);
+}
 
 NumPyArray readNumPy(const std::string &path)
 {

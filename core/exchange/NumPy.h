@@ -21,6 +21,16 @@ struct NumPyDoubles {
     std::vector<double> values;
 };
 
+/// Where the values of such a file lie, and of what kind they are, without reading them.
+struct NumPyLayout {
+    std::vector<Index> shape;
+    Index offset = 0; ///< of the first value, bytes
+    bool isDouble = false;
+};
+
+/// Throws Error where the file is no such array, or is cut short; it may be larger than memory.
+NumPyLayout readNumPyLayout(const std::string &path);
+
 /// Throws Error where the file is no such array, is cut short, or holds more than 2³¹ values.
 NumPyArray readNumPy(const std::string &path);
 NumPyDoubles readNumPyDoubles(const std::string &path);

@@ -1,23 +1,65 @@
 #include "exchange/openFrames.h"
 
+#include "exchange/Hdf5Filterbank.h"
 #include "exchange/ModelFile.h"
+#include "exchange/NumPyPower.h"
+#include "exchange/SigprocFile.h"
+#include "spectrum/NormalisedPower.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <string_view>
 
 namespace faintline {
+
+namespace {
+
+    bool isStack(const std::string &path)
+    {
+        constexpr std::string_view ending = ".npy";
+        return path.size() >= ending.size()
+            && std::equal(ending.begin(), ending.end(), path.end() - static_cast<Index>(ending.size()),
+                          [](char small, char given) { return small == std::tolower(static_cast<unsigned char>(given)); });
+    }
+
+    bool isFile(const std::string &path)
+    {
+        std::error_code ignored;
+        return std::filesystem::is_regular_file(path, ignored);
+    }
+
+} // namespace
 
 std::string gridPathOf(const std::string &stackPath)
 {
     return stackPath.substr(0, stackPath.size() - 4) + ".grid.json";
 }
 
-NormalisedFramesPointer openFrames(const std::string &path)
+bool holdsFrames(const std::string &path)
 {
-    if (!path.ends_with(".npy"))
+    return isStack(path) || (isFile(path) && (SigprocFile::recognises(path) || Hdf5Filterbank::recognises(path)));
+}
+
+std::shared_ptr<const PowerFrames> openPower(const std::string &path)
+{
+    if (isStack(path) && NumPyPower::recognises(path, gridPathOf(path)))
+        return std::make_shared<NumPyPower>(path, gridPathOf(path));
+    if (isFile(path) && SigprocFile::recognises(path))
+        return std::make_shared<SigprocFile>(path);
+    if (isFile(path) && Hdf5Filterbank::recognises(path))
+        return std::make_shared<Hdf5Filterbank>(path);
+    return nullptr;
+}
+
+NormalisedFramesPointer openFrames(const std::string &path, const FramesOptions &options, const RunContext &context)
+{
+    const std::shared_ptr<const PowerFrames> power = openPower(path);
+    if (!power && isStack(path))
+        return readFrames(path, isFile(gridPathOf(path)) ? gridPathOf(path) : std::string());
+    if (!power)
         return nullptr;
-    const std::string grid = gridPathOf(path);
-    std::error_code ignored;
-    return readFrames(path, std::filesystem::exists(grid, ignored) ? grid : std::string());
+    return std::make_shared<NormalisedPower>(power, partOf(power->info(), options.selection), options.noise, context);
 }
 
 } // namespace faintline

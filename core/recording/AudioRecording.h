@@ -11,7 +11,7 @@ namespace faintline {
 /// Whatever libsndfile reads: WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and more, with any number of channels.
 ///
 /// With `iq`, channels 2k and 2k+1 are I and Q of complex channel k. Start time and centre frequency are taken from a
-/// broadcast chunk (bext) or from the chunk that receivers write (auxi), where there is one. A file that was cut short
+/// broadcast chunk (bext), from the chunk that receivers write (auxi) or that of XWAV (harp), where there is one. A file that was cut short
 /// gives what is there, with a note.
 ///
 /// Uncompressed data is read where it is wanted. Compressed data is decoded in fixed blocks that are kept while they
@@ -63,6 +63,6 @@ private:
 /// What openRecording accepts, for messages.
 inline constexpr const char *acceptedFormats =
     "accepted are WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and other audio files, SigMF pairs (.sigmf-meta, "
-    ".sigmf-data), and raw samples when their type and rate are given (such as --raw-type ci16_le --raw-rate 48000)";
+    ".sigmf-data), strain and filterbanks in HDF5, sigproc filterbanks, and raw samples when their type and rate are given (such as --raw-type ci16_le --raw-rate 48000)";
 
 } // namespace faintline

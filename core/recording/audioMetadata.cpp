@@ -2,8 +2,10 @@
 
 #include "base/utc.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -106,6 +108,40 @@ namespace {
         }
     }
 
+    /// Scripps' XWAV: what is known of the deployment, then for each stretch of samples (a "raw file") when it began and how long it is.
+    void readHarp(const std::vector<std::byte> &harp, RecordingInfo &info)
+    {
+        constexpr std::size_t entriesAt = 56;
+        constexpr std::size_t entryBytes = 32;
+        if (harp.size() < entriesAt + entryBytes)
+            return;
+        const std::size_t count = std::min<std::size_t>(littleEndian(harp, 36, 2), (harp.size() - entriesAt) / entryBytes);
+        const double bytesPerSecond = 2.0 * info.channelCount * info.sampleRateHz; // XWAV holds 16 bits
+        std::optional<double> end;
+        int gaps = 0;
+        double missing = 0.0;
+        for (std::size_t entry = 0; entry < count; ++entry) {
+            const std::size_t at = entriesAt + entry * entryBytes;
+            const auto byte = [&](std::size_t i) { return static_cast<int>(littleEndian(harp, at + i, 1)); };
+            const auto start = unixSeconds(2000 + byte(0), byte(1), byte(2), byte(3), byte(4), byte(5) + littleEndian(harp, at + 6, 2) / 1000.0);
+            if (!start)
+                return;
+            if (entry == 0) {
+                info.startUnixSeconds = start;
+                info.notes.push_back("Start time taken from the harp chunk, read as UTC.");
+            }
+            constexpr double smallest = 0.01; // its times are in milliseconds
+            if (end && *start - *end > smallest) {
+                ++gaps;
+                missing += *start - *end;
+            }
+            end = *start + littleEndian(harp, at + 12, 4) / bytesPerSecond;
+        }
+        if (gaps > 0)
+            info.notes.push_back("The harp chunk tells of " + std::to_string(gaps) + " gap(s), " + std::to_string(std::llround(missing))
+                                 + " s altogether; the samples are read as if there were none.");
+    }
+
     std::uint32_t bigEndian(std::span<const std::byte> bytes)
     {
         std::uint32_t value = 0;
@@ -155,6 +191,7 @@ void readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info)
             info.notes.push_back("Start time taken from the bext chunk, read as UTC.");
     }
     readAuxi(decoder.chunk("auxi"), info);
+    readHarp(decoder.chunk("harp"), info);
     if (!info.startUnixSeconds)
         info.startUnixSeconds = parseUtc(decoder.text(SF_STR_DATE));
 }

@@ -2,8 +2,10 @@
 
 #include "base/Error.h"
 #include "recording/AudioRecording.h"
+#include "recording/KiwiRecording.h"
 #include "recording/RawRecording.h"
 #include "recording/SigmfRecording.h"
+#include "recording/StrainRecording.h"
 #include "recording/fileHash.h"
 
 namespace faintline {
@@ -44,6 +46,13 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &optio
         return std::make_shared<SigmfRecording>(path, options.iq);
     if (path.ends_with(".sigmf"))
         throw Error(path, "is a SigMF archive; unpack it (tar -xf) and open the .sigmf-meta file");
+    if (KiwiRecording::recognises(path))
+        return std::make_shared<KiwiRecording>(path);
+    if (Hdf5File::recognises(path)) {
+        if (StrainRecording::recognises(path))
+            return std::make_shared<StrainRecording>(path);
+        throw Error(path, "is an HDF5 file of another kind; strain (strain/Strain) and filterbanks (data, with fch1) can be read");
+    }
     if (const auto rawType = rawTypeOfExtension(path); rawType && !AudioRecording::recognises(path))
         return openByRawExtension(path, *rawType, options);
     return std::make_shared<AudioRecording>(path, options.iq);

@@ -3,6 +3,7 @@
 #include "base/json.h"
 #include "recording/Recording.h"
 #include "spectrum/NormalisedFrames.h"
+#include "spectrum/PowerFrames.h"
 
 #include <pybind11/pybind11.h>
 
@@ -21,6 +22,7 @@ struct HeldFrames {
     NormalisedFramesPointer frames;
     Json truth;
     bool isPings = false; ///< a sonar's, whose settings start from the preset "sonar"
+    std::shared_ptr<const PowerFrames> power{}; ///< of a file of power, which settings take a part of and normalise anew
 };
 
 /// Opens what a path names: a recording, ready-made frames, or a scene to simulate. Throws Error.

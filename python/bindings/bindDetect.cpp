@@ -6,6 +6,7 @@
 #include "bindings/Source.h"
 #include "bindings/jsonFromPython.h"
 #include "bindings/settingsFromPython.h"
+#include "spectrum/NormalisedPower.h"
 
 #include <pybind11/stl.h>
 
@@ -32,12 +33,24 @@ namespace {
         return py::cast(recordingOfArray(given, *rate, centreHz));
     }
 
+    /// Of a file of power the part that the settings select, normalised as they say.
+    NormalisedFramesPointer framesFor(const HeldFrames &held, const AnalysisSettings &settings, const RunContext &context)
+    {
+        if (!held.power || (settings.selection == SelectionSettings() && settings.noise == NormaliserSettings()))
+            return held.frames;
+        return std::make_shared<NormalisedPower>(held.power, partOf(held.power->info(), settings.selection), settings.noise, context);
+    }
+
     std::shared_ptr<Result> detectIn(const HeldFrames &held, const AskedSettings &asked, const RunOptions &options)
     {
         const AnalysisSettings settings = settingsFromPython(asked, held.isPings ? preset("sonar").settings : AnalysisSettings());
-        checkSettings(settings);
         std::shared_ptr<const Analysis> analysis;
-        runInterruptibly(options, [&](const RunContext &context) { analysis = analyse(held.frames, settings, context); });
+        runInterruptibly(options, [&](const RunContext &context) {
+            const NormalisedFramesPointer frames = framesFor(held, settings, context.part(0.0, held.power ? 0.1 : 0.0));
+            const AnalysisSettings inBins = withSlopesInBins(settings, *frames);
+            checkSettings(inBins);
+            analysis = analyse(frames, inBins, context.part(held.power ? 0.1 : 0.0, 1.0));
+        });
         return std::make_shared<Result>(analysis);
     }
 

@@ -38,8 +38,9 @@ py::object openSource(const std::string &path, const py::kwargs &options)
 {
     if (path.ends_with(".json"))
         return simulatedSource(readJsonFile(path), path);
-    if (const NormalisedFramesPointer frames = openFrames(path))
-        return py::cast(HeldFrames{frames, nullptr});
+    const bool isRaw = options.contains("raw_type");
+    if (!isRaw && holdsFrames(path))
+        return py::cast(HeldFrames{openFrames(path), nullptr, false, openPower(path)});
     return py::cast(HeldRecording{openRecording(path, optionsFrom(options)), nullptr});
 }
 
@@ -49,11 +50,11 @@ void bindOpen(py::module_ &module)
         "open", [](const py::object &path, const py::kwargs &options) { return openSource(pathFromPython(path), options); }, py::arg("path"),
         R"(Opens a recording or ready-made frames, by content; reads no more than headers.
 
-path: audio (WAV, FLAC, …), SigMF, raw samples (give raw_type, such as "ci16_le", and raw_rate in Hz), a NumPy file of normalised frames
-(.npy, axes in NAME.grid.json beside it), or a scene to simulate (.json).
+path: audio (WAV, FLAC, …), SigMF, GWOSC strain (.hdf5), raw samples (give raw_type, such as "ci16_le", and raw_rate in Hz), a NumPy file of normalised frames
+(.npy, axes in NAME.grid.json beside it), power over time and frequency (sigproc .fil, filterbank .h5), or a scene to simulate (.json).
 Options: iq=True takes two channels as I and Q; raw_type, raw_rate, raw_channels, raw_header (bytes before the samples).
 
-Returns a Recording, or Frames where time and frequency are in the file already. Raises Error with the path, what is wrong and what would
+Returns a Recording, or Frames, normalised, where time and frequency are in the file already. Raises Error with the path, what is wrong and what would
 be accepted.)");
 }
 

@@ -13,6 +13,7 @@
 #include "base/fileName.h"
 #include "base/oneLine.h"
 #include "evaluate/experiments/PdCurve.h"
+#include "exchange/openFrames.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/writeRecording.h"
 #include "widgets/events/EventTable.h"
@@ -248,14 +249,14 @@ void tst_hostileNames::gridsAreHarmless()
     const Json grid = {{"time", {{"first", 0}, {"step", 40}}},
                        {"axes", {{{"name", unit.toStdString()}, {"unit", unit.toStdString()}, {"first", 1000}, {"step", 10}},
                                  {{"name", unit.toStdString()}, {"unit", unit.toStdString()}, {"first", 0}, {"step", 10}}}}};
-    writeTextFile(pathBytes(gridPathOf(stack)), grid.dump());
+    writeTextFile(gridPathOf(pathBytes(stack)), grid.dump());
     const int before = window->minimumSizeHint().width();
     QVERIFY(openAndSettle(*window, stack));
     QVERIFY2(window->document().frames(), qPrintable(window->messages().text()));
     QCOMPARE(firstHarmful(*window), QString());
     QCOMPARE(firstTagged(*window), QString());
     const auto plain = newWindow();
-    QVERIFY(QFile::remove(gridPathOf(stack)));
+    QVERIFY(QFile::remove(pathText(gridPathOf(pathBytes(stack)))));
     QVERIFY(openAndSettle(*plain, stack));
     QVERIFY(before > 0);
     QVERIFY2(window->minimumSizeHint().width() <= plain->minimumSizeHint().width() + 100,

@@ -14,6 +14,7 @@
 #include "exchange/CampaignFile.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
+#include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
 #include "recording/PingTruth.h"
 #include "recording/ScanScene.h"
@@ -105,6 +106,9 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"sigmf", ".sigmf-meta", readSigmf},
         {"raw", ".bin", readRaw},
         {"numpy", ".npy", [](const Input &input) { readFrames(input.path, {}); }},
+        {"filterbank", ".fil", [](const Input &input) { openFrames(input.path); }},
+        {"filterbankHdf5", ".h5", [](const Input &input) { openFrames(input.path); }},
+        {"strain", ".hdf5", [](const Input &input) { readSome(openRecording(input.path)); }},
         {"numpyDoubles", ".npy", [](const Input &input) { readDoubleFrames(input.path); }},
         {"grid", ".json", [](const Input &input) { readGridFile(input.path, {3, 40}); }},
         {"model", ".json", [](const Input &input) { readModelFile(input.path); }},

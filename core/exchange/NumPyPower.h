@@ -1,0 +1,30 @@
+#pragma once
+
+#include "exchange/NumPy.h"
+#include "recording/FileBytes.h"
+#include "spectrum/PowerFrames.h"
+
+namespace faintline {
+
+/// A spectrogram in a NumPy file of shape (frames, frequencies), power in any unit, whose axes a grid file beside it describes with "values": "power":
+///
+///   { "values": "power", "time": { "first": 0, "step": 0.5 }, "axes": [ { "name": "frequency", "unit": "Hz", "first": 100, "step": 2 } ] }
+///
+/// The file may be larger than memory. Thread-safe.
+class NumPyPower final : public PowerFrames
+{
+public:
+    /// Throws Error where one of the files is damaged or they do not fit.
+    NumPyPower(const std::string &path, const std::string &gridPath);
+
+    void read(const PowerPart &part, std::span<float> out) const override;
+
+    /// Whether the grid file is there and says so. False where it cannot be read, for whoever reads it next says why.
+    static bool recognises(const std::string &path, const std::string &gridPath);
+
+private:
+    FileBytes m_file;
+    NumPyLayout m_layout;
+};
+
+} // namespace faintline

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "spectrum/PowerFrames.h"
+
+#include <string>
+
+namespace faintline {
+
+/// What sigproc's header says of a filterbank's axes, in its units.
+struct FilterbankHeader {
+    double fch1 = 0.0;   ///< frequency of the first channel, MHz
+    double foff = 0.0;   ///< from one channel to the next, MHz; negative where they descend
+    double tsamp = 0.0;  ///< s
+    double tstart = 0.0; ///< MJD of the beginning of the first spectrum; 0: not known
+    Index channels = 0;
+    Index frames = 0;
+};
+
+/// Sets an information's axes and start time: frequencies ascend, in Hz; the time of a frame is its middle. Throws Error naming `path` and the value
+/// that cannot be.
+void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const std::string &path);
+
+} // namespace faintline

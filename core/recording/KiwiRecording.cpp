@@ -1,0 +1,251 @@
+#include "recording/KiwiRecording.h"
+
+#include "base/Error.h"
+#include "base/Field.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index headerBytes = 12;
+    constexpr std::size_t mostRuns = 1 << 20;
+
+    struct Chunk {
+        std::array<char, 4> name{};
+        Index offset = 0; ///< of its content
+        Index size = 0;
+
+        bool is(std::string_view other) const { return std::string_view(name.data(), name.size()) == other; }
+        Index next() const { return offset + size + size % 2; }
+    };
+
+    template <class T>
+    T numberAt(std::span<const std::byte> bytes, std::size_t at)
+    {
+        T value;
+        std::memcpy(&value, bytes.data() + at, sizeof value);
+        return value;
+    }
+
+    std::optional<Chunk> chunkAt(const FileBytes &file, Index offset)
+    {
+        std::array<std::byte, 8> head;
+        if (file.readAt(offset, head) < head.size())
+            return std::nullopt;
+        Chunk chunk;
+        std::memcpy(chunk.name.data(), head.data(), chunk.name.size());
+        chunk.offset = offset + std::ssize(head);
+        chunk.size = numberAt<std::uint32_t>(head, 4);
+        return chunk;
+    }
+
+    bool isWave(const FileBytes &file)
+    {
+        std::array<std::byte, headerBytes> head;
+        return file.readAt(0, head) == head.size() && std::memcmp(head.data(), "RIFF", 4) == 0 && std::memcmp(head.data() + 8, "WAVE", 4) == 0;
+    }
+
+    /// The GNSS second of the week of a chunk's first sample; nothing where the receiver had no fix.
+    std::optional<double> stampOf(const FileBytes &file, const Chunk &kiwi)
+    {
+        constexpr Index stampBytes = 10;
+        std::array<std::byte, stampBytes> content;
+        if (kiwi.size < stampBytes || file.readAt(kiwi.offset, content) < content.size())
+            return std::nullopt;
+        constexpr int noFix = 255;
+        constexpr double week = 604800.0;
+        const double seconds = numberAt<std::uint32_t>(content, 2) + 1e-9 * numberAt<std::uint32_t>(content, 6);
+        const bool isSound = std::to_integer<int>(content[0]) != noFix && seconds < week;
+        return isSound ? std::optional(seconds) : std::nullopt;
+    }
+
+    /// What a file's time stamps say of its clock.
+    class StampedClock
+    {
+    public:
+        explicit StampedClock(double nominalHz) : m_nominalHz(nominalHz) {}
+
+        void add(Index sample, std::optional<double> stamp)
+        {
+            if (!stamp)
+                return;
+            constexpr double week = 604800.0;
+            if (m_last && *stamp < m_last->seconds - m_weeks * week - 0.5 * week)
+                m_weeks += 1.0;
+            const Stamp now{sample, *stamp + m_weeks * week};
+            m_first = m_first ? m_first : now;
+            if (m_last && sample > m_last->sample) {
+                const double expected = static_cast<double>(sample - m_last->sample) / m_nominalHz;
+                const double missing = now.seconds - m_last->seconds - expected;
+                if (std::abs(missing) > 0.5 * expected) {
+                    ++m_gaps;
+                    m_missing += missing;
+                    m_begin = now;
+                }
+            }
+            m_last = now;
+            m_begin = m_begin ? m_begin : now;
+            if (!m_longest || now.sample - m_begin->sample > m_longest->second.sample - m_longest->first.sample)
+                m_longest.emplace(*m_begin, now);
+        }
+
+        /// Over the longest stretch without a gap; the header's where that is short or says something else altogether.
+        double rateHz() const
+        {
+            if (!m_longest || m_longest->second.sample == m_longest->first.sample)
+                return m_nominalHz;
+            const double seconds = m_longest->second.seconds - m_longest->first.seconds;
+            const double rate = static_cast<double>(m_longest->second.sample - m_longest->first.sample) / seconds;
+            constexpr double farOff = 1e-3;
+            constexpr double shortest = 1.0;
+            return seconds >= shortest && std::abs(rate / m_nominalHz - 1.0) < farOff ? rate : m_nominalHz;
+        }
+
+        std::vector<std::string> notes() const
+        {
+            std::vector<std::string> notes;
+            if (m_first)
+                notes.push_back("The first time stamp is second " + formatNumber(m_first->seconds) + " of the GPS week.");
+            if (rateHz() != m_nominalHz)
+                notes.push_back("The sample rate is that of the time stamps; the header says " + formatNumber(m_nominalHz) + " Hz.");
+            if (m_gaps > 0)
+                notes.push_back("The time stamps tell of " + std::to_string(m_gaps) + " gap(s), " + formatNumber(std::round(1e3 * m_missing) / 1e3)
+                                + " s altogether; the samples are read as if there were none.");
+            return notes;
+        }
+
+    private:
+        struct Stamp {
+            Index sample;
+            double seconds;
+        };
+
+        double m_nominalHz;
+        double m_weeks = 0.0;
+        std::optional<Stamp> m_first, m_last;
+        std::optional<Stamp> m_begin; ///< of the stretch without a gap that goes on
+        std::optional<std::pair<Stamp, Stamp>> m_longest;
+        int m_gaps = 0;
+        double m_missing = 0.0;
+    };
+
+} // namespace
+
+bool KiwiRecording::recognises(const std::string &path)
+{
+    const FileBytes file(path);
+    if (!isWave(file))
+        return false;
+    const std::optional<Chunk> format = chunkAt(file, headerBytes);
+    if (!format || !format->is("fmt "))
+        return false;
+    const std::optional<Chunk> next = chunkAt(file, format->next());
+    return next && next->is("kiwi");
+}
+
+KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
+{
+    static_assert(std::endian::native == std::endian::little);
+    const std::optional<Chunk> format = chunkAt(m_file, headerBytes);
+    std::array<std::byte, 16> fields;
+    if (!isWave(m_file) || !format || !format->is("fmt ") || m_file.readAt(format->offset, fields) < fields.size())
+        throw Error(path, "is no WAV file of a KiwiSDR");
+    const auto channels = numberAt<std::uint16_t>(fields, 2);
+    const double nominalHz = numberAt<std::uint32_t>(fields, 4);
+    const auto bits = numberAt<std::uint16_t>(fields, 14);
+    if (numberAt<std::uint16_t>(fields, 0) != 1 || bits != 16 || channels < 1 || channels > 2 || !(nominalHz > 0.0))
+        throw Error(path, "has " + std::to_string(channels) + " channel(s) of " + std::to_string(bits) + " bits at " + formatNumber(nominalHz)
+                              + " Hz; a KiwiSDR writes 1 or 2 of 16 bits");
+    m_bytesPerSample = 2 * channels;
+
+    StampedClock clock(nominalHz);
+    std::optional<double> stamp;
+    for (std::optional<Chunk> chunk = chunkAt(m_file, format->next()); chunk; chunk = chunkAt(m_file, chunk->next())) {
+        if (chunk->is("kiwi"))
+            stamp = stampOf(m_file, *chunk);
+        if (!chunk->is("data"))
+            continue;
+        const Index there = std::min(chunk->size, m_file.size() - chunk->offset);
+        clock.add(m_info.sampleCount, std::exchange(stamp, std::nullopt));
+        add(chunk->offset, there / m_bytesPerSample);
+        if (there < chunk->size)
+            m_info.notes.push_back("The file ends within a chunk of samples; what is there is read.");
+    }
+    if (m_info.sampleCount == 0)
+        throw Error(path, "is a WAV file of a KiwiSDR without samples");
+    m_info.path = path;
+    m_info.container = "KiwiSDR WAV";
+    m_info.sampleType = "int16";
+    m_info.channelCount = 1;
+    m_info.isComplex = channels == 2;
+    m_info.sampleRateHz = clock.rateHz();
+    const std::vector<std::string> said = clock.notes();
+    m_info.notes.insert(m_info.notes.end(), said.begin(), said.end());
+}
+
+void KiwiRecording::add(Index offset, Index samples)
+{
+    if (samples <= 0)
+        return;
+    if (!m_runs.empty()) {
+        Run &run = m_runs.back();
+        const Index last = run.offset + (run.count - 1) * run.stride;
+        if (run.samples == samples && (run.count == 1 || offset - last == run.stride)) {
+            run.stride = offset - last;
+            ++run.count;
+            m_info.sampleCount += samples;
+            return;
+        }
+    }
+    if (m_runs.size() >= mostRuns)
+        throw Error(m_file.path(), "has chunks of samples of more than a million sizes and distances, which no receiver writes");
+    m_runs.push_back({m_info.sampleCount, offset, samples, 0, 1});
+    m_info.sampleCount += samples;
+}
+
+/// Samples of one run, from one of its own on.
+void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> out) const
+{
+    constexpr float fullScale = 32768.0f;
+    const Index floats = m_info.floatsPerSample();
+    std::vector<std::byte> bytes;
+    while (!out.empty()) {
+        const Index within = sample % run.samples;
+        const Index count = std::min(run.samples - within, std::ssize(out) / floats);
+        bytes.resize(static_cast<std::size_t>(count * m_bytesPerSample));
+        const Index at = run.offset + sample / run.samples * run.stride + within * m_bytesPerSample;
+        if (m_file.readAt(at, bytes) < bytes.size())
+            throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count * floats); ++i)
+            out[i] = static_cast<float>(numberAt<std::int16_t>(bytes, 2 * i)) / fullScale;
+        out = out.subspan(static_cast<std::size_t>(count * floats));
+        sample += count;
+    }
+}
+
+void KiwiRecording::read(int, Index first, Index count, std::span<float> out) const
+{
+    fill(first, count, out, [&](Index from, std::span<float> inside) {
+        auto run = std::upper_bound(m_runs.begin(), m_runs.end(), from, [](Index sample, const Run &r) { return sample < r.firstSample; }) - 1;
+        const Index floats = m_info.floatsPerSample();
+        for (; !inside.empty(); ++run) {
+            const Index within = from - run->firstSample;
+            const Index here = std::min(run->samples * run->count - within, std::ssize(inside) / floats);
+            readWithin(*run, within, inside.first(static_cast<std::size_t>(here * floats)));
+            inside = inside.subspan(static_cast<std::size_t>(here * floats));
+            from += here;
+        }
+    });
+}
+
+} // namespace faintline

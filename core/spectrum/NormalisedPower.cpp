@@ -1,0 +1,256 @@
+#include "spectrum/NormalisedPower.h"
+
+#include "base/Error.h"
+#include "base/memoryShares.h"
+#include "spectrum/averageWhileSteady.h"
+#include "spectrum/blockBackground.h"
+#include "spectrum/levels.h"
+#include "spectrum/medians.h"
+
+#include <boost/math/special_functions/gamma.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <tuple>
+
+namespace faintline {
+
+namespace {
+
+    constexpr double tableLowest = -8.0;
+    constexpr double tableStep = 1.0 / 64.0;
+    constexpr double tableHighest = 36.0;
+    constexpr double smallest = 1e-290; ///< probability that is still known to all its digits
+
+    constexpr Index mostBlocks = 256;
+    constexpr Index valuesPerBlock = Index(1) << 20;
+    constexpr Index fewestFramesPerBlock = 16;
+    constexpr Index mostCells = Index(1) << 20;
+    constexpr Index levelCells = 500; ///< that tell a frame's level
+
+    double gammaQuantile(double looks, double p)
+    {
+        return boost::math::gamma_p_inv(looks, p) / looks;
+    }
+
+    /// Uniform in 0 … 1: the bits of a counter, well mixed (Steele and others 2014, splitmix64).
+    float uniformAt(std::uint64_t counter)
+    {
+        std::uint64_t z = counter * 0x9e3779b97f4a7c15u + 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return static_cast<float>((z ^ (z >> 31)) >> 40) * 0x1p-24f;
+    }
+
+    float quantile(std::vector<float> &values, double p)
+    {
+        const auto at = values.begin() + static_cast<Index>(p * static_cast<double>(values.size() - 1));
+        std::nth_element(values.begin(), at, values.end());
+        return *at;
+    }
+
+    /// What a median over time takes: what was not observed is no power there.
+    void withoutUnobserved(std::vector<float> &values)
+    {
+        for (float &value : values)
+            value = value > 0.0f && std::isfinite(value) ? value : 0.0f;
+    }
+
+} // namespace
+
+LooksLaw::LooksLaw(double looks, double median)
+    : m_looks(looks), m_median(static_cast<float>(median)), m_scale(static_cast<float>(gammaQuantile(looks, 0.5) / median)),
+      m_centre(static_cast<float>(1.0 - 1.0 / (9.0 * looks))), m_spread(static_cast<float>(std::sqrt(9.0 * looks)))
+{
+    for (double z = tableLowest; z <= tableHighest; z += tableStep) {
+        const double root = std::max(0.0, static_cast<double>(m_centre) + z / static_cast<double>(m_spread));
+        const double q = boost::math::gamma_q(looks, looks * root * root * root);
+        if (!(q > smallest))
+            break; // beyond, the last step goes on
+        m_table.push_back(static_cast<float>(-std::log(q)));
+    }
+}
+
+float LooksLaw::operator()(float ratio) const
+{
+    const float z = (std::cbrt(ratio * m_scale) - m_centre) * m_spread;
+    const float place = std::max(0.0f, (z - static_cast<float>(tableLowest)) / static_cast<float>(tableStep));
+    const auto last = m_table.size() - 2;
+    const std::size_t lower = place < static_cast<float>(last) ? static_cast<std::size_t>(place) : last;
+    return m_table[lower] + (place - static_cast<float>(lower)) * (m_table[lower + 1] - m_table[lower]);
+}
+
+LooksLaw LooksLaw::fromQuantiles(double low, double middle, double high)
+{
+    const double spread = (high - low) / middle;
+    double least = std::log(0.3);
+    double most = std::log(1e6);
+    constexpr int halvings = 40;
+    for (int i = 0; i < halvings; ++i) {
+        const double looks = std::exp(0.5 * (least + most));
+        const double own = (gammaQuantile(looks, 0.84) - gammaQuantile(looks, 0.16)) / gammaQuantile(looks, 0.5);
+        (own > spread ? least : most) = 0.5 * (least + most);
+    }
+    return LooksLaw(std::exp(0.5 * (least + most)), middle);
+}
+
+namespace {
+
+    /// B of a part, from blocks of frames evenly spread over it.
+    NoiseBackground estimate(const Axis &time, const Axis &frequency, const NormaliserSettings &settings, const RunContext &context,
+                             const std::function<std::vector<float>(Index frame)> &readFrame)
+    {
+        const Index cells = frequency.count;
+        const Index most = std::clamp<Index>(static_cast<Index>(memoryShares::background / sizeof(float)) / cells, 1, mostBlocks);
+        const Index wanted = std::max(static_cast<Index>(std::llround(settings.blockWindows)), (time.count + most - 1) / most);
+        const Index blocks = std::max<Index>(1, time.count / wanted);
+        const double blockFrames = static_cast<double>(time.count) / static_cast<double>(blocks);
+        const double atMost = static_cast<double>(std::max(fewestFramesPerBlock, valuesPerBlock / cells));
+        const double stride = std::max(1.0, blockFrames / atMost);
+
+        NoiseBackground background;
+        background.time = {"time", "s", time.value(0.5 * (blockFrames - 1.0)), blockFrames * time.step, blocks, false};
+        background.frequency = frequency;
+        background.levelTime = background.time;
+        std::vector<float> rows;
+        std::vector<float> block;
+        for (Index b = 0; b < blocks; ++b) {
+            context.checkpoint(static_cast<double>(b) / static_cast<double>(blocks), "noise background");
+            block.clear();
+            const double end = std::min(static_cast<double>(b + 1) * blockFrames, static_cast<double>(time.count));
+            for (double frame = static_cast<double>(b) * blockFrames; frame < end; frame += stride) {
+                const std::vector<float> row = readFrame(static_cast<Index>(frame));
+                block.insert(block.end(), row.begin(), row.end());
+            }
+            withoutUnobserved(block);
+            flatten(block, cells);
+            const BlockBackground own = blockBackground(block, cells, settings.halfWidthCells);
+            background.lnPower.insert(background.lnPower.end(), own.medians.begin(), own.medians.end());
+            rows.insert(rows.end(), own.lnPower.begin(), own.lnPower.end());
+        }
+        averageWhileSteady(background.lnPower, rows, cells, settings.halfWidthCells, std::min(atMost, blockFrames));
+        return background;
+    }
+
+    Axis partOfAxis(Axis axis, Index first, Index count)
+    {
+        axis.first = axis.value(static_cast<double>(first));
+        axis.count = count;
+        return axis;
+    }
+
+} // namespace
+
+NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const PowerPart &part, const NormaliserSettings &settings,
+                                 const RunContext &context)
+    : NormalisedFrames(partOfAxis(power->info().time, part.firstFrame, part.frames),
+                       Grid{{partOfAxis(power->info().frequency, part.firstCell, part.cells)}}),
+      m_power(std::move(power)), m_part(part), m_law(1.0, gammaQuantile(1.0, 0.5))
+{
+    const std::string &path = m_power->info().path;
+    const Axis &frequency = grid().axes.front();
+    if (part.cells > mostCells)
+        throw Error(path, "has " + std::to_string(part.cells) + " channels, more than can be looked at together; choose a band (--set selection.lowHz=..., "
+                                  "selection.highHz=...)");
+    m_background = estimate(time(), frequency, settings, context, [this](Index frame) { return readPower(frame, 1); });
+
+    // The spread of what is left tells how many looks were averaged.
+    constexpr Index framesLookedAt = 64;
+    constexpr Index valuesOfFrame = 4096;
+    const Index step = std::max<Index>(1, time().count / framesLookedAt);
+    const Index cellStep = std::max<Index>(1, part.cells / valuesOfFrame);
+    std::vector<float> pooled;
+    std::vector<float> scratch;
+    for (Index frame = 0; frame < time().count; frame += step) {
+        std::vector<float> values = readPower(frame, 1);
+        divide(frame, values, scratch);
+        for (Index cell = 0; cell < part.cells; cell += cellStep)
+            if (const float value = values[static_cast<std::size_t>(cell)]; std::isfinite(value))
+                pooled.push_back(value);
+    }
+    if (pooled.empty() || !(quantile(pooled, 0.5) > 0.0f))
+        throw Error(path, "holds no power in most of its channels: their values are 0, negative or not finite");
+    const double low = static_cast<double>(quantile(pooled, 0.16));
+    const double high = static_cast<double>(quantile(pooled, 0.84));
+    m_law = LooksLaw::fromQuantiles(low, static_cast<double>(quantile(pooled, 0.5)), high);
+}
+
+std::vector<float> NormalisedPower::readPower(Index first, Index count) const
+{
+    PowerPart part = m_part;
+    part.firstFrame += first;
+    part.frames = count;
+    std::vector<float> values(static_cast<std::size_t>(count * m_part.cells));
+    m_power->read(part, values);
+    const auto quantum = static_cast<float>(m_power->info().quantum);
+    if (quantum > 0.0f) {
+        const Index all = m_power->info().frequency.count;
+        for (Index i = 0; i < std::ssize(values); ++i) {
+            const Index frame = part.firstFrame + i / m_part.cells;
+            const Index cell = m_part.firstCell + i % m_part.cells;
+            values[static_cast<std::size_t>(i)] += quantum * uniformAt(static_cast<std::uint64_t>(frame * all + cell));
+        }
+    }
+    return values;
+}
+
+/// p → p/B; NaN where there is no noise to compare with.
+void NormalisedPower::divide(Index frame, std::span<float> values, std::vector<float> &ln) const
+{
+    ln.resize(values.size());
+    m_background.readLnPower(time().value(static_cast<double>(frame)), ln);
+    for (std::size_t cell = 0; cell < values.size(); ++cell) {
+        const float p = std::max(values[cell], 0.0f); // NaN stays
+        const bool isKnown = ln[cell] > 0.5f * NoiseBackground::silence && std::isfinite(p);
+        values[cell] = isKnown ? p * std::exp(-ln[cell]) : std::numeric_limits<float>::quiet_NaN();
+    }
+}
+
+void NormalisedPower::read(Index first, Index count, std::span<float> out) const
+{
+    const std::vector<float> power = readPower(first, count);
+    std::copy(power.begin(), power.end(), out.begin());
+    const auto cells = static_cast<std::size_t>(m_part.cells);
+    const std::size_t stride = (cells + levelCells - 1) / levelCells;
+    const double chance = 4.5 * medianScatter(static_cast<double>((cells + stride - 1) / stride)) / std::sqrt(m_law.looks());
+    std::vector<float> ln;
+    std::vector<float> some;
+    for (Index i = 0; i < count; ++i) {
+        const std::span<float> frame = out.subspan(static_cast<std::size_t>(i) * cells, cells);
+        divide(first + i, frame, ln);
+        some.clear();
+        for (std::size_t cell = 0; cell < cells; cell += stride)
+            if (std::isfinite(frame[cell]))
+                some.push_back(frame[cell] / m_law.median());
+        const float level = some.empty() ? 1.0f : medianOf(some);
+        const bool isOff = level > 0.0f && cells >= levelCells / 10 && std::abs(std::log(static_cast<double>(level))) > chance;
+        for (float &value : frame)
+            value = value == value ? m_law(isOff ? value / level : value) : value;
+    }
+}
+
+PowerPart partOf(const PowerInfo &info, const SelectionSettings &selection)
+{
+    if (selection.channel >= info.channelCount)
+        throw Error("selection.channel = " + std::to_string(selection.channel),
+                    info.path + " has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+    const auto between = [&](const Axis &axis, double from, double to, const std::string &name) {
+        const auto place = [&](double value) { return std::clamp(axis.position(value), -1.0, static_cast<double>(axis.count)); };
+        const Index first = std::max<Index>(0, static_cast<Index>(std::ceil(place(from))));
+        const Index last = std::min<Index>(axis.count - 1, static_cast<Index>(std::floor(place(to))));
+        if (last < first)
+            throw Error(name, "leaves nothing of " + info.path + ", which goes from " + formatNumber(axis.first) + " to " + formatNumber(axis.last()) + " " + axis.unit);
+        return std::pair(first, last - first + 1);
+    };
+    PowerPart part{selection.channel, 0, info.time.count, 0, info.frequency.count};
+    const double end = selection.toSeconds > 0.0 ? selection.toSeconds : info.time.last() + info.time.step;
+    std::tie(part.firstFrame, part.frames) = between(info.time, selection.fromSeconds, end, "selection.fromSeconds, selection.toSeconds");
+    if (selection.lowHz < selection.highHz)
+        std::tie(part.firstCell, part.cells) = between(info.frequency, selection.lowHz, selection.highHz, "selection.lowHz, selection.highHz");
+    return part;
+}
+
+} // namespace faintline
