@@ -56,7 +56,7 @@ namespace {
         std::printf("range         %td cells of %s m, %s … %s m\n", range.count, formatNumber(range.step).c_str(),
                     formatNumber(range.first).c_str(), formatNumber(range.last()).c_str());
         std::printf("bearing       %td beams of %s°%s\n", bearing.count, formatNumber(bearing.step).c_str(),
-                    bearing.cyclic ? ", all round" : "");
+                    bearing.cyclic ? ", full circle" : "");
         std::printf("looks         %d\n", scene.looks);
         if (scene.reverberation)
             std::printf("reverberation %s dB over the noise in the first range cell\n", formatNumber(scene.reverberation->levelDb).c_str());

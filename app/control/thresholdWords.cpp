@@ -31,7 +31,7 @@ Error firstEstimateError()
 
 QString refinedSentence(const Analysis &analysis, double firstEstimate)
 {
-    return tr("Threshold refined: %1 %2 instead of %3. Events follow it.")
+    return tr("Threshold refined from %3 to %1 %2. The events were updated.")
         .arg(analysis.threshold, 0, 'f', 2)
         .arg(statisticUnit(analysis.settings))
         .arg(firstEstimate, 0, 'f', 2);

@@ -169,17 +169,17 @@ namespace {
         switch (one.state) {
         case CheckedPicture::State::Same:
             return one.difference.toleratedPixels > 0
-                       ? QStringLiteral("same, but for %1 tolerated raster pixel(s)").arg(one.difference.toleratedPixels)
+                       ? QStringLiteral("same, except for %1 tolerated raster pixel(s)").arg(one.difference.toleratedPixels)
                        : QStringLiteral("same");
         case CheckedPicture::State::Missing:
-            return QStringLiteral("missing: expected, but not there");
+            return QStringLiteral("missing: expected but not found");
         case CheckedPicture::State::New:
-            return QStringLiteral("new: there, but not expected");
+            return QStringLiteral("new: found but not expected");
         case CheckedPicture::State::Different:
             break;
         }
         if (!one.difference.isSameSize)
-            return QStringLiteral("another size: %1 instead of %2").arg(sizeText(one.actualSize), sizeText(one.expectedSize));
+            return QStringLiteral("different size: %1 instead of %2").arg(sizeText(one.actualSize), sizeText(one.expectedSize));
         return QStringLiteral("%1 pixel(s) changed in %2 place(s)").arg(one.difference.changedPixels).arg(one.difference.places.size());
     }
 
