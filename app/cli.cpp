@@ -17,14 +17,14 @@ namespace {
 
 constexpr auto unwritable = "standard output: cannot be written, so what was to be told is not";
 constexpr auto programName = "faintline-cli";
-constexpr auto description = "Faintline: track-before-detect for what is too faint to see.";
+constexpr auto description = "Faintline: track-before-detect for signals too faint to see.";
 
 void addCommands(CLI::App &app, faintline::cli::Common &common)
 {
     app.set_version_flag("--version", "faintline-cli " FAINTLINE_VERSION);
     app.require_subcommand(1);
     app.fallthrough();
-    app.add_option("--threads", common.threads, "Threads to use; never changes a byte of a result")
+    app.add_option("--threads", common.threads, "Number of threads; results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     app.add_option("--progress", common.progress, "Progress on standard error: auto (a bar on a terminal), json (lines), none")

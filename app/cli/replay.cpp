@@ -301,14 +301,16 @@ void addReplay(CLI::App &app, Common &common)
     const auto result = std::make_shared<std::string>();
     const auto recording = std::make_shared<std::string>();
     const auto allowed = std::make_shared<std::vector<std::string>>();
-    CLI::App *command = app.add_subcommand("replay", "Make a result again from its own provenance, and compare");
+    CLI::App *command = app.add_subcommand("replay", "Reproduce a result from its provenance and compare");
     command
         ->add_option("RESULT", *result,
-                     "A file written by detect, compare, simulate or inject, or a table exported from the window, with its "
-                     ".provenance.json beside it")
+                     "A file written by detect, compare, simulate or inject, or a table exported from the window, with "
+                     "its .provenance.json beside it")
         ->required();
-    command->add_option("--recording", *recording, "Of a table exported from the window: the recording, if it is not beside it");
-    command->add_option("--allow", *allowed, "A folder that may be read besides the one in which RESULT lies; may be repeated")
+    command->add_option("--recording", *recording, "For a table exported from the window: the recording, if it is not "
+                                                   "beside the table");
+    command->add_option("--allow", *allowed, "Folder that may be read in addition to the one that contains RESULT; may "
+                                             "be repeated")
         ->take_all()
         ->allow_extra_args(false);
     command->callback([result, recording, allowed, &common] { replay(*result, *recording, *allowed, common); });

@@ -20,7 +20,7 @@ PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> p
                         "lies outside of the picture");
         if (evidence.frames % 64 == 0)
             context.checkpoint(static_cast<double>(evidence.frames) / static_cast<double>(path.size()),
-                               "going along a path");
+                               "evaluating a path");
         analysis.frames->read(at.frame, 1, y);
         const auto value = static_cast<double>(y[static_cast<std::size_t>(at.cell)]);
         evidence.logLikelihoodRatio += analysis.model.likelihood.at(value);

@@ -77,11 +77,11 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     if (const long long missing = missingBytes(decoder->log()); missing > 0)
         m_info.notes.push_back(
             "The header claims " + std::to_string(missing)
-            + " bytes more than the file holds (it was cut short or never closed); what is there is read.");
+            + " bytes more than the file holds (it was truncated or never closed); the existing part is read.");
     if (m_access == Access::Blocks) {
         m_info.sampleCount = readableCount(decoder);
         if (m_info.sampleCount != format.frames)
-            m_info.notes.push_back("The header does not say where the file ends, or says more than there is; the "
+            m_info.notes.push_back("The header gives no length or more than the file holds; the "
                                    + std::to_string(m_info.sampleCount) + " samples that can be decoded are read.");
     }
     if (m_info.sampleCount <= 0)

@@ -59,7 +59,7 @@ RawRecording::RawRecording(const std::string &path, const RawLayout &layout) : m
                         + (layout.headerBytes > 0 ? " after a header of " + std::to_string(layout.headerBytes) : ""));
     if (const Index rest = dataBytes % m_frameBytes)
         m_info.notes.push_back("The file's last " + std::to_string(rest)
-                               + " bytes are no whole sample and are left out; it may have been cut short.");
+                               + " bytes are an incomplete sample and are ignored; the file may have been truncated.");
 }
 
 void RawRecording::read(int channel, Index first, Index count, std::span<float> out) const

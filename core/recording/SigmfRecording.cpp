@@ -154,9 +154,10 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
                 *meta.startUnixSeconds -= static_cast<double>(start) / *rate;
             else if (time)
                 meta.notes.push_back("core:datetime \"" + oneLine(*time, 40)
-                                     + "\" is no ISO 8601 time and is left out.");
+                                     + "\" is not an ISO 8601 time and is ignored.");
         } else if (header > 0) {
-            capture.refuse("core:header_bytes", "bytes between captures cannot be skipped; only before the first");
+            capture.refuse("core:header_bytes", "bytes can be skipped before the first capture only, not between "
+                                                "captures");
         } else if (frequency != meta.centreHz) {
             meta.notes.push_back("From sample " + std::to_string(start)
                                  + " on, another capture has the centre frequency " + formatNumber(frequency)

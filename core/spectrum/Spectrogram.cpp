@@ -58,12 +58,13 @@ const std::vector<Field<SpectrogramSettings>> &SpectrogramSettings::fields()
     using S = SpectrogramSettings;
     static const std::vector<Field<S>> table{
         field(&S::windowSeconds, "windowSeconds", "s", 0.0, 1e6,
-              "Length T_FT of the sliding Fourier window; 0 chooses it from the recording: from its length and rate, and then, with the default slopes, from what is found."),
+              "Length T_FT of the sliding Fourier window; 0 chooses it from the recording's length and rate and, with "
+              "the default slopes, from the tracks found."),
         field(&S::stepsPerWindow, "stepsPerWindow", "", 1.0, 64.0, "Frames per window, k_t: 2 overlaps by half."),
         field(&S::binsPerCell, "binsPerCell", "", 1.0, 32.0,
               "Frequency bins per resolution cell 1/T_FT, k_f: above 1 the window is padded with zeros."),
         field(&S::window, "window", windowShapeNames,
-              "Shape of the window: the lower its side lobes, the nearer a faint line may lie to a strong one."),
+              "Shape of the window; lower side lobes permit a faint line nearer to a strong one."),
     };
     return table;
 }
@@ -73,9 +74,10 @@ const std::vector<Field<SelectionSettings>> &SelectionSettings::fields()
     using S = SelectionSettings;
     static const std::vector<Field<S>> table{
         field(&S::channel, "channel", "", 0.0, 1023.0, "Channel, counted from 0."),
-        field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part looked at, from the first sample."),
-        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part looked at; 0 is the recording's end."),
-        field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12, "Lower edge of the band; the whole band where it equals the upper."),
+        field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part analysed, from the first sample."),
+        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part analysed; 0 is the end of the recording."),
+        field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12, "Lower edge of the band; the whole band is used if it equals the "
+                                                     "upper edge."),
         field(&S::highHz, "highHz", "Hz", -1e12, 1e12, "Upper edge of the band."),
     };
     return table;

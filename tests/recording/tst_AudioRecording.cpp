@@ -288,7 +288,7 @@ void tst_AudioRecording::streamOfUnknownLength()
     writeBytes(path("stream.flac"), bytes.replace(22, 4, QByteArray(4, '\0')));
     const AudioRecording recording(path("stream.flac"), false);
     QCOMPARE(recording.info().sampleCount, Index(300001));
-    QVERIFY(contains(recording.info().notes.at(0), "does not say where the file ends"));
+    QVERIFY(contains(recording.info().notes.at(0), "gives no length or more than the file holds"));
     QVERIFY(readAll(recording) == readAll(AudioRecording(path("a.flac"), false)));
 }
 

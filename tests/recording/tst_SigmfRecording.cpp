@@ -158,7 +158,7 @@ void tst_SigmfRecording::badMetadata_data()
     QTest::newRow("header beyond the file")
         << changed("_bytes\": 4", "_bytes\": 4000") << "holds no whole sample: 20 bytes";
     QTest::newRow("a second header") << changed("}],", "}, {\"core:sample_start\": 1, \"core:header_bytes\": 9}],")
-                                     << "captures[1].core:header_bytes: bytes between captures cannot be skipped";
+                                     << "captures[1].core:header_bytes: bytes can be skipped before the first capture only";
 }
 
 void tst_SigmfRecording::badMetadata()

@@ -115,10 +115,10 @@ const std::vector<Field<SweepExperiment>> &SweepExperiment::fields()
 {
     using S = SweepExperiment;
     static const std::vector<Field<S>> table{
-        field(&S::iq, "iq", "Take two channels as I and Q."),
+        field(&S::iq, "iq", "Treat two channels as I and Q."),
         field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
-        field(&S::trials, "trials", "", 1.0, 1e6, "Lines to try every value on."),
-        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratio in a frame of a rectangular window."),
+        field(&S::trials, "trials", "", 1.0, 1e6, "Number of lines on which every value is tried."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratio in a frame with a rectangular window."),
         field(&S::durationSeconds, "durationSeconds", "s", 1e-6, 1e6, "Duration of a line."),
         field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line."),
         field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander."),

@@ -39,7 +39,7 @@ namespace {
         settings.detector = inFrames(settings.detector, lines);
         setThreshold(settings, shownThreshold(campaign, detector));
 
-        context.checkpoint(0.3, "making the trial again");
+        context.checkpoint(0.3, "repeating the trial");
         const LineTrial trial = remakeTrial(lines, lines.snrDb[snr], place.run, place.signal);
         const Axis &time = trial.frames->time();
         const Axis &frequency = trial.frames->grid().axes.front();
