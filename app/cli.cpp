@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr auto unwritable = "standard output: cannot be written, so what was to be told is not";
+constexpr auto unwritable = "standard output: cannot be written; the output is incomplete";
 constexpr auto programName = "faintline-cli";
 constexpr auto description = "Faintline: track-before-detect for signals too faint to see.";
 
@@ -82,14 +82,14 @@ int main(int argc, char **argv)
             return faintline::flushStandardOutput() ? 0 : complain(unwritable, 1);
         }
         if (const std::string word = unknownCommand(app, common.arguments); !word.empty())
-            return complain(word + ": is no command; " + programName + " --help lists them", 2);
+            return complain(word + ": unknown command; " + programName + " --help lists the commands", 2);
         return complain(std::string("command line: ") + error.what(), 2);
     } catch (const faintline::Error &error) {
         return complain(error.what(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);
     } catch (const faintline::Cancelled &) {
-        return complain("interrupted: nothing half-written is left", 1);
+        return complain("interrupted: no incomplete output was left", 1);
     } catch (const std::bad_alloc &) {
-        return complain("memory: not enough of it; choose a shorter part, a narrower band or a shorter window", 1);
+        return complain("memory: out of memory; choose a shorter part, a narrower band or a shorter window", 1);
     } catch (const std::exception &error) {
         return complain(std::string("failure: ") + error.what(), 1);
     }

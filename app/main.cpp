@@ -182,8 +182,9 @@ namespace {
             return qEnvironmentVariableIsSet(name) ? " is \"" + qEnvironmentVariable(name).toStdString() + "\"" : std::string(" is not set");
         };
         if (type == QtFatalMsg)
-            std::_Exit(fail("screen", "there is none for a window (DISPLAY" + value("DISPLAY") + ", WAYLAND_DISPLAY" + value("WAYLAND_DISPLAY")
-                                + ", QT_QPA_PLATFORM" + value("QT_QPA_PLATFORM") + "); 'faintline render' draws without one", 1));
+            std::_Exit(fail("screen", "no display is available for a window (DISPLAY" + value("DISPLAY") + ", WAYLAND_DISPLAY" + value("WAYLAND_DISPLAY")
+                                + ", QT_QPA_PLATFORM" + value("QT_QPA_PLATFORM") + "); 'faintline render' works "
+                                                                                   "without a display", 1));
     }
 
     /// What "nan" and "inf" are read as, which no range refuses.
@@ -276,7 +277,7 @@ namespace {
         } catch (const CLI::ParseError &error) {
             if (error.get_exit_code() == 0)
                 return program.exit(error);
-            return fail("command line", std::string(error.what()) + " (faintline --help tells more)", 2);
+            return fail("command line", std::string(error.what()) + " (see faintline --help)", 2);
         }
         if (checkCommand->parsed()) {
             runCheckPictures(checking);
@@ -303,7 +304,7 @@ int main(int argc, char *argv[])
     try {
         const int code = faintline::run(argc, argv);
         if (code == 0 && !faintline::flushStandardOutput())
-            return faintline::fail("standard output", "cannot be written, so what was to be told is not", 1);
+            return faintline::fail("standard output", "cannot be written; the output is incomplete", 1);
         return code;
     } catch (const faintline::Error &error) {
         return faintline::fail(error.where(), error.why(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);

@@ -63,7 +63,7 @@ void addCalibrate(CLI::App &app, Common &common)
         }
         if (options->surrogates > 0) {
             if (options->analysis.file.empty())
-                throw Error("--surrogates", "needs FILE, the recording whose noise is imitated");
+                throw Error("--surrogates", "needs FILE, the recording whose noise is to be simulated");
             const SurrogateCount count =
                 countOnSurrogates(options->analysis.recording(), settings, options->surrogates, common.context());
             json["surrogates"] = {

@@ -124,7 +124,7 @@ RecordingPointer openAny(const std::string &path, const OpenOptions &options)
     {
         const Json json = readJsonFile(path);
         if (isPingScene(json))
-            throw Error(path, "is a scene of sonar pings, not a recording; 'detect', 'simulate' and 'info' take it");
+            throw Error(path, "is a scene of sonar pings, not a recording; use it with 'detect', 'simulate' or 'info'");
         return inFile(path, [&] { return std::make_shared<SimulatedRecording>(lineSceneFromJson(json)); });
     }
     return openRecording(path, options);

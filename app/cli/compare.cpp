@@ -109,7 +109,7 @@ namespace {
         if (!options.difference.empty()) {
             const auto difference = differencePicture(*a, *b, quiet);
             if (!difference)
-                throw Error("--difference", "is of lines over time; pings have no such picture");
+                throw Error("--difference", "is available for lines only, not for pings");
             writeDifference(*difference, options.difference);
         }
         files.commit();

@@ -52,7 +52,7 @@ namespace {
         if (analysis.grid().axes.size() < 2)
             throw Error(
                 "--conventional",
-                "is for frames on several axes, a sonar's pings; for lines choose detector.kind = energy or pOfN");
+                "requires frames on several axes, such as sonar pings; for lines choose detector.kind = energy or pOfN");
         Analysis other = analysis;
         other.tracks = analysis.conventional;
         return other;
@@ -124,8 +124,8 @@ namespace {
             model = file.model;
             for (const KinematicAxis &axis : model.space.axes())
                 if (axis.isPlaceDependent())
-                    throw Error(options.model, "has an axis whose law differs from cell to cell; trackers follow on parts of an axis and need one "
-                                               "law, \"rates\" or a list of \"step\" probabilities");
+                    throw Error(options.model, "has an axis whose law differs from cell to cell; trackers need one law "
+                                               "for the whole axis, \"rates\" or a list of \"step\" probabilities");
             if (model.space.cellCount() != frames->grid().size())
                 throw Error(options.model, "has " + std::to_string(model.space.cellCount()) + " cells, but the frames have "
                                                + std::to_string(frames->grid().size()));
@@ -153,7 +153,7 @@ namespace {
         if (options.events.empty() && options.tracks.empty() && options.statistic.empty() && options.conventional.empty())
             options.summary = true; // who asks for nothing else wants to know what there is
         if (!options.annotations.empty() && options.events.empty())
-            throw Error("--annotations", "is told beside the events; it needs --events");
+            throw Error("--annotations", "requires --events");
         if (!options.events.empty())
             options.annotations.empty() ? checkEventsPath(options.events) : checkReviewedPath(options.events);
         if (!options.tracks.empty())
@@ -162,7 +162,7 @@ namespace {
             checkEventsPath(options.conventional);
         checkOutputs({options.events, options.tracks, options.statistic, options.conventional});
         if (!options.frames.empty() && !options.analysis.file.empty())
-            throw Error("detect", "takes a recording or --frames, not both");
+            throw Error("detect", "accepts either a recording or --frames");
         const RunContext context = common.context();
         std::optional<NumPyWriter> writer;
         NormalisedFramesPointer frames;
@@ -185,7 +185,7 @@ namespace {
         std::vector<Annotation> annotations;
         if (!options.annotations.empty()) {
             if (!recording && frames->grid().axes.size() != 1)
-                throw Error("--annotations", "is boxes over time and frequency; these frames have more than one axis");
+                throw Error("--annotations", "requires frames on frequency only; these frames have more than one axis");
             annotations = readAnnotations(options.annotations, recording ? recording->info() : RecordingInfo());
         }
         StatisticSink sink;
@@ -324,7 +324,7 @@ namespace {
         const StateSpace &space = file.model.space;
         for (std::size_t axis = 0; axis < std::max(space.axes().size(), frames->grid().axes.size()); ++axis)
             if (space.axes().size() != frames->grid().axes.size() || space.axes()[axis].cells != frames->grid().axes[axis].count)
-                throw Error(options.model, "its axes' cells do not fit the frames of " + options.frames);
+                throw Error(options.model, "the cells of its axes do not match the frames of " + options.frames);
         std::vector<Index> shape{frames->time().count};
         std::vector<Index> projectedShape = shape;
         for (const KinematicAxis &axis : space.axes())
@@ -432,11 +432,11 @@ void addExplain(CLI::App &app, Common &common)
         std::vector<double> position;
         if (frames && frames->grid().axes.size() > 1) {
             if (!options->range || !options->bearing)
-                throw Error("explain", "a cell of pings is named by --range and --bearing");
+                throw Error("explain", "a cell of pings requires --range and --bearing");
             position = {*options->range, *options->bearing};
         } else {
             if (!options->hz)
-                throw Error("explain", "needs --frequency; a cell of pings is named by --range and --bearing");
+                throw Error("explain", "needs --frequency; for pings, give --range and --bearing");
             position = {*options->hz};
         }
         const AnalysisSettings settings = options->analysis.settings();

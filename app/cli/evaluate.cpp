@@ -118,14 +118,15 @@ void addEvaluate(CLI::App &app, Common &common)
             return;
         }
         if (options->files.size() > 1)
-            throw Error("evaluate " + options->files[1], "one experiment at a time; to put shards together: evaluate merge SHARD…");
+            throw Error("evaluate " + options->files[1], "only one experiment can be given; to merge shards, use "
+                                                         "evaluate merge SHARD…");
         checkOutputs({options->out, options->chart});
         Experiment experiment = experimentFromJson(readJsonFile(options->files.front()), options->files.front());
         if (options->seed >= 0)
             setSeed(experiment, options->seed);
         const auto *sweep = std::get_if<SweepExperiment>(&experiment);
         if (options->cost && !sweep)
-            throw Error("--cost", "is of a sweep, an experiment of kind \"sweep\"");
+            throw Error("--cost", "requires an experiment of kind \"sweep\"");
         const Shard shard = options->shard.empty() ? Shard{} : shardFrom(options->shard);
         const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
         if (options->out.empty()) {

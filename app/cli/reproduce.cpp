@@ -53,7 +53,7 @@ void addReproduce(CLI::App &app, Common &common)
                 outside += (outside.empty() ? "" : ", ") + made.name;
         }
         if (!outside.empty())
-            throw Error("reproduce", "outside of its tolerance: " + outside, Error::Kind::Failure);
+            throw Error("reproduce", "outside its tolerance: " + outside, Error::Kind::Failure);
     });
 }
 

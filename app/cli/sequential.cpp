@@ -92,7 +92,7 @@ namespace {
         checkSprt(options.sprt, "sequential");
         checkOutputs({options.out});
         if (options.frames.empty() == options.analysis.file.empty())
-            throw Error("sequential", "takes either a recording or --frames with ready-made frames");
+            throw Error("sequential", "accepts either a recording or --frames with ready-made frames");
         if (!options.frames.empty() && options.model.empty())
             throw Error("sequential", "needs --model for ready-made frames");
         const RunContext context = common.context();

@@ -45,7 +45,7 @@ namespace {
     void simulatePings(PingScene scene, int seed, const std::string &out, const std::string &truth, const RunContext &context)
     {
         if (!out.ends_with(".npy"))
-            throw Error(out, "pings are written as frames: give a name that ends in .npy");
+            throw Error(out, "must end in .npy: pings are written as frames");
         if (seed >= 0)
             scene.seed = seed;
         const SimulatedPings pings(scene);

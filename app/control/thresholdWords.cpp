@@ -26,7 +26,8 @@ QString firstEstimateSentence(const Analysis &analysis, bool isBusy)
 
 Error firstEstimateError()
 {
-    return Error("threshold", "is a first estimate; what is exported waits for the refined one. Run refines it if it was stopped");
+    return Error("threshold", "is a first estimate; export needs the refined threshold. Press Run if the refinement "
+                              "was stopped");
 }
 
 QString refinedSentence(const Analysis &analysis, double firstEstimate)

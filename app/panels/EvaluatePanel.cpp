@@ -117,7 +117,7 @@ void EvaluatePanel::start()
         return emit failed(Error("experiment", why.toStdString()));
     const bool isInRecording = m_form->isInRecording();
     if (isInRecording && !m_document.recording())
-        return emit failed(Error("experiment", "needs a recording to add lines to, and none is open"));
+        return emit failed(Error("experiment", "needs an open recording to which lines can be added"));
     const QString source = m_document.source().name();
     show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()),
                                              m_form->injection(m_document.source().path), m_document.recording())

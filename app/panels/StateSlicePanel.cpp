@@ -276,7 +276,7 @@ void StateSlicePanel::update()
                 analysis, memoryShares::orSome(memoryShares::stateReplay, 8 * bytesOfStates(*analysis)));
         const auto states = m_replay->at(analysis->time().nearest(at.seconds), model, context);
         if (states->values.empty())
-            throw Error("state space", "this detector has no states; the sequential Markov detector has");
+            throw Error("state space", "this detector has no states; choose the sequential Markov detector");
         const StateSpace &space = analysis->modelAt(model).space;
         Cut cut{slice, readableAxes(*analysis, model), {}, {}, {}, model, states->frame, 0.0};
         std::vector<Index> cell;

@@ -108,7 +108,7 @@ namespace {
             constexpr double largest = 100.0;
             if (std::abs(slope) > largest)
                 throw Error(std::string("model.") + name + " = " + formatNumber(slope),
-                            "must lie in -100 … 100 bins/frame; longer windows make the same Hz/s more of them");
+                            "must lie in -100 … 100 bins/frame; use a shorter window to reduce it for the same Hz/s");
             const double inSteps = slope * model.slopesPerBin;
             if (std::abs(inSteps - std::round(inSteps)) > 1e-6)
                 throw Error(std::string("model.") + name + " = " + formatNumber(slope),
@@ -270,7 +270,8 @@ const Field<AnalysisSettings> &settingField(std::string_view name)
     const auto nearest = std::min_element(fields.begin(), fields.end(), [&](const auto &a, const auto &b) {
         return editDistance(a.name, name) < editDistance(b.name, name);
     });
-    throw Error(std::string(name), "is no setting; the nearest is " + nearest->name + " (all of them: faintline-cli describe)");
+    throw Error(std::string(name), "unknown setting; did you mean " + nearest->name + "? (faintline-cli describe lists "
+                                                                                      "all)");
 }
 
 FieldValue defaultValue(const Field<AnalysisSettings> &field)
@@ -287,7 +288,7 @@ void setSetting(AnalysisSettings &settings, std::string_view name, std::string_v
     const auto &f = settingField(name);
     f.set(settings, parseFieldValue(f, text));
     if (!f.get(settings))
-        throw Error(std::string(name), "belongs to another detector than the one chosen; choose it first with detector.kind");
+        throw Error(std::string(name), "belongs to a different detector; select that detector first with detector.kind");
 }
 
 void checkSettings(const AnalysisSettings &settings)
@@ -392,7 +393,7 @@ const Preset &preset(std::string_view name)
             return p;
         known += (known.empty() ? "" : ", ") + p.name;
     }
-    throw Error("preset " + std::string(name), "is not known; there are " + known);
+    throw Error("preset " + std::string(name), "unknown; choose one of " + known);
 }
 
 MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
@@ -401,7 +402,7 @@ MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
         return sonarModel(grid, settings.motion == Motion::Manoeuvring ? turning(settings) : nonManoeuvring());
     if (settings.slopeUnit != SlopeUnit::BinsPerFrame)
         throw Error("model.slopeUnit = hzPerSecond",
-                    "needs a recording, whose window says what a bin a frame is; give the slopes of frames and pings in binsPerFrame");
+                    "needs a recording; for frames and pings, give the slopes in binsPerFrame");
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)
         axes.push_back({axis.name,

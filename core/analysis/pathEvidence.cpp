@@ -17,7 +17,7 @@ PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> p
     for (const PathCell &at : path) {
         if (at.frame < 0 || at.frame >= analysis.time().count || at.cell < 0 || at.cell >= cells)
             throw Error("path at frame " + std::to_string(at.frame) + ", cell " + std::to_string(at.cell),
-                        "lies outside of the picture");
+                        "lies outside the picture");
         if (evidence.frames % 64 == 0)
             context.checkpoint(static_cast<double>(evidence.frames) / static_cast<double>(path.size()),
                                "evaluating a path");

@@ -28,12 +28,12 @@ void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &backgrou
             return;
     }
     const Index nonFinite = recording.nonFiniteCount() - before;
-    const std::string all = "holds nothing that can be used: all of the " + std::to_string(end - first) + " samples looked at ";
+    const std::string all = "has no usable samples: all of the " + std::to_string(end - first) + " samples read ";
     if (nonFinite >= (end - first) * recording.info().floatsPerSample())
         throw Error(recording.info().path, all + "are not finite in single precision");
     if (nonFinite > 0)
         throw Error(recording.info().path, all + "are 0 or not finite");
-    throw Error(recording.info().path, all + "are 0 or below 1e-45, the least that single precision holds");
+    throw Error(recording.info().path, all + "are 0 or below 1e-45, the smallest value in single precision");
 }
 
 } // namespace faintline

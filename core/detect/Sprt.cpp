@@ -26,7 +26,7 @@ void checkSprt(const SprtSettings &settings, const std::string &where)
 {
     checkFields(settings, SprtSettings::fields(), where);
     if (!(settings.falseAlarm + settings.miss < 1.0))
-        throw Error(where, "falseAlarm + miss must stay below 1; a coin does as well");
+        throw Error(where, "falseAlarm + miss must be below 1, the value of a random decision");
 }
 
 SprtBoundaries sprtBoundaries(const SprtSettings &settings)

@@ -83,7 +83,7 @@ namespace {
     template <class T, class Array>
     void readValues(std::ifstream &file, Array &array, std::size_t total, const std::string &path)
     {
-        const Error cutShort(path, "is cut short: its shape " + shapeText(array.shape) + " asks for " + std::to_string(total) + " values");
+        const Error cutShort(path, "is truncated: its shape " + shapeText(array.shape) + " requires " + std::to_string(total) + " values");
         std::error_code code;
         const std::uintmax_t size = std::filesystem::file_size(path, code);
         if (!code && size < total * sizeof(T))
@@ -105,10 +105,10 @@ namespace {
     {
         std::ifstream file(path, std::ios::binary);
         if (!file)
-            throw Error(path, "cannot be opened; a NumPy file (.npy) is wanted");
+            throw Error(path, "cannot be opened; expected a NumPy file (.npy)");
         char start[10] = {};
         if (!file.read(start, 10) || std::string_view(start, 6) != magic)
-            throw Error(path, "is no NumPy file (.npy)");
+            throw Error(path, "is not a NumPy file (.npy)");
         std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
         if (start[6] >= 2) {
             unsigned char more[2] = {};
@@ -116,10 +116,10 @@ namespace {
             length += (static_cast<std::size_t>(more[0]) << 16) + (static_cast<std::size_t>(more[1]) << 24);
         }
         if (length > (1u << 20))
-            throw Error(path, "its NumPy header is longer than any should be");
+            throw Error(path, "its NumPy header is too long");
         std::string dictionary(length, ' ');
         if (!file.read(dictionary.data(), static_cast<std::streamsize>(length)))
-            throw Error(path, "is cut short in its NumPy header");
+            throw Error(path, "is truncated within its NumPy header");
         if (entry(dictionary, "fortran_order", path).starts_with("True"))
             throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
         Array array;
@@ -131,7 +131,8 @@ namespace {
         else if (type.starts_with("'<f8'"))
             readValues<double>(file, array, total, path);
         else
-            throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; float32 or float64, little-endian, is wanted");
+            throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; expected float32 or float64, "
+                                                                                       "little-endian");
         return array;
     }
 

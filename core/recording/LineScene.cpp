@@ -104,10 +104,10 @@ void checkLine(const LineSettings &line, const RecordingInfo &recording, const s
     const double recordingEnd = recording.durationSeconds();
     if (line.startSeconds >= recordingEnd)
         throw Error(name + ".startSeconds = " + formatNumber(line.startSeconds),
-                    "must lie before the recording's end, " + formatNumber(recordingEnd) + " s");
+                    "must lie before the end of the recording, " + formatNumber(recordingEnd) + " s");
     if (line.startSeconds + line.durationSeconds > recordingEnd + 1.0 / recording.sampleRateHz)
         throw Error(name + ".durationSeconds = " + formatNumber(line.durationSeconds),
-                    "takes the line beyond the recording's end, " + formatNumber(recordingEnd) + " s");
+                    "extends the line beyond the end of the recording, " + formatNumber(recordingEnd) + " s");
 
     const double duration = durationOf(line, recording);
     const double low = recording.centreHz - (recording.isComplex ? 0.5 * recording.sampleRateHz : 0.0);
@@ -134,7 +134,7 @@ void checkLines(std::span<const LineSettings> lines, const RecordingInfo &record
         const double duration = durationOf(lines[i], recording);
         nodes += wanderNodes(lines[i], duration) + fadingNodes(lines[i], duration);
         if (nodes > mostNodes)
-            throw Error(lineName(name, i), "wanders or fades too fast for its length, together with the lines before it");
+            throw Error(lineName(name, i), "wanders or fades too fast for its length, counting all lines before it");
     }
 }
 
@@ -145,7 +145,7 @@ void checkScene(const LineScene &scene)
     const double samples = scene.sampleRateHz * scene.durationSeconds;
     if (!(samples >= 1.0 && samples <= 1e15))
         throw Error("durationSeconds = " + formatNumber(scene.durationSeconds),
-                    "gives " + formatNumber(std::floor(samples)) + " samples; there must be 1 … 1e15");
+                    "gives " + formatNumber(std::floor(samples)) + " samples; must be 1 … 1e15");
     if (scene.noise.levelDriftDb > 0.0 && scene.durationSeconds > 1e6 * scene.noise.levelDriftSeconds)
         throw Error("noise.levelDriftSeconds = " + formatNumber(scene.noise.levelDriftSeconds),
                     "must be at least a millionth of the duration");

@@ -41,7 +41,8 @@ namespace {
         }
         if (target.vanishPing != 0 && target.vanishPing <= target.appearPing)
             throw Error(name + ".vanishPing = " + std::to_string(target.vanishPing),
-                        "must come after appearPing = " + std::to_string(target.appearPing) + ", or be 0 for never");
+                        "must be greater than appearPing = " + std::to_string(target.appearPing) + ", or 0 if the "
+                                                                                                   "target stays");
         if (target.appearPing >= scene.pings)
             throw Error(name + ".appearPing = " + std::to_string(target.appearPing),
                         "must be one of the pings, 0 … " + std::to_string(scene.pings - 1));
@@ -148,14 +149,14 @@ void checkScene(const PingScene &scene)
     const double cells = static_cast<double>(scene.rangeCells) * scene.beams;
     if (cells > 1e7)
         throw Error("rangeCells = " + std::to_string(scene.rangeCells),
-                    "times beams gives " + formatNumber(cells) + " cells; there may be 1e7");
+                    "times beams gives " + formatNumber(cells) + " cells; at most 1e7 are possible");
     if (scene.beamStepDegrees * scene.beams > 360.0 * (1.0 + 1e-9))
         throw Error("beamStepDegrees = " + formatNumber(scene.beamStepDegrees),
                     "times beams is more than 360°; at most " + formatNumber(360.0 / scene.beams) + "°");
     if (scene.reverberation) {
         checkFields(*scene.reverberation, Reverberation::fields(), "reverberation");
         if (scene.firstRangeMetres <= 0.0)
-            throw Error("firstRangeMetres = 0", "must be above 0 where there is reverberation, whose level refers to it");
+            throw Error("firstRangeMetres = 0", "must be above 0 with reverberation, whose level refers to it");
         constexpr int fewestCells = 32;
         if (scene.reverberation->normalisation == PingNormalisation::Estimated && cells < fewestCells)
             throw Error("reverberation.normalisation = estimated", "needs at least " + std::to_string(fewestCells) + " cells in a ping");
@@ -174,9 +175,10 @@ void checkScene(const PingScene &scene)
         places += end - target.appearPing;
         steps += static_cast<double>(end - target.appearPing) * static_cast<double>(target.legs.size());
         if (places > mostPlaces)
-            throw Error(targetName(i), "is there for too many pings, together with the targets before it; there may be 3e6 in all");
+            throw Error(targetName(i), "exceeds the limit of 3e6 pings in total, counting the targets before it");
         if (steps > mostSteps)
-            throw Error(targetName(i) + ".legs", "are too many for so many pings, together with those of the targets before it");
+            throw Error(targetName(i) + ".legs", "are too many for this number of pings, counting those of the targets "
+                                                 "before it");
     }
 }
 

@@ -117,7 +117,7 @@ PingTruth pingTruthFromJson(const Json &json)
         TruthTarget &target = truth.targets.emplace_back();
         readFields(entry, fields(), target, name);
         if (target.rangeMetres.size() != target.cell.size() || target.bearingDegrees.size() != target.cell.size())
-            throw Error(name, "must have as many values of rangeMetres and bearingDegrees as of cell");
+            throw Error(name, "must have equally many values of rangeMetres, bearingDegrees and cell");
     }
     return truth;
 }

@@ -116,7 +116,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     const double to = selection.toSeconds > 0.0 ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
     if (selection.fromSeconds >= to)
         throw Error("selection.fromSeconds = " + formatNumber(selection.fromSeconds),
-                    "must lie before the end of the part looked at, " + seconds(to));
+                    "must lie before the end of the selection, " + seconds(to));
     m_firstSample = static_cast<Index>(std::llround(selection.fromSeconds * rate));
     const Index sampleCount = std::min(static_cast<Index>(std::llround(to * rate)), info.sampleCount) - m_firstSample;
 
@@ -128,10 +128,10 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     m_windowSamples = static_cast<int>(std::llround(wantedSamples));
     if (m_windowSamples < 2)
         throw Error("spectrogram.windowSeconds = " + formatNumber(windowSeconds),
-                    "holds fewer than 2 samples at " + formatNumber(rate) + " Hz");
+                    "contains fewer than 2 samples at " + formatNumber(rate) + " Hz");
     if (sampleCount < m_windowSamples)
         throw Error(info.path,
-                    "the part looked at is " + std::to_string(sampleCount) + " samples (" + seconds(static_cast<double>(sampleCount) / rate)
+                    "the selected part is " + std::to_string(sampleCount) + " samples (" + seconds(static_cast<double>(sampleCount) / rate)
                         + ") long, shorter than one window of " + seconds(windowSeconds)
                         + "; choose a shorter spectrogram.windowSeconds");
     m_hopSamples = hopOf(m_windowSamples, settings);
@@ -157,7 +157,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
             std::floor(std::min(static_cast<double>(whole.count - 1), whole.position(selection.highHz) + 1e-9)));
         if (low > high)
             throw Error("selection.lowHz … highHz = " + formatNumber(selection.lowHz) + " … " + formatNumber(selection.highHz),
-                        "holds no bin; the recording spans " + formatNumber(whole.first) + " … " + formatNumber(whole.last()) + " Hz");
+                        "contains no bin; the recording spans " + formatNumber(whole.first) + " … " + formatNumber(whole.last()) + " Hz");
         m_firstBin = low;
         m_frequency.first = whole.value(static_cast<double>(low));
         m_frequency.count = high - low + 1;

@@ -162,7 +162,7 @@ void tst_AudioRecording::twoChannelsAsIq()
 
     writeAudio(path("three.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 3, 8000, someNoise(300));
     QVERIFY(contains(errorOf([&] { AudioRecording(path("three.wav"), true); }),
-                     "three.wav: has 3 channel(s), but I/Q needs"));
+                     "three.wav: has 3 channel(s); I/Q needs"));
 }
 
 void tst_AudioRecording::manyChannels()
@@ -297,7 +297,7 @@ void tst_AudioRecording::shrinkingWhileOpen()
     writeAudio(path("shrinks.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1, 16000, someNoise(100000));
     const AudioRecording recording(path("shrinks.wav"), false);
     QVERIFY(QFile::resize(QString::fromStdString(path("shrinks.wav")), 1000));
-    QVERIFY(contains(errorOf([&] { readAll(recording); }), "became shorter while it was open"));
+    QVERIFY(contains(errorOf([&] { readAll(recording); }), "was truncated while open"));
     std::vector<float> start(100);
     recording.read(0, 0, 100, start); // what is left can still be read
 }

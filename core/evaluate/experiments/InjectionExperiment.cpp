@@ -278,7 +278,7 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
     } while (!isFree() && ++attempt < attempts);
     if (attempt == attempts)
         throw Error("durationSeconds = " + formatNumber(m_experiment.durationSeconds),
-                    "leaves no place in this selection that is free of signals for so long");
+                    "must be shorter: no part of the selection is free of signals for that long");
     line.frequencyHz = info.centreHz + offsetHz;
     line.driftHzPerSecond = m_experiment.driftHzPerSecond;
     line.wanderHz = m_experiment.wanderHz;

@@ -394,7 +394,7 @@ std::vector<DetectorUnderTest> detectorsFromJson(const Json &json, const std::st
         const Json &entry = (*list)[i];
         checkKeys(entry, name, {"name", "settings"});
         if (!entry.contains("name") || !entry["name"].is_string())
-            throw Error(jsonName(name, "name"), "must be a text");
+            throw Error(jsonName(name, "name"), "must be a string");
         DetectorUnderTest detectorUnderTest{entry["name"].get<std::string>(), {}};
         if (entry.contains("settings"))
             detectorUnderTest.settings = settingsFromJson(entry["settings"].dump(), jsonName(name, "settings"));

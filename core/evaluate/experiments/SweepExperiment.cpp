@@ -161,7 +161,7 @@ AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value
     checkFieldValue(field, held);
     field.set(settings, held);
     if (!field.get(settings))
-        throw Error("parameter = " + experiment.parameter, "belongs to another detector than the one chosen");
+        throw Error("parameter = " + experiment.parameter, "belongs to a different detector than the one selected");
     checkSettings(settings);
     return settings;
 }
@@ -174,7 +174,7 @@ void checkExperiment(const SweepExperiment &experiment)
     constexpr std::size_t mostRuns = 10'000'000;
     if (experiment.values.size() > mostRuns / static_cast<std::size_t>(experiment.trials))
         throw Error("trials = " + std::to_string(experiment.trials),
-                    "of each of " + std::to_string(experiment.values.size()) + " values are more than 10 million");
+                    "times " + std::to_string(experiment.values.size()) + " values exceeds 10 million");
     for (std::size_t i = 0; i < experiment.values.size(); ++i)
         settingsAt(experiment, i);
     if (!experiment.recording.empty())

@@ -89,7 +89,7 @@ void setScanTestField(ScanTest &test, const std::string &assignment)
     std::string names;
     for (const Field<ScanTest> &one : ScanTest::fields())
         names += (names.empty() ? "" : ", ") + one.name;
-    throw Error(assignment, "must be name=value; a radar's test has " + names);
+    throw Error(assignment, "must be name=value; settings of a radar test are " + names);
 }
 
 void checkScanTest(const ScanTest &test)
@@ -98,7 +98,7 @@ void checkScanTest(const ScanTest &test)
     checkSprt(test.sprt, "sprt");
     if (test.sprt.cutOffStage > mostStages)
         throw Error("sprt.cutOffStage = " + std::to_string(test.sprt.cutOffStage),
-                    "must lie in 0 … " + std::to_string(mostStages) + " where tests are simulated");
+                    "must lie in 0 … " + std::to_string(mostStages) + " if tests are simulated");
     ScanScene scene = test.scene;
     scene.stages = 1;
     checkScene(scene);
