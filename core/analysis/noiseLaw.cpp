@@ -25,7 +25,7 @@ namespace {
     constexpr double noiseMean = 1.1;
     constexpr double overlap = 1.3; ///< deviation of a mean over frames that overlap, in that of independent ones
 
-    /// Part of a track that lies in a stretch, with the power round it.
+    /// Part of a track that lies in a stretch, with the power around it.
     struct Piece {
         std::vector<TrackPoint> points;
         std::vector<double> below; ///< Σ y at 0, 1, 2 … bins below the track

@@ -22,7 +22,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double reachCells = 1.5;   ///< of a track round its line
+    constexpr double reachCells = 1.5;   ///< of a track around its line
     constexpr double bandMargin = 0.1;   ///< of the band at either edge, kept free of lines
     constexpr double neverDetected = -std::numeric_limits<double>::infinity();
 
