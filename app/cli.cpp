@@ -15,16 +15,16 @@
 
 namespace {
 
-constexpr auto unwritable = "standard output: cannot be written, so what was to be told is not";
+constexpr auto unwritable = "standard output: cannot be written; the output is incomplete";
 constexpr auto programName = "faintline-cli";
-constexpr auto description = "Faintline: track-before-detect for what is too faint to see.";
+constexpr auto description = "Faintline: track-before-detect for signals too faint to see.";
 
 void addCommands(CLI::App &app, faintline::cli::Common &common)
 {
     app.set_version_flag("--version", "faintline-cli " FAINTLINE_VERSION);
     app.require_subcommand(1);
     app.fallthrough();
-    app.add_option("--threads", common.threads, "Threads to use; never changes a byte of a result")
+    app.add_option("--threads", common.threads, "Number of threads; results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     app.add_option("--progress", common.progress, "Progress on standard error: auto (a bar on a terminal), json (lines), none")
@@ -82,14 +82,14 @@ int main(int argc, char **argv)
             return faintline::flushStandardOutput() ? 0 : complain(unwritable, 1);
         }
         if (const std::string word = unknownCommand(app, common.arguments); !word.empty())
-            return complain(word + ": is no command; " + programName + " --help lists them", 2);
+            return complain(word + ": unknown command; " + programName + " --help lists the commands", 2);
         return complain(std::string("command line: ") + error.what(), 2);
     } catch (const faintline::Error &error) {
         return complain(error.what(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);
     } catch (const faintline::Cancelled &) {
-        return complain("interrupted: nothing half-written is left", 1);
+        return complain("interrupted: no incomplete output was left", 1);
     } catch (const std::bad_alloc &) {
-        return complain("memory: not enough of it; choose a shorter part, a narrower band or a shorter window", 1);
+        return complain("memory: out of memory; choose a shorter part, a narrower band or a shorter window", 1);
     } catch (const std::exception &error) {
         return complain(std::string("failure: ") + error.what(), 1);
     }

@@ -53,7 +53,7 @@ namespace {
 
     void addOpening(CLI::App &command, OpenOptions &options)
     {
-        command.add_flag("--iq", options.iq, "Take two channels as I and Q");
+        command.add_flag("--iq", options.iq, "Treat two channels as I and Q");
         command.add_option("--raw-type", options.rawType, "Type of raw samples: ci16_le, cf32, cu8 …");
         command.add_option("--raw-rate", options.rawRateHz, "Sample rate of raw samples, Hz");
         command.add_option("--raw-channels", options.rawChannels, "Channels of raw samples");
@@ -65,49 +65,53 @@ namespace {
         CLI::App *command = program.add_subcommand("render", "Write a picture of the window or of one of its views");
         command->add_option("source", options.source, "Recording, scenario or lesson (.json) or session (.faintline)")
             ->required();
-        command->add_option("--out", options.out, "The picture (.png); of several views, each gets its name added")
+        command->add_option("--out", options.out, "Picture to write (.png); with several views, each name is appended")
             ->required();
         command
             ->add_option("--view", options.views,
-                         "window, input, output, threshold, events, noise, noisefit, pd, why, compare, sweep, sequential, walk, posterior; of a sonar's pings "
-                         "also map, polar, histories, slice, latency; of a radar's scans stopping, scan, asn, prior, sectors; several with commas")
+                         "window, input, output, threshold, events, noise, noisefit, pd, why, compare, sweep, "
+                         "sequential, walk, posterior; for sonar pings also map, polar, histories, slice, latency; for "
+                         "radar scans stopping, scan, asn, prior, sectors; separate several by commas")
             ->delimiter(',')
             ->allow_extra_args(false)
             ->capture_default_str();
         command->add_option("--size", size, "Pixels")->capture_default_str();
         command
             ->add_option("--scale", options.scale,
-                         "Device pixels per pixel, as on a screen of high resolution: 1.25 or 2 times the size, not blown up")
+                         "Device pixels per pixel, as on a high-resolution screen, such as 1.25 or 2; the picture is "
+                         "drawn at that resolution")
             ->check(CLI::Range(1.0, 4.0))
             ->capture_default_str();
-        command->add_option("--time", options.seconds, "Where the cursor goes, s");
-        command->add_option("--frequency", options.hz, "Where the cursor goes, Hz");
-        command->add_option("--range", options.range, "Where the cursor goes in pings, in the range axis's unit");
-        command->add_option("--bearing", options.bearing, "Where the cursor goes in pings, degrees");
-        command->add_option("--layer", options.layer, "Of the output: statistic, rate, bearing-rate (of pings), age, reset or inhibited")
+        command->add_option("--time", options.seconds, "Time of the cursor, s");
+        command->add_option("--frequency", options.hz, "Frequency of the cursor, Hz");
+        command->add_option("--range", options.range, "Range of the cursor in pings, in the unit of the range axis");
+        command->add_option("--bearing", options.bearing, "Bearing of the cursor in pings, degrees");
+        command->add_option("--layer", options.layer, "Layer of the output: statistic, rate, bearing-rate (pings "
+                                                      "only), age, reset or inhibited")
             ->capture_default_str();
-        command->add_flag("--overlay", options.isLayerOver, "The layer over the statistic instead of in its place");
+        command->add_flag("--overlay", options.isLayerOver, "Draw the layer over the statistic instead of in its place");
         command->add_option("--theme", options.theme, "light, dark or contrast")
             ->check(CLI::IsMember({"light", "dark", "contrast"}))
             ->capture_default_str();
-        command->add_option("--preset", options.preset, "Settings to begin with");
-        command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
-        command->add_option("--preset-a", options.presetA, "Settings that A of a comparison begins with");
-        command->add_option("--set-a", options.settingsA, "name=value of A of a comparison, as often as wanted")->allow_extra_args(false);
+        command->add_option("--preset", options.preset, "Preset to start from");
+        command->add_option("--set", options.settings, "A setting, name=value; may be repeated")->allow_extra_args(false);
+        command->add_option("--preset-a", options.presetA, "Preset from which A of a comparison starts");
+        command->add_option("--set-a", options.settingsA, "A setting of A of a comparison, name=value; may be repeated")->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
         options.part.addTo(*command);
-        command->add_option("--step", options.step, "Of a lesson (.json with steps): the one shown, counted from 1");
+        command->add_option("--step", options.step, "Step shown of a lesson (.json with steps), counted from 1");
         addOpening(*command, options.opening);
         return command;
     }
 
     CLI::App *addReport(CLI::App &program, RenderOptions &options)
     {
-        CLI::App *command = program.add_subcommand("report", "Write one HTML page: pictures, events, reviews, calibration, ladders, provenance");
+        CLI::App *command = program.add_subcommand("report", "Write one HTML page: pictures, events, reviews, "
+                                                             "calibration, path breakdowns, provenance");
         command->add_option("source", options.source, "Recording, scenario (.json) or session (.faintline)")->required();
         command->add_option("--out", options.out, "The page (.html)")->required();
-        command->add_option("--preset", options.preset, "Settings to begin with");
-        command->add_option("--set", options.settings, "name=value, as often as wanted")->allow_extra_args(false);
+        command->add_option("--preset", options.preset, "Preset to start from");
+        command->add_option("--set", options.settings, "A setting, name=value; may be repeated")->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
         options.part.addTo(*command);
         addOpening(*command, options.opening);
@@ -118,22 +122,27 @@ namespace {
     {
         CLI::App *command = program.add_subcommand(
             "replay",
-            "Make a picture again from what it tells of itself, and compare the pixels; or the numbers of a sequential test's chart");
+            "Reproduce a picture from its provenance and compare the pixels, or reproduce the table of a sequential "
+            "test's chart");
         command
             ->add_option("PICTURE", options.picture,
-                         "A PNG that render wrote, or a .csv of the sequential test on scans (faintline-cli replay does other tables)")
+                         "A PNG that render wrote, or a .csv of the sequential test on scans (use faintline-cli replay "
+                         "for other tables)")
             ->required();
-        command->add_option("--recording", options.recording, "The recording, if it is not beside the picture");
+        command->add_option("--recording", options.recording, "Recording, if it is not beside the picture");
         return command;
     }
 
     CLI::App *addCheckPictures(CLI::App &program, CheckOptions &options)
     {
-        CLI::App *command = program.add_subcommand("check-pictures", "Compare pictures pixel for pixel; exit code 1 where one differs");
+        CLI::App *command = program.add_subcommand("check-pictures", "Compare pictures pixel for pixel; exit code 1 if "
+                                                                     "any differs");
         command->add_option("EXPECTED", options.expected, "A PNG, or a folder of them")->required();
         command->add_option("ACTUAL", options.actual, "A PNG, or a folder of them")->required();
-        command->add_option("--out", options.out, "Folder for expected, actual and difference of what differs, and index.html");
-        command->add_flag("--tolerate-rasters", options.toleratesRasters, "Let 1e-5 of the pixels be the next colour of a colour map");
+        command->add_option("--out", options.out, "Folder for the expected, actual and difference pictures of each "
+                                                  "mismatch, and index.html");
+        command->add_flag("--tolerate-rasters", options.toleratesRasters, "Tolerate 1e-5 of the pixels at the adjacent "
+                                                                          "colour of a colour map");
         return command;
     }
 
@@ -173,8 +182,9 @@ namespace {
             return qEnvironmentVariableIsSet(name) ? " is \"" + qEnvironmentVariable(name).toStdString() + "\"" : std::string(" is not set");
         };
         if (type == QtFatalMsg)
-            std::_Exit(fail("screen", "there is none for a window (DISPLAY" + value("DISPLAY") + ", WAYLAND_DISPLAY" + value("WAYLAND_DISPLAY")
-                                + ", QT_QPA_PLATFORM" + value("QT_QPA_PLATFORM") + "); 'faintline render' draws without one", 1));
+            std::_Exit(fail("screen", "no display is available for a window (DISPLAY" + value("DISPLAY") + ", WAYLAND_DISPLAY" + value("WAYLAND_DISPLAY")
+                                + ", QT_QPA_PLATFORM" + value("QT_QPA_PLATFORM") + "); 'faintline render' works "
+                                                                                   "without a display", 1));
     }
 
     /// What "nan" and "inf" are read as, which no range refuses.
@@ -246,7 +256,7 @@ namespace {
 
     int run(int argc, char *argv[])
     {
-        CLI::App program("Faintline: finds faint lines that drift and wander. Without a subcommand, opens its window.",
+        CLI::App program("Faintline: finds faint lines that drift and wander. Without a subcommand, opens the window.",
                          "faintline");
         program.set_version_flag("--version", "faintline " FAINTLINE_VERSION);
         std::vector<std::string> files;
@@ -267,7 +277,7 @@ namespace {
         } catch (const CLI::ParseError &error) {
             if (error.get_exit_code() == 0)
                 return program.exit(error);
-            return fail("command line", std::string(error.what()) + " (faintline --help tells more)", 2);
+            return fail("command line", std::string(error.what()) + " (see faintline --help)", 2);
         }
         if (checkCommand->parsed()) {
             runCheckPictures(checking);
@@ -294,7 +304,7 @@ int main(int argc, char *argv[])
     try {
         const int code = faintline::run(argc, argv);
         if (code == 0 && !faintline::flushStandardOutput())
-            return faintline::fail("standard output", "cannot be written, so what was to be told is not", 1);
+            return faintline::fail("standard output", "cannot be written; the output is incomplete", 1);
         return code;
     } catch (const faintline::Error &error) {
         return faintline::fail(error.where(), error.why(), error.kind() == faintline::Error::Kind::Mistake ? 2 : 1);

@@ -145,7 +145,7 @@ void JobRunner::run(const Request &request)
     } catch (const Error &error) {
         fail(error);
     } catch (const std::bad_alloc &) {
-        fail(Error("memory", "there is not enough of it for this; look at a part of the recording",
+        fail(Error("memory", "out of memory; analyse a shorter part of the recording",
                    Error::Kind::Failure));
     } catch (const std::exception &error) {
         fail(Error("internal failure", error.what(), Error::Kind::Failure));

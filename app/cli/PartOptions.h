@@ -20,10 +20,10 @@ struct PartOptions {
 
     void addTo(CLI::App &command)
     {
-        command.add_option("--from", from, "Start of the part looked at, s");
-        command.add_option("--to", to, "End of the part looked at, s");
-        command.add_option("--low", low, "Lower edge of the band, Hz; alone: to the band's end");
-        command.add_option("--high", high, "Upper edge of the band, Hz; alone: from the band's beginning");
+        command.add_option("--from", from, "Start of the part analysed, s");
+        command.add_option("--to", to, "End of the part analysed, s");
+        command.add_option("--low", low, "Lower edge of the band, Hz; without --high, up to the end of the spectrum");
+        command.add_option("--high", high, "Upper edge of the band, Hz; without --low, from the start of the spectrum");
     }
 
     /// As settings, name=value.

@@ -17,9 +17,11 @@ void addBench(CLI::App &app, Common &common)
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("bench", "The inner loops on this machine, as ratios to their plain forms and to the memory");
-    command->add_option("NAME", options->names, "all, LIST, a kernel such as recursion-21, or what several names begin with")->required();
-    command->add_option("--rounds", options->speed.rounds, "Rounds; medians are taken over them")
+    CLI::App *command = app.add_subcommand("bench", "Measure the inner loops on this machine, as ratios to their plain "
+                                                    "forms and to memory bandwidth");
+    command->add_option("NAME", options->names, "all, LIST, a kernel such as recursion-21, or a common prefix of "
+                                                "several names")->required();
+    command->add_option("--rounds", options->speed.rounds, "Number of rounds, over which medians are taken")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_flag("--json", options->json, "JSON instead of a table");

@@ -21,15 +21,16 @@ void addCalibrate(CLI::App &app, Common &common)
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("calibrate", "K for a 50 % reset probability, and thresholds with their intervals, on simulated noise");
+    CLI::App *command = app.add_subcommand("calibrate", "Calibrate K for a 50 % reset probability, and thresholds with "
+                                                        "their intervals, on simulated noise");
     options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
     command
         ->add_option("--surrogates", options->surrogates,
-                     "Count false alarms on so many recordings of noise like FILE's: same length, band, gaps, "
+                     "Number of noise recordings on which to count false alarms, with FILE's length, band, gaps, "
                      "quantisation and background")
         ->check(CLI::Range(1, 10000));
-    command->add_flag("--json", options->json, "As JSON");
+    command->add_flag("--json", options->json, "Print as JSON");
     command->callback([options, &common] {
         AnalysisSettings settings = options->analysis.settings();
         std::shared_ptr<const Spectrogram> spectrogram;
@@ -62,7 +63,7 @@ void addCalibrate(CLI::App &app, Common &common)
         }
         if (options->surrogates > 0) {
             if (options->analysis.file.empty())
-                throw Error("--surrogates", "needs FILE, the recording whose noise is imitated");
+                throw Error("--surrogates", "needs FILE, the recording whose noise is to be simulated");
             const SurrogateCount count =
                 countOnSurrogates(options->analysis.recording(), settings, options->surrogates, common.context());
             json["surrogates"] = {
@@ -95,13 +96,13 @@ void addCalibrate(CLI::App &app, Common &common)
                         (*found)["falseAlarmsPerHourInterval"][0].get<double>(), (*found)["falseAlarmsPerHourInterval"][1].get<double>());
         if (const auto found = json.find("surrogates"); found != json.end()) {
             const Json &s = *found;
-            std::printf("surrogates         %d of %.3g h in all, counted at %.3g an hour: %d events of %.3g ordered, "
-                        "ratio %.2f (95 %%: %.2f … %.2f)\n",
+            std::printf("surrogates         %d of %.3g h in all, counted at %.3g per hour: %d events of %.3g "
+                        "specified, ratio %.2f (95 %%: %.2f … %.2f)\n",
                         s["runs"].get<int>(), s["hours"].get<double>(), s["orderPerHour"].get<double>(),
                         s["events"].get<int>(), s["ordered"].get<double>(), s["ratio"].get<double>(),
                         s["ratioInterval"][0].get<double>(), s["ratioInterval"][1].get<double>());
             if (s["correctionNats"].get<double>() == 0.0)
-                std::printf("                   as many as ordered: no correction\n");
+                std::printf("                   as specified: no correction\n");
             else
                 std::printf("                   corrected threshold: --set decide.thresholdNats=%.3f\n",
                             s["correctedThresholdNats"].get<double>());

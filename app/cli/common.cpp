@@ -58,7 +58,7 @@ void AnalysisOptions::addTo(CLI::App &command, Common &common)
     command.add_option("--set", assignments, "A setting, name=value; may be repeated")->take_all()->allow_extra_args(false);
     command.add_option("--channel", channel, "Channel, counted from 0")->check(CLI::Range(0, 1023));
     part.addTo(command);
-    command.add_flag("--iq", open.iq, "Take two channels as I and Q");
+    command.add_flag("--iq", open.iq, "Treat two channels as I and Q");
     command.add_option("--raw-type", open.rawType, "Sample type of a raw file, as in SigMF: ci16_le, rf32_le …");
     command.add_option("--raw-rate", open.rawRateHz, "Sample rate of a raw file, Hz");
     command.add_option("--raw-channels", open.rawChannels, "Channels of a raw file");
@@ -138,7 +138,7 @@ RecordingPointer openAny(const std::string &path, const OpenOptions &options)
     {
         const Json json = readJsonFile(path);
         if (isPingScene(json))
-            throw Error(path, "is a scene of sonar pings, not a recording; 'detect', 'simulate' and 'info' take it");
+            throw Error(path, "is a scene of sonar pings, not a recording; use it with 'detect', 'simulate' or 'info'");
         return inFile(path, [&] { return std::make_shared<SimulatedRecording>(lineSceneFromJson(json)); });
     }
     return openRecording(path, options);

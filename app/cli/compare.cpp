@@ -50,7 +50,7 @@ namespace {
     {
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
         const std::string_view unit = detectorUnits[analysis.settings.detector.index()];
-        std::printf("%s: %zu event(s), threshold %.2f %.*s (%.3g false alarms an hour on noise)\n", name, analysis.tracks.size(),
+        std::printf("%s: %zu event(s), threshold %.2f %.*s (%.3g false alarms per hour on noise)\n", name, analysis.tracks.size(),
                     analysis.threshold, static_cast<int>(unit.size()), unit.data(), perHour);
     }
 
@@ -112,7 +112,7 @@ namespace {
         if (!options.difference.empty()) {
             const auto difference = differencePicture(*a, *b, quiet);
             if (!difference)
-                throw Error("--difference", "is of lines over time; pings have no such picture");
+                throw Error("--difference", "is available for lines only, not for pings");
             writeDifference(*difference, options.difference);
         }
         files.commit();
@@ -121,7 +121,7 @@ namespace {
         printDifferences(settingsA, settingsB);
         printEvents(comparison, b->grid());
         if (options.cost)
-            std::printf("processor time for an hour of recording: A %.3g s, B %.3g s\n", measureCost(*a, quiet), measureCost(*b, quiet));
+            std::printf("processor time per hour of recording: A %.3g s, B %.3g s\n", measureCost(*a, quiet), measureCost(*b, quiet));
     }
 
 } // namespace
@@ -130,22 +130,24 @@ void addCompare(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<CompareOptions>();
     CLI::App *command = app.add_subcommand(
-        "compare", "Two detectors or two settings on one recording: what both find, and what only one does");
+        "compare", "Compare two detectors or two settings on one recording: events found by both, or by only one");
     options->common.addTo(*command, common);
-    command->add_option("--preset-a", options->presetA, "Named settings that A starts from, in place of --preset");
-    command->add_option("--preset-b", options->presetB, "Named settings that B starts from, in place of --preset");
-    command->add_option("--set-a", options->setA, "A setting of A alone, name=value; may be repeated")->take_all()->allow_extra_args(false);
-    command->add_option("--set-b", options->setB, "A setting of B alone, name=value; may be repeated")->take_all()->allow_extra_args(false);
-    command->add_option("--cells", options->tolerance.cells, "How far apart two paths of one signal may run, in steps of the coarser grid")
+    command->add_option("--preset-a", options->presetA, "Preset from which A starts, in place of --preset");
+    command->add_option("--preset-b", options->presetB, "Preset from which B starts, in place of --preset");
+    command->add_option("--set-a", options->setA, "A setting of A only, name=value; may be repeated")->take_all()->allow_extra_args(false);
+    command->add_option("--set-b", options->setB, "A setting of B only, name=value; may be repeated")->take_all()->allow_extra_args(false);
+    command->add_option("--cells", options->tolerance.cells, "Largest distance between two paths of one signal, in "
+                                                             "steps of the coarser grid")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    command->add_option("--frames", options->tolerance.frames, "How far apart in time, in frames of the coarser one")
+    command->add_option("--frames", options->tolerance.frames, "Largest distance in time, in frames of the coarser grid")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     addOutput(*command, common, "--events", options->events, "Write the events of both, .csv: column 'in' is A, B or both");
     addOutput(*command, common, "--difference", options->difference,
-                        "Write the difference layer, .npy: how much farther above its threshold B lies than A, nat, to a quarter of one");
-    command->add_flag("--cost", options->cost, "Say what each costs, in seconds of this machine");
+                        "Write the difference layer, .npy: margin of B above its threshold minus that of A, nat, "
+                        "rounded to a quarter");
+    command->add_flag("--cost", options->cost, "Print the cost of each, in seconds on this machine");
     command->callback([options, &common] { compare(*options, common); });
 }
 

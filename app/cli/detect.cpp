@@ -52,7 +52,7 @@ namespace {
         if (analysis.grid().axes.size() < 2)
             throw Error(
                 "--conventional",
-                "is for frames on several axes, a sonar's pings; for lines choose detector.kind = energy or pOfN");
+                "requires frames on several axes, such as sonar pings; for lines choose detector.kind = energy or pOfN");
         Analysis other = analysis;
         other.tracks = analysis.conventional;
         return other;
@@ -62,7 +62,7 @@ namespace {
     {
         const Axis &time = analysis.time();
         const std::vector<Event> found = events(analysis);
-        std::printf("%td frames of %td cells, %s s a frame\n", time.count, analysis.grid().size(), formatNumber(time.step).c_str());
+        std::printf("%td frames of %td cells, %s s per frame\n", time.count, analysis.grid().size(), formatNumber(time.step).c_str());
         if (analysis.choice)
             std::printf("%s\n", windowChoiceWords(*analysis.choice).c_str());
         const DetectorSettings &detector = analysis.settings.detector;
@@ -71,10 +71,11 @@ namespace {
                     100.0 * analysis.calibration->continuedFraction, isScoreOfPaths(detector) ? "" : ", of the detector that guides the tracks",
                     analysis.threshold, unit.c_str());
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
-        std::printf(": %.3g false alarms an hour on noise, %s\n", perHour,
+        std::printf(": %.3g false alarms per hour on noise, %s\n", perHour,
                     falseAlarmWords(perHour, analysis.calibration->rateUncertaintyAt(analysis.threshold)).c_str());
         if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
-            std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s: strong signals drag it down\n",
+            std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s; strong "
+                        "signals lower it\n",
                         analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(), time.value(static_cast<double>(dragged.front())));
         if (const auto law = checkNoiseLaw(analysis); law && !law->isFollowed())
             std::printf("warning: %s\n", law->warning().c_str());
@@ -86,7 +87,7 @@ namespace {
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
                 std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
             std::printf(", %.*f %s%s%s%s\n", statisticDecimals(detector), e.statistic, unit.c_str(), e.isConfirmed ? "" : ", not confirmed",
-                        e.isOpen ? ", still there at the end" : "",
+                        e.isOpen ? ", present at the end" : "",
                         analysis.isBank() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
         }
     }
@@ -102,7 +103,8 @@ namespace {
                 std::printf("not found\n");
                 continue;
             }
-            std::printf("found in its ping %td, %s, %d track(s), RMS error %.2f ranges and %.2f beams, followed in %td of %td pings\n",
+            std::printf("detected in its ping %td, %s, %d track(s), RMS error %.2f range cells and %.2f beams, "
+                        "followed in %td of %td pings\n",
                         own.detectLatency,
                         own.isConfirmed() ? ("confirmed in " + std::to_string(own.confirmLatency)).c_str() : "not confirmed",
                         own.tracks, own.rmsCells[0], own.rmsCells[1], own.matchedPoints, own.presentPings);
@@ -121,8 +123,8 @@ namespace {
             model = file.model;
             for (const KinematicAxis &axis : model.space.axes())
                 if (axis.isPlaceDependent())
-                    throw Error(options.model, "has an axis whose law differs from cell to cell; trackers follow on parts of an axis and need one "
-                                               "law, \"rates\" or a list of \"step\" probabilities");
+                    throw Error(options.model, "has an axis whose law differs from cell to cell; trackers need one law "
+                                               "for the whole axis, \"rates\" or a list of \"step\" probabilities");
             if (model.space.cellCount() != frames->grid().size())
                 throw Error(options.model, "has " + std::to_string(model.space.cellCount()) + " cells, but the frames have "
                                                + std::to_string(frames->grid().size()));
@@ -142,7 +144,7 @@ namespace {
         const JudgedByBoxes judged = judgeByBoxes({}, analysis, found, boxes);
         writeReviewed(analysis, found, {judged.reviews, {}}, options.events);
         if (options.summary)
-            std::printf("%zu annotation(s), %d event(s) judged by them\n", boxes.size(), judged.judged);
+            std::printf("%zu annotation(s), %d event(s) reviewed by them\n", boxes.size(), judged.judged);
     }
 
     void detect(DetectOptions options, const Common &common)
@@ -150,7 +152,7 @@ namespace {
         if (options.events.empty() && options.tracks.empty() && options.statistic.empty() && options.conventional.empty())
             options.summary = true; // who asks for nothing else wants to know what there is
         if (!options.annotations.empty() && options.events.empty())
-            throw Error("--annotations", "is told beside the events; it needs --events");
+            throw Error("--annotations", "requires --events");
         if (!options.events.empty())
             options.annotations.empty() ? checkEventsPath(options.events) : checkReviewedPath(options.events);
         if (!options.tracks.empty())
@@ -159,7 +161,7 @@ namespace {
             checkEventsPath(options.conventional);
         checkOutputs({options.events, options.tracks, options.statistic, options.conventional});
         if (!options.frames.empty() && !options.analysis.file.empty())
-            throw Error("detect", "takes a recording or --frames, not both");
+            throw Error("detect", "accepts either a recording or --frames");
         const RunContext context = common.context();
         std::optional<NumPyWriter> writer;
         NormalisedFramesPointer frames;
@@ -182,7 +184,7 @@ namespace {
         std::vector<Annotation> annotations;
         if (!options.annotations.empty()) {
             if (!recording && frames->grid().axes.size() != 1)
-                throw Error("--annotations", "is boxes over time and frequency; these frames have more than one axis");
+                throw Error("--annotations", "requires frames on frequency only; these frames have more than one axis");
             annotations = readAnnotations(options.annotations, recording ? recording->info() : RecordingInfo());
         }
         StatisticSink sink;
@@ -229,7 +231,7 @@ namespace {
         if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()); pings && options.summary)
             printScore(*analysis, *pings);
         if (options.summary && analysis->grid().axes.size() > 1) {
-            std::printf("the conventional detector beside it: %zu track(s)\n", analysis->conventional.size());
+            std::printf("conventional detector: %zu track(s)\n", analysis->conventional.size());
             if (const auto *pings = dynamic_cast<const SimulatedPings *>(frames.get()))
                 printScore(conventionally(*analysis), *pings);
         }
@@ -284,8 +286,8 @@ namespace {
                     decided > explanation.threshold ? "above" : "below", std::abs(decided - explanation.threshold), unit.c_str(),
                     explanation.isTracked ? ", followed by a tracker" : "");
         if (!isScore)
-            std::printf("its tracks are guided by a sequential Markov detector, whose path there has %.4f nat:\n", explanation.statistic);
-        std::printf("the best path began %zu frame(s) ago, where its past was worth nothing and it was reset\n", explanation.steps.size() - 1);
+            std::printf("a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n", explanation.statistic);
+        std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
         if (axes.size() == 1)
             std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");
         else {
@@ -302,7 +304,7 @@ namespace {
                         step["lnK"].get<double>(), step["sum"].get<double>());
         }
         if (explanation.offset != 0.0)
-            std::printf("and %.4f nat that all states are given alike: K of the frame, and the model's share\n", explanation.offset);
+            std::printf("and %.4f nat common to all states: K of the frame and the offset of the model\n", explanation.offset);
     }
 
     struct StatisticOptions {
@@ -321,7 +323,7 @@ namespace {
         const StateSpace &space = file.model.space;
         for (std::size_t axis = 0; axis < std::max(space.axes().size(), frames->grid().axes.size()); ++axis)
             if (space.axes().size() != frames->grid().axes.size() || space.axes()[axis].cells != frames->grid().axes[axis].count)
-                throw Error(options.model, "its axes' cells do not fit the frames of " + options.frames);
+                throw Error(options.model, "the cells of its axes do not match the frames of " + options.frames);
         std::vector<Index> shape{frames->time().count};
         std::vector<Index> projectedShape = shape;
         for (const KinematicAxis &axis : space.axes())
@@ -371,25 +373,27 @@ void addDetect(CLI::App &app, Common &common)
     options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
     addInput(*command, common, "--frames", options->frames, "Ready-made normalised frames, .npy of shape (frames, cells…), noise mean 1");
-    addInput(*command, common, "--grid", options->grid, "JSON that names the frames' axes");
+    addInput(*command, common, "--grid", options->grid, "JSON that describes the axes of the frames");
     addInput(*command, common, "--model", options->model, "JSON of a model for the frames");
     addOutput(*command, common, "--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
     addInput(*command, common,
         "--annotations", options->annotations,
-        "Boxes with judgements (Raven, Audacity, SigMF, CSV, JSON): the events written gain review and note where they match");
+        "Boxes with reviews (Raven, Audacity, SigMF, CSV, JSON); events that match a box are written with its review "
+        "and note");
     addOutput(*command, common, "--tracks", options->tracks, "Write the tracks: .csv or .json");
     addOutput(*command, common, "--conventional", options->conventional,
-                        "Of pings: write the events of the conventional detector beside it (one ping's threshold, then "
-                        "M of N in a gate), like --events");
+                        "For pings, also write the events of the conventional detector (threshold per ping, then M of "
+                        "N in a gate), like --events");
     addOutput(*command, common, "--statistic", options->statistic, "Write the statistic: .npy, float32, shape (frames, cells…)");
-    command->add_flag("--summary", options->summary, "Say in numbers what was found; so it does where nothing is written");
+    command->add_flag("--summary", options->summary, "Print a summary of the result; default if no output is written");
     command->callback([options, &common] { detect(*options, common); });
 }
 
 void addStatistic(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<StatisticOptions>();
-    CLI::App *command = app.add_subcommand("statistic", "The recursion's ln Λ for every frame and state, without decisions");
+    CLI::App *command = app.add_subcommand("statistic", "Compute ln Λ of the recursion for every frame and state, "
+                                                        "without decisions");
     addInput(*command, common, "--frames", options->frames, "Normalised frames, .npy of shape (frames, cells…)")->required();
     addInput(*command, common, "--model", options->model, "JSON of the model")->required();
     addOutput(*command, common, "--out", options->out, "Write the statistic of all states, .npy")->required();
@@ -410,14 +414,15 @@ void addExplain(CLI::App &app, Common &common)
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("explain", "Why a cell has the statistic it has: the terms of the best path that ends there");
+    CLI::App *command = app.add_subcommand("explain", "Explain the statistic of a cell by the terms of the best path "
+                                                      "that ends there");
     options->analysis.addTo(*command, common);
     command->add_option("--time", options->seconds, "Time, s")->required();
     command->add_option("--frequency", options->hz, "Frequency, Hz");
-    command->add_option("--range", options->range, "Of pings: range, in the unit of its axis");
-    command->add_option("--bearing", options->bearing, "Of pings: bearing, degrees");
-    addInput(*command, common, "--grid", options->grid, "Of a stack of frames (FILE.npy): JSON that names its axes");
-    command->add_flag("--json", options->json, "As JSON");
+    command->add_option("--range", options->range, "For pings: range, in the unit of its axis");
+    command->add_option("--bearing", options->bearing, "For pings: bearing, degrees");
+    addInput(*command, common, "--grid", options->grid, "For a stack of frames (FILE.npy): JSON that describes its axes");
+    command->add_flag("--json", options->json, "Print as JSON");
     command->callback([options, &common] {
         const RunContext context = common.context();
         AnalysisSettings settings = options->analysis.settings();
@@ -426,11 +431,11 @@ void addExplain(CLI::App &app, Common &common)
         std::vector<double> position;
         if (frames && frames->grid().axes.size() > 1) {
             if (!options->range || !options->bearing)
-                throw Error("explain", "a cell of pings is named by --range and --bearing");
+                throw Error("explain", "a cell of pings requires --range and --bearing");
             position = {*options->range, *options->bearing};
         } else {
             if (!options->hz)
-                throw Error("explain", "needs --frequency; a cell of pings is named by --range and --bearing");
+                throw Error("explain", "needs --frequency; for pings, give --range and --bearing");
             position = {*options->hz};
         }
         const auto analysis = frames ? analyse(frames, settings, context.part(0.0, 0.5))

@@ -64,7 +64,7 @@ namespace {
         options.iq = sweep.iq;
         const SweepTrials trials(sweep, sweep.recording.empty() ? nullptr : openRecording(fileNameFromText(sweep.recording), options), context);
         const std::vector<double> seconds = trials.costs(context);
-        std::printf("processor time for an hour of recording\n");
+        std::printf("processor time per hour of recording\n");
         for (std::size_t i = 0; i < seconds.size(); ++i)
             std::printf("%-28s %8.3g s\n", formatNumber(sweep.values[i]).c_str(), seconds[i]);
     }
@@ -99,16 +99,16 @@ void addEvaluate(CLI::App &app, Common &common)
     };
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand(
-        "evaluate", "Monte-Carlo detection probability of an experiment; resumes where it was interrupted");
+        "evaluate", "Estimate the detection probability of an experiment by simulation; an interrupted run is resumed");
     command->add_option("EXPERIMENT", options->files,
-                        "The experiment, JSON, of kind lines, injection or sweep (the values of one setting tried on the same lines: Pd, "
-                        "false alarms, latency); or: merge SHARD…")
+                        "Experiment, JSON, of kind lines, injection or sweep (values of one setting tried on the same "
+                        "lines: Pd, false alarms, latency), or: merge SHARD…")
         ->required();
-    addOutput(*command, common, "--out", options->out, "Curve to write, .csv; with --shard the shard's runs");
-    addOutput(*command, common, "--chart", options->chart, "Pd against SNR to draw, .svg");
-    command->add_option("--shard", options->shard, "Only part I of N, for 'merge'");
-    command->add_option("--seed", options->seed, "Seed in place of the experiment's own")->check(CLI::Range(0, 2147483647));
-    command->add_flag("--cost", options->cost, "Of a sweep: say what each value costs, in seconds of this machine");
+    addOutput(*command, common, "--out", options->out, "Curve to write, .csv; with --shard, the runs of the shard");
+    addOutput(*command, common, "--chart", options->chart, "Chart of Pd against SNR to write, .svg");
+    command->add_option("--shard", options->shard, "Compute only part I of N, for 'merge'");
+    command->add_option("--seed", options->seed, "Seed in place of the experiment's")->check(CLI::Range(0, 2147483647));
+    command->add_flag("--cost", options->cost, "For a sweep: print the cost of each value, in seconds on this machine");
     command->callback([options, &common] {
         if (options->files.front() == "merge") {
             if (options->files.size() < 2 || options->out.empty())
@@ -118,14 +118,15 @@ void addEvaluate(CLI::App &app, Common &common)
             return;
         }
         if (options->files.size() > 1)
-            throw Error("evaluate " + options->files[1], "one experiment at a time; to put shards together: evaluate merge SHARD…");
+            throw Error("evaluate " + options->files[1], "only one experiment can be given; to merge shards, use "
+                                                         "evaluate merge SHARD…");
         checkOutputs({options->out, options->chart});
         Experiment experiment = experimentFromJson(readJsonFile(options->files.front()), options->files.front());
         if (options->seed >= 0)
             setSeed(experiment, options->seed);
         const auto *sweep = std::get_if<SweepExperiment>(&experiment);
         if (options->cost && !sweep)
-            throw Error("--cost", "is of a sweep, an experiment of kind \"sweep\"");
+            throw Error("--cost", "requires an experiment of kind \"sweep\"");
         const Shard shard = options->shard.empty() ? Shard{} : shardFrom(options->shard);
         const std::vector<int> runs = runsOfShard(experiment, shard.index, shard.count);
         if (options->out.empty()) {
@@ -158,7 +159,8 @@ void addMerge(CLI::App &app, Common &common)
         std::string out;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("merge", "Put the shards of an experiment together: the same bytes as without shards");
+    CLI::App *command = app.add_subcommand("merge", "Merge the shards of an experiment; the result is identical to a "
+                                                    "run without shards");
     command->add_option("SHARD", options->shards, "Shards, in any order")->required();
     addOutput(*command, common, "--out", options->out, "Curve to write, .csv")->required();
     command->callback([options] {

@@ -91,7 +91,7 @@ namespace {
         std::printf("range         %td cells of %s m, %s … %s m\n", range.count, formatNumber(range.step).c_str(),
                     formatNumber(range.first).c_str(), formatNumber(range.last()).c_str());
         std::printf("bearing       %td beams of %s°%s\n", bearing.count, formatNumber(bearing.step).c_str(),
-                    bearing.cyclic ? ", all round" : "");
+                    bearing.cyclic ? ", full circle" : "");
         std::printf("looks         %d\n", scene.looks);
         if (scene.reverberation)
             std::printf("reverberation %s dB over the noise in the first range cell\n", formatNumber(scene.reverberation->levelDb).c_str());
@@ -134,10 +134,10 @@ void addInfo(CLI::App &app, Common &)
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("info", "Say what a recording is");
+    CLI::App *command = app.add_subcommand("info", "Print the properties of a recording");
     command->add_option("FILE", options->file, "Recording")->required();
-    command->add_flag("--json", options->json, "As JSON");
-    command->add_flag("--iq", options->open.iq, "Take two channels as I and Q");
+    command->add_flag("--json", options->json, "Print as JSON");
+    command->add_flag("--iq", options->open.iq, "Treat two channels as I and Q");
     command->add_option("--raw-type", options->open.rawType, "Sample type of a raw file, as in SigMF");
     command->add_option("--raw-rate", options->open.rawRateHz, "Sample rate of a raw file, Hz");
     command->callback([options] {
@@ -166,8 +166,9 @@ void addInfo(CLI::App &app, Common &)
 void addDescribe(CLI::App &app, Common &)
 {
     const auto name = std::make_shared<std::string>();
-    CLI::App *command = app.add_subcommand("describe", "Every setting: name, unit, range, default, sentence; and the presets");
-    command->add_option("SETTING", *name, "One setting, or the beginning of several");
+    CLI::App *command = app.add_subcommand("describe", "List every setting with name, unit, range, default and "
+                                                       "description, and the presets");
+    command->add_option("SETTING", *name, "One setting, or a common prefix of several");
     command->callback([name] {
         bool any = false;
         for (const auto &field : AnalysisSettings::fields()) {

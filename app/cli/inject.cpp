@@ -27,10 +27,11 @@ void addInject(CLI::App &app, Common &common)
     LineSettings &line = options->line;
     CLI::App *command = app.add_subcommand("inject", "Add a known line to a recording");
     options->analysis.addTo(*command, common);
-    command->add_option("--snr", line.snrDb, "SNR over the noise at the line's place, dB in a window of --reference seconds")->required();
-    command->add_option("--reference", line.referenceSeconds, "Window the SNR refers to, s; by default the spectrogram's");
+    command->add_option("--snr", line.snrDb, "SNR over the noise around the line, dB in a window of --reference seconds")->required();
+    command->add_option("--reference", line.referenceSeconds, "Window to which the SNR refers, s; by default the "
+                                                              "spectrogram's");
     command->add_option("--start", line.startSeconds, "Start, s")->capture_default_str();
-    command->add_option("--duration", line.durationSeconds, "Duration, s; 0: to the end")->capture_default_str();
+    command->add_option("--duration", line.durationSeconds, "Duration, s; 0: to the end of the recording")->capture_default_str();
     command->add_option("--frequency", line.frequencyHz, "Frequency at the start, Hz")->required();
     command->add_option("--drift", line.driftHzPerSecond, "Drift, Hz/s")->capture_default_str();
     command->add_option("--wander", line.wanderHz, "Standard deviation of the wander, Hz")->capture_default_str();

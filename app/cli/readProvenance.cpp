@@ -52,12 +52,12 @@ Provenance readProvenance(const std::string &path)
             && std::find(std::begin(commands), std::end(commands), provenance.arguments.front()) != std::end(commands);
         constexpr std::size_t most = 1000;
         if (provenance.arguments.size() > most || provenance.outputs.size() > most)
-            throw Error(path, "is a longer command line than any that is written here");
+            throw Error(path, "contains a command line that is too long");
         if (provenance.outputs.empty() || !isKnown)
-            throw Error(path, "is no provenance of something that detect, compare, simulate or inject wrote");
+            throw Error(path, "is not the provenance of an output of detect, compare, simulate or inject");
         return provenance;
     } catch (const Json::exception &) {
-        throw Error(path, "is no provenance: it needs faintline, folder, arguments, inputs and outputs");
+        throw Error(path, "is not a provenance: it needs faintline, folder, arguments, inputs and outputs");
     }
 }
 

@@ -47,7 +47,7 @@ namespace {
             makeTemporary([this] {
                 std::string name = (fs::temp_directory_path() / "faintline-replay-XXXXXX").string();
                 if (!mkdtemp(name.data()))
-                    throw Error(name, "cannot be made", Error::Kind::Failure);
+                    throw Error(name, "cannot be created", Error::Kind::Failure);
                 m_path = name;
                 return name;
             });
@@ -78,7 +78,7 @@ namespace {
                 std::error_code code;
                 m_folders.push_back(fs::canonical(folder, code));
                 if (code || !fs::is_directory(m_folders.back()))
-                    throw Error("--allow " + folder, "there is no such folder");
+                    throw Error("--allow " + folder, "no such folder");
             }
         }
 
@@ -90,7 +90,8 @@ namespace {
                 return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
             };
             if (std::none_of(m_folders.begin(), m_folders.end(), holds))
-                throw Error(path, "lies outside of the folder of " + m_result + ", which asks for it; --allow FOLDER lets replay read there");
+                throw Error(path, "lies outside the folder of " + m_result + ", which requires it; permit replay to "
+                                                                             "read it with --allow FOLDER");
         }
 
     private:
@@ -149,7 +150,7 @@ namespace {
         };
         remakeWindowExport(json, kept.string(), recording, remade.string(), mayRead, common.context());
         if (!compare(kept, remade))
-            throw Error(kept.string(), "is not what its provenance makes", Error::Kind::Failure);
+            throw Error(kept.string(), "differs from the result of its provenance", Error::Kind::Failure);
     }
 
     bool isPicture(const std::string &name)
@@ -163,7 +164,7 @@ namespace {
         for (const auto &[file, hash] : provenance.inputs) {
             readable.check(file);
             if (!fs::is_regular_file(file) || fileHash(file) != hash)
-                throw Error(file, "is not what " + result + " was made from");
+                throw Error(file, "is not the input of " + result);
         }
     }
 
@@ -204,9 +205,9 @@ namespace {
             }
         }
         if (!isMade)
-            throw Error(asked.string(), "is not among what its provenance makes");
+            throw Error(asked.string(), "is not an output of its provenance");
         if (!different.empty())
-            throw Error(different, "is not what its provenance makes", Error::Kind::Failure);
+            throw Error(different, "differs from the result of its provenance", Error::Kind::Failure);
     }
 
     void runAgain(const std::vector<std::string> &arguments, const std::string &path, const Common &common)
@@ -214,7 +215,7 @@ namespace {
         try {
             runCommandLine(arguments, common);
         } catch (const CLI::ParseError &error) { // --help is one, too
-            throw Error(path, std::string("holds a command line that makes nothing: ") + error.what());
+            throw Error(path, std::string("contains an invalid command line: ") + error.what());
         }
     }
 
@@ -224,14 +225,14 @@ namespace {
         const fs::path asked = path.string().substr(0, path.string().size() - suffix.size());
         if (!fs::exists(path) && isPicture(result))
             throw Error(result,
-                        "is a picture, which the window's program makes: 'faintline replay' takes a PNG that 'faintline render' wrote");
+                        "is a picture; use 'faintline replay' for a PNG that 'faintline render' wrote");
         if (!fs::exists(path))
-            throw Error(result, "has no provenance: there is no " + path.filename().string() + " beside it");
+            throw Error(result, "has no provenance: no " + path.filename().string() + " was found beside it");
         const ReadableFolders readable(asked, allowed);
         if (const Json json = readJsonFile(path.string()); isOfWindow(json))
             return replayWindowExport(json, asked, recording, readable, common);
         if (!recording.empty())
-            throw Error("--recording", "is for what the window exported; " + result + " was written by a command, which names its own");
+            throw Error("--recording", "applies to tables exported from the window; " + result + " was written by a command, whose provenance names the recording");
         const Provenance provenance = readProvenance(path.string());
         tellVersion(provenance.version);
         std::vector<std::string> arguments = provenance.arguments;
@@ -241,10 +242,10 @@ namespace {
                 return argument == output || (argument.starts_with("--") && argument.ends_with("=" + output));
             };
             if (std::none_of(arguments.begin(), arguments.end(), names))
-                throw Error(path.string(), "tells of " + output + ", which its own command line does not name");
+                throw Error(path.string(), "names the output " + output + ", which is not on its command line");
         }
         if (!fs::is_directory(provenance.folder))
-            throw Error(provenance.folder.string(), "is the folder it was made in, and is not there any more");
+            throw Error(provenance.folder.string(), "the folder in which the result was made no longer exists");
         fs::current_path(provenance.folder);
         checkInputs(provenance, result, readable);
         const TemporaryFolder folder;
@@ -290,14 +291,16 @@ void addReplay(CLI::App &app, Common &common)
     const auto result = std::make_shared<std::string>();
     const auto recording = std::make_shared<std::string>();
     const auto allowed = std::make_shared<std::vector<std::string>>();
-    CLI::App *command = app.add_subcommand("replay", "Make a result again from its own provenance, and compare");
+    CLI::App *command = app.add_subcommand("replay", "Reproduce a result from its provenance and compare");
     command
         ->add_option("RESULT", *result,
-                     "A file written by detect, compare, simulate or inject, or a table exported from the window, with its "
-                     ".provenance.json beside it")
+                     "A file written by detect, compare, simulate or inject, or a table exported from the window, with "
+                     "its .provenance.json beside it")
         ->required();
-    command->add_option("--recording", *recording, "Of a table exported from the window: the recording, if it is not beside it");
-    command->add_option("--allow", *allowed, "A folder that may be read besides the one in which RESULT lies; may be repeated")
+    command->add_option("--recording", *recording, "For a table exported from the window: the recording, if it is not "
+                                                   "beside the table");
+    command->add_option("--allow", *allowed, "Folder that may be read in addition to the one that contains RESULT; may "
+                                             "be repeated")
         ->take_all()
         ->allow_extra_args(false);
     command->callback([result, recording, allowed, &common] { replay(*result, *recording, *allowed, common); });

@@ -20,9 +20,10 @@ void addReproduce(CLI::App &app, Common &common)
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    CLI::App *command = app.add_subcommand("reproduce", "Make a publication's tables and figures again: paper, ours, interval, gap");
+    CLI::App *command = app.add_subcommand("reproduce", "Reproduce tables and figures of a publication: paper, result, "
+                                                        "interval, gap");
     command->add_option("NAME", options->names, "LIST, a paper (billon, parsons, grossi), or one table or figure such as billon:table1")->required();
-    command->add_flag("--quick", options->reproduce.quick, "A tenth of the trials, for a look");
+    command->add_flag("--quick", options->reproduce.quick, "Run a tenth of the trials");
     command->add_option("--seed", options->reproduce.seed, "Seed of the simulations")->capture_default_str();
     command->add_option("--out", options->folder, "Folder for JSON, CSV and pictures");
     command->add_flag("--json", options->json, "JSON instead of a table");
@@ -52,7 +53,7 @@ void addReproduce(CLI::App &app, Common &common)
                 outside += (outside.empty() ? "" : ", ") + made.name;
         }
         if (!outside.empty())
-            throw Error("reproduce", "outside of its tolerance: " + outside, Error::Kind::Failure);
+            throw Error("reproduce", "outside its tolerance: " + outside, Error::Kind::Failure);
     });
 }
 

@@ -92,7 +92,7 @@ namespace {
         checkSprt(options.sprt, "sequential");
         checkOutputs({options.out});
         if (options.frames.empty() == options.analysis.file.empty())
-            throw Error("sequential", "takes either a recording or --frames with ready-made frames");
+            throw Error("sequential", "accepts either a recording or --frames with ready-made frames");
         if (!options.frames.empty() && options.model.empty())
             throw Error("sequential", "needs --model for ready-made frames");
         const RunContext context = common.context();
@@ -114,22 +114,22 @@ void addSequential(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<Options>();
     CLI::App *command =
-        app.add_subcommand("sequential", "Stage after stage until it is clear whether a signal has been there since the first one, and where; "
-                                         "\"no signal\" is final, one that starts later is not looked for");
+        app.add_subcommand("sequential", "Test stage by stage for a signal present since the first stage, and locate "
+                                         "it; \"no signal\" is final and does not cover signals that start later");
     options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
     addInput(*command, common, "--frames", options->frames, "Ready-made normalised frames, .npy of shape (stages, cells…), noise mean 1");
-    addInput(*command, common, "--model", options->model, "JSON of the model; without it the settings' line model");
-    command->add_option("--alpha", options->sprt.falseAlarm, "Wanted probability of accepting a signal on noise")->capture_default_str();
-    command->add_option("--beta", options->sprt.miss, "Wanted probability of accepting noise with a signal")->capture_default_str();
-    command->add_option("--cutoff", options->sprt.cutOffStage, "Stage at which a decision is forced; 0 is never")->capture_default_str();
+    addInput(*command, common, "--model", options->model, "JSON of the model; by default the line model of the settings");
+    command->add_option("--alpha", options->sprt.falseAlarm, "Specified probability of accepting a signal on noise")->capture_default_str();
+    command->add_option("--beta", options->sprt.miss, "Specified probability of accepting noise with a signal")->capture_default_str();
+    command->add_option("--cutoff", options->sprt.cutOffStage, "Stage at which a decision is forced; 0: never")->capture_default_str();
     command->add_option("--average", options->averagedCells,
-                        "Cells round each one, along the model's last axis, whose mean stands for a noise power that is not known; "
-                        "0: noise has mean 1")
+                        "Number of cells around each cell, along the model's last axis, whose mean estimates the noise "
+                        "power; 0: noise has mean 1")
         ->capture_default_str();
     command->add_option("--every", options->every,
-                        "Frames from one that counts to the next: evidence has to be independent, and windows that overlap share samples; "
-                        "0: as many as a window has steps in a recording, 1 of ready-made frames")
+                        "Use every n-th frame, because stages must be independent and overlapping windows share "
+                        "samples; 0: the number of steps per window for a recording, 1 for ready-made frames")
         ->capture_default_str();
     addOutput(*command, common, "--out", options->out, "Write decision, ln Λ of every stage and trajectory, .json")->required();
     command->callback([options, &common] { sequential(*options, common); });

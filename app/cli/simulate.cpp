@@ -45,7 +45,7 @@ namespace {
     void simulatePings(PingScene scene, int seed, const std::string &out, const std::string &truth, const RunContext &context)
     {
         if (!out.ends_with(".npy"))
-            throw Error(out, "pings are written as frames: give a name that ends in .npy");
+            throw Error(out, "must end in .npy: pings are written as frames");
         if (seed >= 0)
             scene.seed = seed;
         const SimulatedPings pings(scene);
@@ -96,11 +96,13 @@ void addSimulate(CLI::App &app, Common &common)
 {
     const auto options = std::make_shared<Options>();
     CLI::App *command =
-        app.add_subcommand("simulate", "Make a recording of known lines in noise, or pings with known targets, and its truth");
-    addInput(*command, common, "SCENARIO", options->scene, "The scene, JSON")->required();
-    addOutput(*command, common, "--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; a sonar's pings or a radar's scans: .npy")->required();
+        app.add_subcommand("simulate", "Simulate a recording of known lines in noise, or pings with known targets, and "
+                                       "write its truth");
+    addInput(*command, common, "SCENARIO", options->scene, "Scene, JSON")->required();
+    addOutput(*command, common, "--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; .npy for "
+                                                       "sonar pings or radar scans")->required();
     addOutput(*command, common, "--truth", options->truth, "Write the truth, .json");
-    command->add_option("--seed", options->seed, "Seed in place of the scene's own")->check(CLI::Range(0, 2147483647));
+    command->add_option("--seed", options->seed, "Seed in place of the scene's")->check(CLI::Range(0, 2147483647));
     command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
     command->callback([options, &common] {
         checkOutputs({options->out, options->truth});

@@ -38,11 +38,11 @@ namespace {
         const std::string name = fs::path(fileNameFromText(source.at("path").get<std::string>())).filename().string();
         const std::string path = recording.empty() ? (fs::absolute(result).parent_path() / name).string() : recording;
         if (!fs::exists(path))
-            throw Error(path, "is what " + result + " was made from, and is not there; --recording says where it is");
+            throw Error(path, "the input of " + result + " was not found; give its path with --recording");
         if (recording.empty())
             mayRead(path);
         if (recordingHash(path) != source.at("sha256").get<std::string>())
-            throw Error(path, "is not what " + result + " was made from");
+            throw Error(path, "is not the input of " + result);
         return path;
     }
 
@@ -136,16 +136,15 @@ void remakeWindowExport(const Json &provenance, const std::string &result, const
 {
     try {
         if (provenance.contains("sequential"))
-            throw Error(result, "is a chart of a sequential test, which the window's program makes: 'faintline replay' does where it was "
-                                "on a radar's scans");
+            throw Error(result, "is a chart of a sequential test; use 'faintline replay' if the test was on radar scans");
         if (provenance.contains("experiment"))
             return remakeCurve(provenance, out, mayRead, context);
         if (provenance.contains("recording"))
             return remakeEvents(provenance, result, recording, out, mayRead, context);
     } catch (const Json::exception &error) {
-        throw Error(result, "has a provenance that is broken: " + complaint(error));
+        throw Error(result, "has an invalid provenance: " + complaint(error));
     }
-    throw Error(result, "has a provenance that tells neither of a recording nor of an experiment");
+    throw Error(result, "has a provenance that names neither a recording nor an experiment");
 }
 
 } // namespace faintline::cli

@@ -117,7 +117,8 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
 void AnalysisController::editNumber(const QString &field, double value)
 {
     const bool isWhole = settingField(field.toStdString()).kind == FieldKind::Integer;
-    edit(field, isWhole ? FieldValue(static_cast<int>(std::lround(value))) : FieldValue(value), tr("Take a value of the sweep"));
+    edit(field, isWhole ? FieldValue(static_cast<int>(std::lround(value))) : FieldValue(value), tr("Apply a value of "
+                                                                                                   "the sweep"));
 }
 
 void AnalysisController::setSettings(const AnalysisSettings &settings, const QString &text)
@@ -144,7 +145,7 @@ void AnalysisController::setThresholdUnit(DecideSettings::By by)
         return;
     AnalysisSettings after = m_document.settings();
     after.decide = decideAt(after.decide, by, m_document.shownThreshold(), *m_document.analysis());
-    m_document.edit(after, tr("Set the threshold in other units"));
+    m_document.edit(after, tr("Change the unit of the threshold"));
 }
 
 void AnalysisController::run()

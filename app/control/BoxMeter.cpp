@@ -24,7 +24,7 @@ namespace {
     {
         const QString mean = saysMean ? BoxMeter::tr("mean %1 dB · ").arg(numberText(levels.meanDb, 1)) : QString();
         if (!levels.snrDb)
-            return mean + BoxMeter::tr("no more than the noise beside it");
+            return mean + BoxMeter::tr("not above the noise beside it");
         return mean + BoxMeter::tr("area SNR %1 dB").arg(numberText(*levels.snrDb, 1));
     }
 

@@ -27,13 +27,15 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
     : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window), m_provenance(document)
 {
     m_eventActions << add(tr("&Accept"), Qt::Key_Y, tr("This is a signal"), &EventReviews::accept)
-                   << add(tr("Re&ject"), Qt::Key_X, tr("This is none: it is drawn faint from now on"), &EventReviews::reject)
-                   << add(tr("&Undecided"), Qt::Key_U, tr("Takes accepting or rejecting back"), &EventReviews::takeBack)
-                   << add(tr("&Note…"), Qt::Key_E, tr("What there is to say about it"), &EventReviews::editNote)
-                   << add(tr("&Merge"), Qt::Key_G, tr("The selected events are one signal; Ctrl or Shift and click selects several"), &EventReviews::merge)
-                   << add(tr("&Separate"), QKeySequence(Qt::SHIFT | Qt::Key_G), tr("They are several signals after all"), &EventReviews::separate);
+                   << add(tr("Re&ject"), Qt::Key_X, tr("Not a signal; show it dimmed"), &EventReviews::reject)
+                   << add(tr("&Undecided"), Qt::Key_U, tr("Clear the accept or reject mark"), &EventReviews::takeBack)
+                   << add(tr("&Note…"), Qt::Key_E, tr("Edit the note on the event"), &EventReviews::editNote)
+                   << add(tr("&Merge"), Qt::Key_G, tr("Treat the selected events as one signal; select several with "
+                                                      "Ctrl or Shift and click"), &EventReviews::merge)
+                   << add(tr("&Separate"), QKeySequence(Qt::SHIFT | Qt::Key_G), tr("Treat merged events as several "
+                                                                                   "signals again"), &EventReviews::separate);
     m_actions << nullptr;
-    m_addBox = add(tr("Add annotation of the &box…"), Qt::Key_B, tr("Names the measured box (M)"), &EventReviews::askForLabel);
+    m_addBox = add(tr("Add annotation of the &box…"), Qt::Key_B, tr("Label the measured box (M)"), &EventReviews::askForLabel);
     m_actions << nullptr;
     add(tr("&Import annotations…"), {}, tr("Raven selection tables, Audacity labels, SigMF, CSV, JSON"), &EventReviews::askForImport);
     add(tr("E&xport events and annotations…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E), tr("CSV, JSON, Raven, Audacity, SigMF"), &EventReviews::askForExport);
@@ -96,7 +98,7 @@ void EventReviews::judge(Verdict verdict)
     const std::vector<int> ids = chosen();
     if (ids.empty())
         return;
-    const QString text = verdict == Verdict::Accepted ? tr("Accept") : verdict == Verdict::Rejected ? tr("Reject") : tr("Undecide");
+    const QString text = verdict == Verdict::Accepted ? tr("Accept") : verdict == Verdict::Rejected ? tr("Reject") : tr("Unmark");
     setReviews(withVerdict(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids, verdict),
                ids.size() == 1 ? tr("%1 event %2").arg(text).arg(ids.front()) : tr("%1 %2 events").arg(text).arg(ids.size()));
 }
@@ -132,7 +134,7 @@ void EventReviews::editNote()
         if (one.event == id)
             before = QString::fromStdString(oneLine(one.note));
     bool isGiven = false;
-    const QString note = QInputDialog::getText(m_window, tr("Note on event %1").arg(id), tr("What there is to say about it:"), QLineEdit::Normal, before, &isGiven);
+    const QString note = QInputDialog::getText(m_window, tr("Note on event %1").arg(id), tr("Note:"), QLineEdit::Normal, before, &isGiven);
     if (isGiven && m_document.analysis())
         setNote(id, note);
 }
@@ -151,7 +153,7 @@ void EventReviews::annotateSelection(const QString &label)
 void EventReviews::askForLabel()
 {
     bool isGiven = false;
-    const QString label = QInputDialog::getText(m_window, tr("Add annotation"), tr("What is in the box?"), QLineEdit::Normal, {}, &isGiven);
+    const QString label = QInputDialog::getText(m_window, tr("Add annotation"), tr("Label of the box:"), QLineEdit::Normal, {}, &isGiven);
     if (isGiven)
         annotateSelection(label);
 }
@@ -199,8 +201,8 @@ void EventReviews::importFrom(const QString &path)
     }
     after.boxes.insert(after.boxes.end(), imported.others.begin(), imported.others.end());
     m_document.annotate(std::move(after), tr("Import %1 annotations").arg(boxes.size()));
-    const QString judged = imported.judged == 0 ? QString() : tr(" %1 event(s) are judged by them.").arg(imported.judged);
-    emit told(fileLabel(path), tr("%1 annotation(s) imported; Ctrl+Z takes them back.").arg(boxes.size()) + judged);
+    const QString judged = imported.judged == 0 ? QString() : tr(" They review %1 event(s).").arg(imported.judged);
+    emit told(fileLabel(path), tr("%1 annotation(s) imported; Ctrl+Z undoes the import.").arg(boxes.size()) + judged);
 }
 
 void EventReviews::exportTo(const QString &path)
@@ -227,7 +229,7 @@ void EventReviews::exportTo(const QString &path)
 void EventReviews::askForImport()
 {
     const QString path = QFileDialog::getOpenFileName(m_window, tr("Import annotations"), QFileInfo(m_document.source().path).path(),
-                                                      tr("Annotations (*.txt *.sigmf-meta *.csv *.json);;Everything (*)"));
+                                                      tr("Annotations (*.txt *.sigmf-meta *.csv *.json);;All files (*)"));
     if (path.isEmpty())
         return;
     try {

@@ -126,7 +126,7 @@ QString OutputLayers::heading() const
     case OutputLayer::Reset:
         return tr("States reset");
     case OutputLayer::Inhibited:
-        return tr("Cells kept from the detector");
+        return tr("Inhibited cells");
     case OutputLayer::Statistic:
         break;
     }
@@ -340,7 +340,7 @@ void OutputLayers::show()
         item.setLayer(m_layer, {0.0, 1.0}, tr("States reset (fraction)"), 1.0);
         break;
     case OutputLayer::Inhibited:
-        item.setLayer(m_layer, {0.0, 1.0}, tr("Kept from the detector"), 1.0);
+        item.setLayer(m_layer, {0.0, 1.0}, tr("Inhibited"), 1.0);
         break;
     case OutputLayer::Statistic:
         break;

@@ -85,7 +85,7 @@ void SequentialTests::start(const Selection &selection, const SprtSettings &sprt
     checkSprt(sprt, "sprt");
     const Grid &grid = selection.frames->grid();
     if (grid.axes.size() != 1 || selection.model.motion != Motion::Slopes)
-        throw Error("sequential test", "is made on the frequencies of a line recording with the slopes' model");
+        throw Error("sequential test", "requires a line recording and model.motion = slopes");
     checkLikelihoodRatio(Likelihood(selection.model.likelihood, selection.model.snr), "model.likelihood");
     if (selection.frameCount < 1 || selection.cellCount < 1)
         throw Error("sequential test", "needs at least one frame and one frequency bin in view");

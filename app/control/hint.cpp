@@ -13,19 +13,20 @@ QString hint(const Document &document, bool isBusy)
     if (document.isEmpty())
         return tr("Click a picture, or drop a recording anywhere on the window.");
     if (!document.analysis() && !isBusy)
-        return tr("Stopped before there was a result. Run begins again; From and To choose a part of the recording.");
+        return tr("Stopped before a result was available. Press Run to start again; From and To select a part of the "
+                  "recording.");
     if (!document.analysis())
-        return tr("Reading the recording and listening to its noise.");
+        return tr("Reading the recording and estimating its noise.");
     if (document.provisional())
-        return tr("Provisional: the new statistic of what is visible, beside the old threshold and events. Calibrating …");
+        return tr("Provisional: new statistic of the visible part, with the old threshold and events. Calibrating …");
     if (document.analysis()->calibration->isFirstEstimate)
         return firstEstimateSentence(*document.analysis(), isBusy);
     if (document.hasPings() && !document.shownEvents().empty())
-        return tr("J and L step from ping to ping, Space plays, P looks from above; N goes to the next track.");
+        return tr("J and L step through the pings, Space plays them, P shows them from above, N goes to the next track.");
     if (document.shownEvents().empty())
         return tr(
-            "Nothing exceeds the threshold: drag its line to the left, or press , (comma), and see what appears.");
-    return tr("Drag the threshold line: contour and events follow. N goes to the next event, ? shows all keys.");
+            "Nothing exceeds the threshold. To lower it, drag its line to the left or press , (comma).");
+    return tr("Drag the threshold line to update contour and events. N goes to the next event, ? shows all keys.");
 }
 
 } // namespace faintline

@@ -26,12 +26,13 @@ QString firstEstimateSentence(const Analysis &analysis, bool isBusy)
 
 Error firstEstimateError()
 {
-    return Error("threshold", "is a first estimate; what is exported waits for the refined one. Run refines it if it was stopped");
+    return Error("threshold", "is a first estimate; export needs the refined threshold. Press Run if the refinement "
+                              "was stopped");
 }
 
 QString refinedSentence(const Analysis &analysis, double firstEstimate)
 {
-    return tr("Threshold refined: %1 %2 instead of %3. Events follow it.")
+    return tr("Threshold refined from %3 to %1 %2. The events were updated.")
         .arg(analysis.threshold, 0, 'f', 2)
         .arg(statisticUnit(analysis.settings))
         .arg(firstEstimate, 0, 'f', 2);

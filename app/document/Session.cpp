@@ -184,7 +184,7 @@ Session readSession(const QString &path)
     } catch (const Error &error) {
         throw error.in(where);
     } catch (const Json::exception &error) {
-        throw Error(where, "is no session of this program: " + complaint(error));
+        throw Error(where, "is not a Faintline session: " + complaint(error));
     }
 }
 

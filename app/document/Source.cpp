@@ -36,7 +36,8 @@ namespace {
         auto frames = openFrames(pathBytes(path));
         if (frames->grid().axes.size() > 2)
             throw Error(pathBytes(path), "has frames on " + std::to_string(frames->grid().axes.size())
-                                                + " axes; one or two can be shown (faintline-cli sequential takes more)");
+                                                + " axes; at most two can be shown (faintline-cli sequential accepts "
+                                                  "more)");
         return frames;
     }
 
@@ -98,7 +99,7 @@ OpenedSource openSource(const Source &source)
     if (source.injections.empty())
         return opened;
     if (!opened.recording)
-        throw Error("recording.injected", "lines are added to the samples of a recording; this is of frames");
+        throw Error("recording.injected", "lines can be added to a recording only, not to frames");
     checkInjections(linesOf(source.injections), opened.recording->info(), "recording.injected");
     for (const Source::Injection &injection : source.injections)
         opened = withInjection(opened, injection);

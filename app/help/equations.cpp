@@ -32,16 +32,16 @@ const std::vector<Equation> &equations()
              "x  samples\n"
              "w  window of T_FT seconds\n"
              "hop  T_FT/k_t, bins T_FT⁻¹/k_f apart\n"
-             "B  noise background: mean power of the noise there, so y has mean 1 on noise\n"
+             "B  noise background: local mean noise power, so y has mean 1 on noise\n"
              "T, k_f  the box's frames, bins per cell\n"
-             "N  mean y beside the box: then it is a line's SNR in one window",
+             "N  mean y beside the box; the result is a line's SNR in one window",
              "Billon 2005, section 4; the background as in docs/theory.md"),
         make("output:smd", "The statistic of the sequential Markov detector",
              smdEquation,
              "n, m  states: bin and slope\n"
              "λ = ln p₁(y)/p₀(y)  evidence of the state's cell, nat\n"
              "P(n|m) = h(|b − a|)  from slope a to slope b\n"
-             "ln K  what going on is credited with; 0 wins: a reset",
+             "ln K  bonus for continuing a path; a reset if 0 is larger",
              "Billon 2005, section 3; Parsons 2008, eq. 8"),
         make("output:pOfN", "The statistic of P out of N",
              "m(t, f) = largest y in the window's band about f\n"
@@ -55,7 +55,7 @@ const std::vector<Equation> &equations()
              "boxcar:  D(t, f) = (1/n) Σ y(t′, f),  t−n < t′ ≤ t\n"
              "exponential:  D(t, f) = (1−a)·y(t, f) + a·D(t−1, f),  a = e^(−1/n)",
              "y  power over noise\n"
-             "n  frames of the duration that is set",
+             "n  frames of the duration set",
              "Billon 2005, section 5"),
         make("output:energy", "The statistic of single-frame energy",
              "D(t, f) = y(t, f)",
@@ -65,13 +65,13 @@ const std::vector<Equation> &equations()
              "u(n, t₀) = λ(n, t₀)\n"
              "u(n, t) = λ(n, t) + maxₘ [ ln P(n|m) + u(m, t−1) ],  t₀ < t < t₀ + B\n"
              "D = max over the slopes, at a block's end",
-             "B  frames of a block, begun afresh each time\n"
+             "B  frames of a block; each block starts from zero\n"
              "λ, P  as for the sequential Markov detector",
              "Billon 2005, section 2"),
         make("output:shiryaevRoberts", "The statistic of Shiryaev and Roberts",
              "A(n, t) = e^λ(n, t) · ( K Σₘ P(n|m) A(m, t−1) + 1 )\n"
              "D(t, f) = max over the slopes at f of ln A",
-             "A  all paths together, not the best alone\n"
+             "A  sum over all paths, not the best alone\n"
              "λ, P, K  as for the sequential Markov detector",
              "the sum-product form of Billon 2005, section 3"),
         make("profile", "The statistic along time",
@@ -80,18 +80,18 @@ const std::vector<Equation> &equations()
              "the picture of the statistic"),
         make("regulation", "ln K and resets",
              "reset in t:  ln K + maxₘ [ ln P(n|m) + u(m, t−1) ] < 0\n"
-             "calibrated:  K so that half of the states go on, on noise\n"
+             "calibrated:  K so that half of the states continue on noise\n"
              "mean:  K(t) = K₀ − mean of the continued scores",
-             "the share is over all states that are not kept from the detector",
+             "the share is over all states that are not inhibited",
              "Billon 2005, section 3; Parsons 2008, eq. 8 and 10"),
         make("threshold", "False alarms against the threshold",
              "P(D > T) of a cell of noise, simulated;  far out  ~ e^(−θT)\n"
-             "false alarms an hour = rate(T) · cells · frames an hour\n"
+             "false alarms per hour = rate(T) · cells · frames per hour\n"
              "ln rate(T) = ln rate(u) − θ·(T − u)",
-             "rate  events a cell and frame from the whole chain on simulated noise\n"
+             "rate  events per cell and frame from the whole chain on simulated noise\n"
              "u  where events were counted, θ  fitted slope, 1/nat",
              "docs/theory.md, False alarms; Lindley's recursion for the tail"),
-        make("why", "The ladder",
+        make("why", "Path breakdown",
              "u = Σ over the path's steps of  λ + ln P + ln K",
              "from the latest reset on, in which u = λ\n"
              "margin = D − threshold",
@@ -102,7 +102,7 @@ const std::vector<Equation> &equations()
              "T  threshold",
              "Parsons 2008, 2.3 and Figure 1; docs/theory.md, From statistic to tracks"),
         make("noise", "Calibration",
-             "ln K by bisection, so that half of the states go on\n"
+             "ln K by bisection, so that half of the states continue\n"
              "ln rate(T) = ln rate(u) − θ·(T − u)",
              "on simulated noise with the same window, overlap, model and detector",
              "Billon 2005, section 3"),
@@ -112,7 +112,7 @@ const std::vector<Equation> &equations()
              "distance: the largest gap of the two laws (Kolmogorov, Smirnov)",
              "p₀ of Billon 2005, section 4"),
         make("pd", "Detection probability",
-             "Pd = (1/I²) Σᵢ Σⱼ [ D₁ᵢ > D₀ⱼ ]  a run, averaged over the runs\n"
+             "Pd = (1/I²) Σᵢ Σⱼ [ D₁ᵢ > D₀ⱼ ]  per run, averaged over the runs\n"
              "at a threshold: k of n,  ( p + z²/2n ± z √( p(1−p)/n + z²/4n² ) ) / (1 + z²/n)",
              "D₁ᵢ  largest statistic on signal i,  D₀ⱼ  that of noise block j\n"
              "p = k/n, z = 1.96: 95 %",
@@ -125,9 +125,9 @@ const std::vector<Equation> &equations()
              "P  on noise, from each one's calibration\n"
              "one signal: within 4 cells and 2 frames for half of the time",
              "differencePicture and compareAnalyses in core/evaluate"),
-        make("sweep", "What the values of a setting are worth",
+        make("sweep", "Trade-off of a setting",
              "Pd = trials with a track on the line / trials\n"
-             "false alarms an hour = tracks that touch no line / hours",
+             "false alarms per hour = tracks that touch no line / hours",
              "every value on the same trials; Pd with Wilson's interval, counts with Garwood's",
              "Wilson 1927; Garwood 1936"),
         make("map", "A ping",
@@ -143,7 +143,7 @@ const std::vector<Equation> &equations()
              "Parsons 2008"),
         make("slice", "A slice through the states",
              "u(n, t) over two axes of n,\n"
-             "the others at the cursor, or the best of them",
+             "the other axes at the cursor, or the maximum over them",
              "n  position and rate along every axis of the frames",
              "Billon 2005, section 3; Parsons 2008, eq. 8"),
         make("latency", "Latency",
@@ -152,26 +152,26 @@ const std::vector<Equation> &equations()
              "trackScore in core/evaluate"),
         make("hand", "A line drawn by hand",
              "Σ λ(y(t, f(t)))  over its frames\n"
-             "SNR a frame = mean y − 1",
+             "SNR per frame = mean y − 1",
              "f(t)  straight between your points\n"
-             "λ  as the detector's, which adds ln P and ln K",
+             "λ  as in the detector, which adds ln P and ln K",
              "λ of Billon 2005, section 4"),
         make("walk", "The sequential test",
              "F_k(n) = e^λ_k(n) · Σₘ P(n|m) F_{k−1}(m),  Λ_k = Σₙ F_k(n)\n"
              "Λ ≥ γ₁ = (1−β)/α: a target;  Λ ≤ γ₀ = β/(1−α): none",
              "k  stage\n"
              "n  cell of the target\n"
-             "α  false alarms, β  misses that are allowed",
+             "α, β  permitted probabilities of false alarm and miss",
              "Grossi and Lops 2006, Algorithm 3.1, eq. 4 and 9"),
-        make("stopping", "When tests stop",
+        make("stopping", "Stopping stages",
              "ν = first k with Λ_k ≥ γ₁ or Λ_k ≤ γ₀",
              "bars: tests of either hypothesis that stopped at stage ν",
              "Grossi and Lops 2006, eq. 4"),
-        make("posterior", "Where the target may be",
-             "P(n | what was received) = F_k(n) / Λ_k",
+        make("posterior", "Posterior of the target's cell",
+             "P(n | received data) = F_k(n) / Λ_k",
              "F_k, Λ_k  as in the test's walk",
              "Grossi and Lops 2006, Algorithm 3.1"),
-        make("scan", "What was received",
+        make("scan", "Received power",
              "10·lg y,  largest over azimuth and elevation",
              "y  power over noise, range × Doppler",
              "Grossi and Lops 2006, section 4"),
@@ -183,7 +183,7 @@ const std::vector<Equation> &equations()
              "Grossi and Lops 2006, eq. 8"),
         make("prior", "Stages against the prior",
              "as against SNR, for a target whose steps have deviation σ",
-             "σ = 0  trajectory known, σ = ∞  nothing known",
+             "σ = 0  trajectory known, σ = ∞  trajectory unknown",
              "Grossi and Lops 2006, Figure 2"),
         make("sectors", "A survey of sectors",
              "saved = 1 − stages taken / stages of tests of fixed size",

@@ -39,8 +39,8 @@ namespace {
                                       {"Drag", "pan"},
                                       {"Shift + drag", "zoom to a box"},
                                       {"Click", "place the cursor"},
-                                      {"Ctrl + click", "on the peak nearby; M's corners too"},
-                                      {"Double-click", "go to the event there"}}};
+                                      {"Ctrl + click", "snap to the nearest peak, also for M's corners"},
+                                      {"Double-click", "go to the event under the pointer"}}};
         return section;
     }
 
@@ -66,25 +66,25 @@ namespace {
                                      {{",  .", "threshold down, up by a quarter nat"},
                                       {"N   Shift + N", "next, previous event"},
                                       {"Y  X  U", "accept, reject the event; undecided"},
-                                      {"E   G   Shift + G", "note on it; merge, separate several"},
+                                      {"E   G   Shift + G", "note on the event; merge, separate several"},
                                       {"W", "why detected, or why not"},
                                       {"Ctrl + D", "draw a line by hand"},
-                                      {"Ctrl + B", "keep as A, to compare others with it"},
+                                      {"Ctrl + B", "keep as A for comparison"},
                                       {"M   B", "measure a box; annotate it"},
-                                      {"K", "cursor to the peak nearby"},
+                                      {"K", "cursor to the nearest peak"},
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"I", "sidebands: drag one, or Alt + Left, Right"},
                                       {"Space", "play"},
                                       {"J  L", "one frame, ping or stage back, forward"},
                                       {"Ctrl + R", "run again"},
-                                      {"Escape", "stop, or clear what is marked"}}};
+                                      {"Escape", "stop, or clear the marks"}}};
         return section;
     }
 
     const Section &pings()
     {
         static const Section section{"Sonar pings",
-                                     {{"P", "from above, or range over bearing"},
+                                     {{"P", "view from above, or range over bearing"},
                                       {"J  L", "one ping back, forward"},
                                       {"Space   Shift + Space", "play, play backwards"}}};
         return section;
@@ -97,7 +97,7 @@ namespace {
                                       {"Ctrl + S", "save the session"},
                                       {"Ctrl + Z   Ctrl + Y", "undo, redo a setting"},
                                       {"Ctrl + K", "find a command by name"},
-                                      {"F1   ?", "these keys"},
+                                      {"F1   ?", "this list of keys"},
                                       {"Shift + F1", "the equation of the view"},
                                       {"F5", "presentation"},
                                       {"Ctrl + Q", "quit"}}};
@@ -120,7 +120,7 @@ namespace {
             {{"histories"}, waterfall("Here: range and bearing against time")},
             {{"map", "polar"},
              {"Here: a ping's map",
-              {{"P", "from above, or range over bearing"},
+              {{"P", "view from above, or range over bearing"},
                {"J  L", "one ping back, forward"},
                {"Space   Shift + Space", "play, play backwards"},
                {"Click, arrows", "place, move the cursor"},
@@ -147,25 +147,25 @@ namespace {
              {"Here: a chart",
               {{"Left  Right", "from point to point of a curve"},
                {"Up  Down", "from curve to curve"},
-               {"Click, Enter", "on a measured point: what is behind it"},
-               {"Boxes of the key", "show and hide curves"}}}},
+               {"Click, Enter", "on a measured point: show its trials"},
+               {"Boxes of the legend", "show and hide curves"}}}},
             {{"slice"}, waterfall("Here: a slice through the states")},
             {{"sweep"},
              {"Here: a sweep",
               {{"Left  Right", "from value to value"},
                {"Up  Down", "from curve to curve"},
-               {"Click, Enter", "on a value: take it over"}}}},
+               {"Click, Enter", "on a value: apply it"}}}},
             {{"compare"},
              {"Here: A against B",
               {{"Ctrl + B", "keep as A"}, {"Ctrl + Shift + B", "swap A and B"}, {"Click on an event", "go there"}}}},
             {{"walk", "sequential"},
              {"Here: the sequential test",
               {{"Click on a walk", "follow this test"},
-               {"Up  Down", "the test before, after it"},
+               {"Up  Down", "the previous, next test"},
                {"J  L", "one stage back, forward"},
-               {"Ctrl + T", "this panel"}}}},
+               {"Ctrl + T", "open this panel"}}}},
             {{"stopping"},
-             {"Here: when tests stop",
+             {"Here: stopping stages",
               {{"Click on a bar", "a test that stopped at this stage"}, {"J  L", "one stage back, forward"}}}},
             {{"posterior", "scan"},
              {"Here: one test's stage", {{"J  L", "one stage back, forward"}, {"The slider", "any stage"}}}},
@@ -176,14 +176,14 @@ namespace {
                {"Drag", "pan"},
                {"Click", "place the cursor"}}}},
             {{"why"},
-             {"Here: the ladder",
-              {{"Click in a picture", "explain the cell there"}, {"Arrows in a picture", "and of its neighbours"}}}},
+             {"Here: the path breakdown",
+              {{"Click a picture", "explain the cell there"}, {"Arrows in a picture", "explain its neighbours"}}}},
             {{"hand"},
              {"Here: drawing by hand",
-              {{"Press in the input", "a new point"},
+              {{"Press in the input", "add a point"},
                {"Drag a point", "move it; the numbers follow"},
-               {"Right click on it", "take it away"},
-               {"Alt + U", "a point at the cursor"}}}},
+               {"Right-click a point", "remove it"},
+               {"Alt + U", "add a point at the cursor"}}}},
         };
         return all;
     }

@@ -37,7 +37,7 @@ namespace {
         if (!value && !isNeeded)
             return {};
         if (!value || !value->is_string() || value->get<std::string>().empty())
-            throw Error(jsonName(where, key), "must be a text");
+            throw Error(jsonName(where, key), "must be a string");
         return value->get<std::string>();
     }
 
@@ -52,7 +52,7 @@ namespace {
         if (value.is_null())
             return otherwise;
         if (!value.is_number())
-            throw Error(where, "must be a number, a word, or two bounds of which one may be null");
+            throw Error(where, "must be a number, a word, or two bounds, one of which may be null");
         return value.get<double>();
     }
 
@@ -76,10 +76,10 @@ namespace {
                 part.low = boundOf(wanted[0], part.low, at);
                 part.high = boundOf(wanted[1], part.high, at);
                 if (part.low > part.high)
-                    throw Error(at, "has its bounds the wrong way round");
+                    throw Error(at, "has its bounds in the wrong order");
             } else {
                 if (!wanted.is_number())
-                    throw Error(at, "must be a number, a word, or two bounds of which one may be null");
+                    throw Error(at, "must be a number, a word, or two bounds, one of which may be null");
                 part.low = part.high = wanted.get<double>();
             }
             condition.parts.push_back(part);
@@ -115,9 +115,9 @@ namespace {
             return;
         if (!name.startsWith(QLatin1String("setting ")))
             throw Error(where + " = " + name.toStdString(),
-                        "is no view; there are "
+                        "is not a view; choose one of "
                             + (others + WindowViews::names()).join(QStringLiteral(", ")).toStdString()
-                            + " and \"setting NAME\"");
+                            + " or \"setting NAME\"");
         settingField(name.mid(8).toStdString());
     }
 
@@ -129,16 +129,16 @@ namespace {
         question.why = sentenceAt(object, "why", where, true);
         const Json *choices = find(object, "choices");
         if (!choices || !choices->is_array() || choices->size() < 2)
-            throw Error(jsonName(where, "choices"), "must be a list of at least two texts");
+            throw Error(jsonName(where, "choices"), "must be a list of at least two strings");
         for (const Json &choice : *choices) {
             if (!choice.is_string())
-                throw Error(jsonName(where, "choices"), "must be a list of at least two texts");
+                throw Error(jsonName(where, "choices"), "must be a list of at least two strings");
             question.choices << paragraphs(choice.get<std::string>());
         }
         const auto answer = numberAt(object, "answer", where).value_or(-1.0);
         question.answer = static_cast<int>(answer);
         if (question.answer != answer || question.answer < 0 || question.answer >= question.choices.size())
-            throw Error(jsonName(where, "answer"), "must be the number of a choice, counted from 0");
+            throw Error(jsonName(where, "answer"), "must be the index of a choice, counted from 0");
         return question;
     }
 
@@ -215,7 +215,7 @@ namespace {
         if (step.task.isEmpty() != step.until.isEmpty())
             throw Error(where, "a task needs both \"do\" and \"until\"");
         if (step.until.isEmpty() && !(step.then.isEmpty() && step.thenFacts.isEmpty()))
-            throw Error(where, "\"then\" and \"thenFacts\" come after \"until\", which is missing");
+            throw Error(where, "\"then\" and \"thenFacts\" require \"until\", which is missing");
         return step;
     }
 
@@ -237,7 +237,7 @@ Lesson lessonFromJson(const std::string &text, const QString &path)
         for (std::size_t i = 0; i < steps->size(); ++i)
             lesson.steps.push_back(stepOf((*steps)[i], "steps[" + std::to_string(i) + "]", folder));
         if (lesson.steps.front().open.isEmpty())
-            throw Error("steps[0].open", "is missing: a lesson begins with something to look at");
+            throw Error("steps[0].open", "is missing: the first step of a lesson must open a source");
         return lesson;
     } catch (const Error &error) {
         throw error.in(pathBytes(path));

@@ -47,7 +47,7 @@ LessonPanel::LessonPanel(QWidget *parent)
     m_title->setWordWrap(true);
     m_progress->setTextVisible(false);
     m_progress->setFixedHeight(4);
-    m_progress->setAccessibleName(tr("How far the lesson is"));
+    m_progress->setAccessibleName(tr("Progress of the lesson"));
     m_area->setWidgetResizable(true);
     m_area->setFrameShape(QFrame::NoFrame);
     m_area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -181,7 +181,7 @@ void LessonPanel::showAnswer(int chosen)
 {
     const LessonQuestion &question = *m_lesson.steps[static_cast<std::size_t>(m_step)].question;
     m_why->setText(
-        (chosen == question.answer ? tr("Right. ") : tr("It is “%1”. ").arg(question.choices[question.answer]))
+        (chosen == question.answer ? tr("Right. ") : tr("The answer is “%1”. ").arg(question.choices[question.answer]))
         + question.why);
     m_why->show();
     QTimer::singleShot(0, m_why, [this] { m_area->ensureWidgetVisible(m_why); });

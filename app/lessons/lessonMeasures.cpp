@@ -346,7 +346,7 @@ void checkMeasure(const std::string &name, const std::string &where)
     try {
         settingField(name);
     } catch (const Error &) {
-        throw Error(where, "is no measure and no setting");
+        throw Error(where, "is neither a measure nor a setting");
     }
 }
 

@@ -174,16 +174,16 @@ QWidget *ComparePanel::buildButtons()
     for (QPushButton *button : {m_keep, m_swap, m_goTo, m_compute})
         layout->addWidget(button);
     layout->addStretch(1);
-    m_keep->setToolTip(tr("What is shown now becomes A, settings and results (Ctrl+B)"));
-    m_swap->setToolTip(tr("A's settings become the current ones, and these A"));
-    m_goTo->setToolTip(tr("Make A's settings the current ones; undo goes back"));
-    m_compute->setToolTip(tr("A was kept while something else was open: compute it on what is open now"));
+    m_keep->setToolTip(tr("Keep the current settings and results as A (Ctrl+B)"));
+    m_swap->setToolTip(tr("Exchange A and the current settings"));
+    m_goTo->setToolTip(tr("Apply A's settings; undo restores the current ones"));
+    m_compute->setToolTip(tr("A was computed on another source; compute it on the open one"));
     for (const In in : {In::Both, In::A, In::B}) {
         QToolButton *filter = m_filters[static_cast<int>(in)];
         filter->setCheckable(true);
         filter->setChecked(true);
-        filter->setToolTip(in == In::Both ? tr("List the events that both have found")
-                                          : tr("List the events that only %1 has found").arg(nameOf(in)));
+        filter->setToolTip(in == In::Both ? tr("List the events that both found")
+                                          : tr("List the events that only %1 found").arg(nameOf(in)));
         connect(filter, &QToolButton::toggled, this, &ComparePanel::showEvents);
         layout->addWidget(filter);
     }
@@ -280,15 +280,17 @@ void ComparePanel::showPicture()
 {
     const auto &result = m_comparer.result();
     m_picturePane->setVisible(!m_document.hasPings());
-    m_picture->setEmptySentence(m_comparer.kept() ? tr("The difference appears here when A and B are of the same recording.")
-                                                  : tr("Keep what you see as A (Ctrl+B), then change any setting."));
+    m_picture->setEmptySentence(m_comparer.kept() ? tr("The difference appears here if A and B are of the same "
+                                                       "recording.")
+                                                  : tr("Keep the current result as A (Ctrl+B), then change any setting."));
     if (!result || !result->difference)
         return m_picture->setPicture(nullptr, {});
     const bool isPlain = haveCommonUnit(*result->a, *result->b);
     m_picture->setStatisticUnit(tr("nat"), isPlain ? tr("B − A (nat)") : tr("B − A, rarity (nat)"));
-    m_picturePane->setToolTip(isPlain ? tr("How much farther above its threshold B lies than A. Blue: A is ahead; red: B is ahead.")
-                                      : tr("How much rarer than at its threshold B is on noise than A: their statistics have other "
-                                           "units, their false-alarm probabilities can be compared. Blue: A is ahead; red: B is ahead."));
+    m_picturePane->setToolTip(isPlain ? tr("Margin of B above its threshold minus that of A. Blue: A is higher; red: B "
+                                           "is higher.")
+                                      : tr("Margin of B minus that of A, in log false-alarm probability because their "
+                                           "statistics differ in unit. Blue: A is higher; red: B is higher."));
     m_picture->setPicture(result->difference, result->b->grid().axes.back());
 }
 
@@ -308,10 +310,10 @@ void ComparePanel::showEvents()
         const QString placeName = place.unit == "Hz" ? tr("Frequency") : labelText(place.name, mostUnitLetters);
         m_table->setHorizontalHeaderLabels({tr("In"), tr("Onset"), placeName,
                                             tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
-        m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("When A detected it"));
-        m_table->horizontalHeaderItem(DetectedB)->setToolTip(tr("When B detected it"));
-        m_table->horizontalHeaderItem(StatisticA)->setToolTip(tr("Its largest statistic in A, %1").arg(unitA));
-        m_table->horizontalHeaderItem(StatisticB)->setToolTip(tr("Its largest statistic in B, %1").arg(unitB));
+        m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("Time at which A detected it"));
+        m_table->horizontalHeaderItem(DetectedB)->setToolTip(tr("Time at which B detected it"));
+        m_table->horizontalHeaderItem(StatisticA)->setToolTip(tr("Largest statistic in A, %1").arg(unitA));
+        m_table->horizontalHeaderItem(StatisticB)->setToolTip(tr("Largest statistic in B, %1").arg(unitB));
         for (std::size_t i = 0; i < comparison.events.size(); ++i) {
             const ComparedEvent &compared = comparison.events[i];
             if (!m_filters[static_cast<int>(compared.in())]->isChecked())
@@ -363,7 +365,7 @@ QString ComparePanel::costText() const
     if (!cost)
         return {};
     const auto seconds = [](double value) { return numberText(value, value < 10.0 ? 2 : value < 100.0 ? 1 : 0); };
-    return tr(" An hour of recording takes A %1 s and B %2 s of a processor core.").arg(seconds(cost->a), seconds(cost->b));
+    return tr(" One hour of recording takes %1 s of processor time with A and %2 s with B.").arg(seconds(cost->a), seconds(cost->b));
 }
 
 void ComparePanel::showWords()
@@ -372,10 +374,10 @@ void ComparePanel::showWords()
     if (!result) {
         m_differences->clear();
         if (!m_comparer.kept())
-            m_sentence->setText(tr("Keep what you see as A, then change the detector or any setting: the difference, and what only one of "
-                                   "the two has found, appear here."));
+            m_sentence->setText(tr("Keep the current result as A, then change the detector or any setting. The "
+                                   "difference, and the events that only one of the two found, appear here."));
         else
-            m_sentence->setText(m_comparer.isOfWhatIsOpen() ? tr("Comparing …") : tr("A was kept while something else was open."));
+            m_sentence->setText(m_comparer.isOfWhatIsOpen() ? tr("Comparing …") : tr("A was computed on another source."));
         return;
     }
     const Comparison &comparison = result->comparison;
@@ -389,7 +391,8 @@ void ComparePanel::showWords()
     QStringList words;
     for (const SettingDifference &difference : result->settings)
         words << inWords(difference);
-    m_differences->setText(words.isEmpty() ? tr("A and B have the same settings: change any, and see here what it does.")
+    m_differences->setText(words.isEmpty() ? tr("A and B have the same settings. Change a setting to see its effect "
+                                                "here.")
                                            : tr("From A to B: %1.").arg(words.join(QStringLiteral("; "))));
 }
 

@@ -36,7 +36,7 @@ namespace {
 
 EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments, QWidget *parent)
     : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new ExperimentForm),
-      m_column(new StartColumn(m_form, tr("Progress of the experiment"), tr("Run this experiment; the window stays free meanwhile"))),
+      m_column(new StartColumn(m_form, tr("Progress of the experiment"), tr("Run this experiment in the background"))),
       m_tabs(new QTabWidget), m_pd(new ChartPlot), m_roc(new ChartPlot), m_snr(new QComboBox)
 {
     auto *rocPage = new QWidget;
@@ -54,9 +54,9 @@ EvaluatePanel::EvaluatePanel(const Document &document, Experiments &experiments,
     m_tabs->addTab(m_pd, tr("Pd against SNR"));
     m_tabs->addTab(rocPage, tr("ROC"));
     m_tabs->setDocumentMode(true);
-    m_pd->setInvitation(tr("click to see one of its trials"));
+    m_pd->setInvitation(tr("click it to see one of its trials"));
     for (ChartPlot *plot : {m_pd, m_roc})
-        plot->setEmptySentence(tr("Choose lines and detectors, then press Start: the curves grow here."));
+        plot->setEmptySentence(tr("Choose lines and detectors, then press Start to plot the curves."));
 
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -117,7 +117,7 @@ void EvaluatePanel::start()
         return emit failed(Error("experiment", why.toStdString()));
     const bool isInRecording = m_form->isInRecording();
     if (isInRecording && !m_document.recording())
-        return emit failed(Error("experiment", "needs a recording to add lines to, and none is open"));
+        return emit failed(Error("experiment", "needs an open recording to which lines can be added"));
     const QString source = m_document.source().name();
     show(isInRecording ? m_experiments.start(tr("In %1: %2").arg(source, m_form->name()),
                                              m_form->injection(m_document.source().path), m_document.recording())
@@ -164,7 +164,7 @@ void EvaluatePanel::fillSnrs(const Experiments::Entry &entry)
 
 void EvaluatePanel::showPd(const Experiments::Entry &entry)
 {
-    m_pd->setInvitation(entry.campaign ? tr("click to see one of its trials") : QString());
+    m_pd->setInvitation(entry.campaign ? tr("click it to see one of its trials") : QString());
     m_pdChart = entry.imported ? chartOf(*entry.imported) : entry.campaign ? pdChart(*entry.campaign) : Chart();
     showOperatingPoint(entry);
 }

@@ -65,19 +65,20 @@ ExperimentForm::ExperimentForm(QWidget *parent)
     : QWidget(parent), m_noise(new QComboBox), m_lowestDb(number(-5, -40, 40, 1, 1, tr(" dB"), tr("Lowest SNR"))),
       m_highestDb(number(3, -40, 40, 1, 1, tr(" dB"), tr("Highest SNR"))),
       m_stepDb(number(1, 0.1, 20, 0.5, 1, tr(" dB"), tr("Step between SNRs"))),
-      m_duration(number(100, 1, 5000, 10, 0, tr(" T_FT"), tr("How long a line lasts, in windows"))),
+      m_duration(number(100, 1, 5000, 10, 0, tr(" T_FT"), tr("Duration of a line, in windows"))),
       m_drift(number(0, -5, 5, 0.05, 3, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
       m_wander(number(0, 0, 20, 0.5, 2, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
       m_wanderTime(number(15, 1, 1000, 1, 0, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
-      m_falseAlarms(number(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour that all detectors are set to"))),
-      m_runs(count(20, 1, 100000, tr("Runs of 30 lines each in simulated noise; lines one by one in a recording"))),
-      m_seed(count(1, 0, 2147483647, tr("Seed: the same one gives the same bytes"))), m_meaning(plainLabel())
+      m_falseAlarms(number(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour to which all detectors are set"))),
+      m_runs(count(20, 1, 100000, tr("Number of runs of 30 lines each in simulated noise, or of lines added one at a "
+                                     "time to a recording"))),
+      m_seed(count(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
 {
     m_noise->addItem(tr("in simulated noise"));
     m_noise->addItem(tr("in this recording"));
-    m_noise->setAccessibleName(tr("Noise that the lines are in"));
+    m_noise->setAccessibleName(tr("Noise to which the lines are added"));
     m_noise->setToolTip(
-        tr("White noise as in Billon 2005, or the noise of what is open: then one line at a time is added to it"));
+        tr("White noise as in Billon 2005, or the open recording, to which one line is added at a time"));
 
     auto *detectors = new QGridLayout;
     detectors->setVerticalSpacing(2);
@@ -90,7 +91,7 @@ ExperimentForm::ExperimentForm(QWidget *parent)
         detectors->addWidget(m_detectors[i], static_cast<int>(i / 2), static_cast<int>(i % 2));
         connect(m_detectors[i], &QCheckBox::toggled, this, &ExperimentForm::changed);
     }
-    m_detectors[0]->setToolTip(tr("The detector and model of the pipeline, as they are set now"));
+    m_detectors[0]->setToolTip(tr("The detector and model set in the pipeline"));
 
     auto *snr = new QHBoxLayout;
     snr->setSpacing(4);
@@ -264,7 +265,7 @@ void ExperimentForm::showMeaning()
     m_falseAlarms->setEnabled(isInRecording());
     QString text;
     if (isInRecording() && m_windowSeconds > 0.0)
-        text = tr("Here T_FT = %1 s: lines of %2, at %3 false alarms per hour.")
+        text = tr("With T_FT = %1 s, lines last %2; %3 false alarms per hour.")
                    .arg(m_windowSeconds, 0, 'g', 3)
                    .arg(secondsText(m_duration->value() * m_windowSeconds, 0.1), powerText(m_falseAlarms->value(), 3));
     else

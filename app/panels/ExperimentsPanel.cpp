@@ -49,9 +49,9 @@ ExperimentsPanel::ExperimentsPanel(Experiments &experiments, QWidget *parent)
       m_remove(new QPushButton(tr("Remove"))), m_export(new QPushButton(tr("Export…")))
 {
     auto *import = new QPushButton(tr("Import…"));
-    import->setToolTip(tr("A campaign's runs, also a shard's, or a curve in CSV"));
-    m_show->setToolTip(tr("Show its curves or tables again (Enter)"));
-    m_export->setToolTip(tr("Curve as CSV, runs as a campaign; a reproduction as tables and pictures"));
+    import->setToolTip(tr("Import the runs of a campaign or shard, or a curve in CSV"));
+    m_show->setToolTip(tr("Show the curves or tables of the experiment (Enter)"));
+    m_export->setToolTip(tr("Export a curve as CSV, runs as a campaign, or a reproduction as tables and pictures"));
     m_table->setHorizontalHeaderLabels({tr("Experiment"), tr("Progress"), tr("State")});
     m_table->verticalHeader()->hide();
     m_table->verticalHeader()->setDefaultSectionSize(24);

@@ -68,22 +68,23 @@ namespace {
 HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *parent)
     : QWidget(parent), m_document(document), m_workbench(workbench), m_line(new HandLine(*workbench.input())),
       m_draw(new QPushButton(tr("Dra&w"))), m_cover(new QPushButton(tr("Cover the &statistic"))),
-      m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("&Take one back"))),
+      m_add(new QPushButton(tr("Point at c&ursor"))), m_remove(new QPushButton(tr("Remove las&t"))),
       m_clear(new QPushButton(tr("&Clear"))), m_sentence(plainLabel()), m_table(new QTableWidget(3, 3))
 {
     m_draw->setCheckable(true);
     m_draw->setToolTip(
-        tr("Press into the input picture to make a point, drag points, take them away with the right button"));
+        tr("Click the input picture to add a point; drag a point to move it, right-click it to remove it"));
     m_cover->setCheckable(true);
-    m_cover->setToolTip(tr("Predict, then reveal: statistic, tracks and truth are hidden until you uncover them"));
-    m_add->setToolTip(tr("The keyboard's way to draw: move the cursor with the arrows, and press this"));
+    m_cover->setToolTip(tr("Hide statistic, tracks and truth until you reveal them"));
+    m_add->setToolTip(tr("Add a point at the cursor, which the arrow keys move"));
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_table->setHorizontalHeaderLabels({tr("Frames"), tr("Σ λ (nat)"), tr("SNR")});
     m_table->horizontalHeaderItem(1)->setToolTip(tr("Evidence: the sum of the log-likelihood ratios along the path"));
     m_table->horizontalHeaderItem(2)->setToolTip(
-        tr("In one frame: mean power along the path over the noise's, less one"));
-    m_table->setVerticalHeaderLabels({tr("You, all of it"), tr("You, where both are"), tr("The detector there")});
+        tr("Mean power along the path over the noise power, less one, in one frame"));
+    m_table->setVerticalHeaderLabels({tr("Your line, all frames"), tr("Your line, shared frames"), tr("Detector, "
+                                                                                                      "shared frames")});
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -213,23 +214,22 @@ void HandLinePanel::showSentence()
     if (!m_comparison) {
         m_sentence->setText(
             m_document.hasPings()
-                ? tr("Lines are drawn through recordings, not through pings.")
-                : tr("Press Draw and drag a line through the input, where you think a signal is. Cover the statistic "
-                     "first, and it is a prediction."));
+                ? tr("Lines can be drawn through recordings, not through pings.")
+                : tr("Press Draw and drag a line through the input where you expect a signal. Cover the statistic "
+                     "first to make it a prediction."));
         return;
     }
     const Comparison &both = *m_comparison;
     if (isCovered())
         return m_sentence->setText(
-            tr("Your line gathers %1 nat in %2 frames. Reveal shows what the detector made of it.")
+            tr("Your line collects %1 nat in %2 frames. Press Reveal to compare it with the detector.")
                 .arg(numberText(both.own.logLikelihoodRatio, 1))
                 .arg(both.own.frames));
     if (!both.track)
         return m_sentence->setText(tr("The detector has no track in these frames."));
     const double ahead = both.ownThere.logLikelihoodRatio - both.detector.logLikelihoodRatio;
-    m_sentence->setText(tr("In the %1 frames that you share with track %2 you are %3 nat %4, and %5 away from it on "
-                           "average. The detector's "
-                           "statistic has ln P and ln K of every step besides its Σ λ.")
+    m_sentence->setText(tr("In the %1 frames shared with track %2, your line is %3 nat %4 and on average %5 away. The "
+                           "detector's statistic also contains ln P and ln K of every step.")
                             .arg(both.frames)
                             .arg(both.track)
                             .arg(numberText(std::abs(ahead), 1), ahead > 0.0 ? tr("ahead of it") : tr("behind it"),

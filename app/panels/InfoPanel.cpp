@@ -67,7 +67,7 @@ namespace {
         if (info.centreHz != 0.0)
             rows.row(tr("Centre frequency"), QString::fromStdString(formatNumber(info.centreHz)) + tr(" Hz"));
         if (info.startUnixSeconds)
-            rows.row(tr("Begins"), QString::fromStdString(formatUtc(*info.startUnixSeconds)));
+            rows.row(tr("Start"), QString::fromStdString(formatUtc(*info.startUnixSeconds)));
         for (const std::string &note : info.notes)
             rows.note(messageText(note));
     }
@@ -82,7 +82,7 @@ namespace {
                      tr("%1 cells of %2 %3%4")
                          .arg(axis.count)
                          .arg(axis.step, 0, 'g', 4)
-                         .arg(labelText(axis.unit, mostUnitLetters), axis.cyclic ? tr(", all round") : QString()));
+                         .arg(labelText(axis.unit, mostUnitLetters), axis.cyclic ? tr(", full circle") : QString()));
         rows.row(tr("States"), QString::number(analysis.model.space.stateCount()));
         if (analysis.lnKBand.deviation > 0.0)
             rows.row(tr("ln K on noise"), tr("%1 … %2 nat").arg(analysis.lnKBand.low(), 0, 'f', 3).arg(analysis.lnKBand.high(), 0, 'f', 3));
@@ -153,7 +153,7 @@ InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, Q
 void InfoPanel::refresh()
 {
     if (m_document.isEmpty())
-        return m_label->setText(tr("Open a recording to see what is known of it."));
+        return m_label->setText(tr("Open a recording to see its properties."));
     Rows rows;
     if (m_document.recording())
         describeRecording(rows, m_document.recording()->info());

@@ -47,8 +47,8 @@ InjectDialog::InjectDialog(const RecordingInfo &recording, double startSeconds, 
     m_drift = number(0.0, -1e6, 1e6, 0.1 * cell * cell, 3, tr(" Hz/s"));
     m_wander = number(0.0, 0, 1e6, cell, 2, tr(" Hz"));
     m_wanderTime = number(15.0 * windowSeconds, 1e-3, 1e6, windowSeconds, 2, tr(" s"));
-    m_snr->setToolTip(tr("Power over the noise at its place, in one window of %1 s").arg(windowSeconds, 0, 'g', 3));
-    m_duration->setToolTip(tr("0 is to the recording's end"));
+    m_snr->setToolTip(tr("Power over the local noise power, in one window of %1 s").arg(windowSeconds, 0, 'g', 3));
+    m_duration->setToolTip(tr("0 extends the line to the end of the recording"));
 
     auto *form = new QFormLayout;
     form->addRow(tr("&SNR"), m_snr);

@@ -68,7 +68,7 @@ LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     for (ChartPlot *plot : {m_pd, m_histogram})
-        plot->setEmptySentence(tr("Measure to see how soon the scene's targets are found."));
+        plot->setEmptySentence(tr("Press Measure to see how soon the scene's targets are found."));
     auto *top = new QHBoxLayout;
     top->setContentsMargins(8, 6, 8, 4);
     top->setSpacing(10);
@@ -123,9 +123,9 @@ QString LatencyPanel::obstacle() const
     if (!m_document.source().pings || m_document.source().pings->targets.empty())
         return tr("Needs a simulated scene of pings with known targets.");
     if (!m_document.analysis())
-        return tr("Needs an analysis for its threshold.");
+        return tr("Needs an analysis to take its threshold from.");
     if (!std::holds_alternative<SmdSettings>(m_document.settings().detector) || m_document.settings().model.motion == Motion::Bank)
-        return tr("Runs one sequential Markov detector: choose that detector and one model.");
+        return tr("Needs the sequential Markov detector with a single model.");
     return {};
 }
 
@@ -163,13 +163,13 @@ void LatencyPanel::show(const std::vector<TrackScore> &scores, Index longest, do
     }
     const Index last = std::max<Index>(1, *std::max_element(all.confirmation.begin(), all.confirmation.end()));
     const Index shown = std::min(longest, std::max(last, *std::max_element(all.detection.begin(), all.detection.end())) + 3);
-    m_pd->setChart({"Found within so many pings", "pings since the target appeared", "Pd", false, false,
+    m_pd->setChart({"Probability of detection against latency", "pings since the target appeared", "Pd", false, false,
                     {pdCurve("detected", all.detection, shown), pdCurve("confirmed", all.confirmation, shown)}});
     m_histogram->setChart({"Latency", "pings since the target appeared", "targets", false, false,
                            {histogramCurve("detected", all.detection, shown), histogramCurve("confirmed", all.confirmation, shown)}});
     const auto never = std::count_if(all.detection.begin(), all.detection.end(), [](Index latency) { return latency < 0; });
-    m_sentence->setText(tr("%1 targets in %2 runs at %3 nat, noise settled for 200 pings: %4 never found, %5 false "
-                           "tracks, %6 of them confirmed.")
+    m_sentence->setText(tr("%1 targets in %2 runs at %3 nat, after 200 pings of noise: %4 not found; %5 false tracks, "
+                           "%6 of them confirmed.")
                             .arg(all.detection.size())
                             .arg(scores.size())
                             .arg(threshold, 0, 'f', 1)

@@ -47,7 +47,7 @@ LawPanel::LawPanel(const Document &document, QWidget *parent)
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 2, 8, 4);
-    m_sentence->setAccessibleName(tr("What the law means"));
+    m_sentence->setAccessibleName(tr("Interpretation of the law"));
     m_plots->setContentsMargins(0, 0, 0, 0);
     m_plots->setSpacing(2);
     auto *layout = new QVBoxLayout(this);
@@ -90,7 +90,7 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
     if (analysis.grid().axes.size() != 2)
         return {};
     if (model.motion == Motion::NonManoeuvring)
-        return {{{}, tr("Change of either rate from ping to ping (cells/ping): none"), {1.0}, 0, {0, 1}}};
+        return {{{}, tr("Rates do not change from ping to ping (cells/ping)"), {1.0}, 0, {0, 1}}};
     const std::vector<KinematicAxis> &axes = turningSpace(analysis).axes();
     return {{QStringLiteral("model.rangeRateChange"), tr("Change of range rate per %1 (cells/%1)").arg(frame), model.rangeRateChange,
              axes[0].rateCount - 1, {0}},
@@ -127,8 +127,9 @@ void LawPanel::show()
         law.plot->setAccessibleName(law.title);
         law.plot->setEditable(!law.field.isEmpty());
         law.plot->setToolTip(law.field.isEmpty() ? QString()
-                                                 : tr("Drag a bar, or choose one with ← → and change it with ↑ ↓: the law of the changes "
-                                                      "of rate, which always adds up to 1. One step of undo each."));
+                                                 : tr("Law of the rate changes. Drag a bar, or select one with ← → and "
+                                                      "change it with ↑ ↓; the sum stays 1. Each change is one undo "
+                                                      "step."));
         law.plot->setLaw(law.values, law.mostChange);
     }
     m_laws = std::move(laws);
@@ -163,9 +164,9 @@ QString LawPanel::driftWords(const Analysis &analysis) const
 QString LawPanel::snrWords(const Analysis &analysis) const
 {
     if (!std::holds_alternative<SmdSettings>(m_document.settings().detector))
-        return tr("Only the sequential Markov detector is damped by it.");
+        return tr("SNR limits are given for the sequential Markov detector only.");
     if (analysis.isBank())
-        return tr("Each of the models in parallel has a ln K of its own.");
+        return tr("Each of the parallel models has its own ln K.");
     double kept = 0.0;
     double changing = 0.0;
     for (const Law &law : m_laws) {
@@ -184,8 +185,9 @@ QString LawPanel::snrWords(const Analysis &analysis) const
         return tr("%1 dB").arg(numberText(dbFromRatio(snr), 1));
     };
     const QString lines = m_document.hasPings() ? tr("a target") : tr("a line");
-    return tr("At ln K = %1 evidence adds up from these SNRs in one frame: %2 for %3 that keeps its rate, %4 where it changes as the law "
-              "says. Below, a path by itself loses on the mean; those beside it help a little.")
+    return tr("At ln K = %1, evidence accumulates above these SNRs in one frame: %2 for %3 at a constant rate, %4 if "
+              "the rate changes as the law says. Below them a single path loses evidence on average; neighbouring "
+              "paths help a little.")
         .arg(numberText(lnK, 2), words(kept), lines, words(changing));
 }
 
@@ -201,7 +203,7 @@ void LawPanel::sayWhatItMeans()
     QStringList costs;
     for (const Law &law : m_laws) {
         const LawDamping cost = damping(law.plot->law());
-        costs << tr("%1 nat for the likeliest change, %2 for the unlikeliest, %3 on the mean")
+        costs << tr("%1 nat for the likeliest change, %2 for the least likely, %3 on average")
                      .arg(numberText(cost.likeliest, 2), numberText(cost.unlikeliest, 2), numberText(cost.mean, 2));
     }
     if (m_laws.size() == 2)

@@ -50,8 +50,9 @@ NoiseCheck::NoiseCheck(const Document &document, AnalysisController &controller,
     m_button->setObjectName(QStringLiteral("countOnSurrogates"));
     m_correct->setObjectName(QStringLiteral("correctThreshold"));
     m_correct->setAccessibleName(tr("Correct the threshold"));
-    m_button->setToolTip(tr("Makes noise of this recording's length, colour, levels and gaps without any signal, analyses it as "
-                            "this recording was, and counts the events: how many false alarms come for one ordered"));
+    m_button->setToolTip(tr("Simulates noise with the length, spectrum, levels and gaps of this recording, analyses it "
+                            "with the same settings and counts the events: actual false alarms per false alarm "
+                            "specified"));
     m_progress->setRange(0, 1000);
     m_progress->setTextVisible(false);
     m_progress->setFixedHeight(6);
@@ -151,16 +152,16 @@ void NoiseCheck::count()
 void NoiseCheck::show(const SurrogateCount &count)
 {
     const Analysis &analysis = *m_document.analysis();
-    QString text = tr("%1 events came for %2 ordered in %3 h of noise like this recording's: ratio %4 (95 %: %5 to %6).")
+    QString text = tr("%1 events for %2 specified in %3 h of noise like this recording's: ratio %4 (95 %: %5 to %6).")
                        .arg(count.events)
                        .arg(numberText(count.ordered, 0), numberText(count.hours, 1), numberText(count.ratio, 2),
                             numberText(count.interval.low, 2), numberText(count.interval.high, 2));
     if (count.correction == 0.0) {
-        text += QLatin1Char(' ') + tr("The threshold keeps its promise here.");
+        text += QLatin1Char(' ') + tr("The threshold gives the specified false-alarm rate here.");
     } else {
         m_correctedNats = analysis.threshold + count.correction;
         m_correct->setText(tr("Set threshold to %1 %2").arg(numberText(m_correctedNats, 2), statisticUnit(analysis.settings)));
-        m_correct->setToolTip(tr("As many false alarms come then as were ordered"));
+        m_correct->setToolTip(tr("At this threshold the false-alarm rate is as specified"));
         m_correct->show();
     }
     m_result->setText(text);

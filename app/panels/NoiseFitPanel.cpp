@@ -91,11 +91,10 @@ NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
     m_plot->setEmptySentence(tr("Quantiles of the noise appear here."));
     m_table->setHorizontalHeaderLabels({tr("Band"), tr("Mean"), tr("KS distance"), tr("Pfa")});
     m_table->horizontalHeaderItem(2)->setToolTip(
-        tr("Kolmogorov and Smirnov's distance to e^(-y), and its 95 % limit for as many independent values"));
+        tr("Kolmogorov–Smirnov distance to e^(-y), and its 95 % limit for the number of independent values"));
     m_table->horizontalHeaderItem(3)->setToolTip(
-        tr("How much likelier this band's noise exceeds a threshold in a cell than noise of the law itself: at the "
-           "threshold's own false-alarm "
-           "probability, or at 10⁻⁴ where that is smaller than can be vouched for"));
+        tr("Ratio of the false-alarm probabilities per cell of this band's noise and of noise of the law itself, at "
+           "the current threshold, or at 10⁻⁴ if that probability is too small to be estimated"));
     makeReadingTable(*m_table, 22);
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     m_table->horizontalHeader()->setStretchLastSection(true);
@@ -171,24 +170,27 @@ void NoiseFitPanel::say(const Fit &fit)
         std::count_if(fit.bands.begin(), fit.bands.end(), [](const FittedBand &band) { return !band.fits(); });
     if (fit.pfa.empty())
         return m_sentence->setText((misfits == 0 ? tr("All bands follow the law.")
-                                                 : tr("%1 of %2 bands depart from the law; targets in them do so too.")
+                                                 : tr("%1 of %2 bands depart from the law; targets in a band also "
+                                                      "cause this.")
                                                        .arg(misfits)
                                                        .arg(fit.bands.size()))
-                                   + QLatin1Char(' ') + tr("What misfits do to Pfa is reckoned for slope sets only."));
+                                   + QLatin1Char(' ') + tr("The effect of misfits on Pfa is computed for slope sets "
+                                                           "only."));
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
                                         [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
     const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());
     const bool isHarmless = misfits == 0 && worst->ratio() < notable;
-    const QString law = misfits > 0 ? tr("%1 of %2 bands depart from the law; lines in them do so too.").arg(misfits).arg(fit.bands.size())
+    const QString law = misfits > 0 ? tr("%1 of %2 bands depart from the law; lines in a band also cause this.").arg(misfits).arg(fit.bands.size())
                         : isHarmless ? tr("All bands follow the law.")
-                                     : tr("All bands follow the law but for their tails, in which lines are too.");
+                                     : tr("All bands follow the law except in their tails, which include any lines.");
     const QString ratio = powerText(worst->ratio(), 3);
     const QString nominal = powerText(worst->nominal);
-    QString alarms = tr("Taken as noise, %1 would give %2 times a Pfa of %3 per cell.").arg(band, ratio, nominal);
+    QString alarms = tr("If %1 were noise only, it would give %2 times the nominal Pfa of %3 per cell.").arg(band, ratio, nominal);
     if (growsWithoutEnd(*worst))
-        alarms = tr("Taken as noise, %1 would let D grow without end: nearly every cell above the threshold.").arg(band);
+        alarms = tr("If %1 were noise only, D would grow without bound and nearly every cell would exceed the "
+                    "threshold.").arg(band);
     else if (isHarmless)
-        alarms = tr("Where it gives a Pfa of %1 per cell, these give at most %2 times that (%3).").arg(nominal, ratio, band);
+        alarms = tr("At a nominal Pfa of %1 per cell, the bands give at most %2 times that (%3).").arg(nominal, ratio, band);
     m_sentence->setText(law + QLatin1Char(' ') + alarms);
 }
 

@@ -55,7 +55,7 @@ OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
 
     auto *form = new QFormLayout(this);
     auto *what =
-        new QLabel(tr("<b>%1</b> holds bare samples. What are they?").arg(fileLabel(path).toHtmlEscaped()));
+        new QLabel(tr("<b>%1</b> holds samples without a header. Specify their format.").arg(fileLabel(path).toHtmlEscaped()));
     form->addRow(what);
     form->addRow(tr("&Type"), m_type);
     form->addRow(tr("Sample &rate"), m_rate);

@@ -61,11 +61,11 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
         m_preset->setItemData(m_preset->count() - 1, QString::fromStdString(preset.sentence), Qt::ToolTipRole);
     }
     m_preset->setAccessibleName(tr("Preset"));
-    m_preset->setToolTip(tr("A starting point for a kind of recording"));
+    m_preset->setToolTip(tr("Initial settings for a kind of recording"));
 
     m_window->setObjectName(QStringLiteral("windowChoice"));
     m_window->setAccessibleName(tr("Window"));
-    m_window->setToolTip(tr("Windows that were tried on this recording, with the number of tracks each one found"));
+    m_window->setToolTip(tr("Windows tried on this recording, with the number of tracks found with each"));
 
     m_top->setContentsMargins(10, 5, 10, 3);
     m_top->setHorizontalSpacing(10);
@@ -172,7 +172,7 @@ void PipelinePanel::applyPreset(int index)
     if (index == 0)
         return showSettings();
     m_controller.setSettings(withSelection(presets()[static_cast<std::size_t>(index - 1)].settings),
-                             tr("Take preset “%1”").arg(m_preset->itemText(index)));
+                             tr("Apply preset “%1”").arg(m_preset->itemText(index)));
 }
 
 void PipelinePanel::applyWindow(int index)
@@ -181,7 +181,7 @@ void PipelinePanel::applyWindow(int index)
     AnalysisSettings settings = inWindowOf(trial, m_document.settings());
     if (index == 0)
         settings.spectrogram.windowSeconds = 0.0;
-    m_controller.setSettings(settings, tr("Take window “%1”").arg(m_window->itemText(index)));
+    m_controller.setSettings(settings, tr("Apply window “%1”").arg(m_window->itemText(index)));
 }
 
 AnalysisSettings PipelinePanel::withSelection(AnalysisSettings settings) const

@@ -35,7 +35,7 @@ namespace {
 } // namespace
 
 ReproductionPanel::ReproductionPanel(QWidget *parent)
-    : QWidget(parent), m_title(new QLabel(tr("Choose a table or figure from the menu Reproduce."))),
+    : QWidget(parent), m_title(new QLabel(tr("Choose a table or figure from the Reproduce menu."))),
       m_notes(new QLabel), m_table(new QTableWidget(0, 8)), m_which(new QComboBox), m_plot(new ChartPlot)
 {
     m_title->setFont(Theme::boldFont(13));
@@ -55,9 +55,9 @@ ReproductionPanel::ReproductionPanel(QWidget *parent)
     m_table->setAlternatingRowColors(true);
     m_table->setFrameShape(QFrame::NoFrame);
     m_table->setAccessibleName(tr("Paper, ours, interval and gap"));
-    m_plot->setEmptySentence(tr("Its chart appears here."));
+    m_plot->setEmptySentence(tr("The chart appears here."));
     m_which->hide();
-    m_which->setAccessibleName(tr("Which chart"));
+    m_which->setAccessibleName(tr("Chart"));
 
     auto *left = new QWidget;
     auto *leftLayout = new QVBoxLayout(left);
@@ -91,7 +91,7 @@ void ReproductionPanel::show(std::shared_ptr<const Reproduction> reproduction)
         std::count_if(cells.begin(), cells.end(), [](const ReproducedCell &cell) { return cell.isJudged(); });
     const auto inside = std::count_if(cells.begin(), cells.end(),
                                       [](const ReproducedCell &cell) { return cell.isJudged() && cell.isInside(); });
-    m_title->setText(judged > 0 ? tr("%1: %2 of %3 figures inside their tolerance")
+    m_title->setText(judged > 0 ? tr("%1: %2 of %3 values within tolerance")
                                       .arg(QString::fromStdString(m_reproduction->title))
                                       .arg(inside)
                                       .arg(judged)

@@ -70,7 +70,7 @@ namespace {
 
 SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
     : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm), m_start(new QPushButton(tr("Run"))),
-      m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the recording’s view"))),
+      m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the visible part"))),
       m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
       m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()),
       m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()),
@@ -127,9 +127,9 @@ QWidget *SequentialPanel::buildLeft()
     m_progress->setAccessibleName(tr("Progress of the sequential tests"));
     m_state->setTextFormat(Qt::PlainText);
     m_state->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_start->setToolTip(tr("Run tests on simulated radar scans with these settings; the window stays free meanwhile"));
-    m_onSelection->setToolTip(tr("One test on the recording's frames and frequencies in view, with α, β and the cut-off from above and the "
-                                 "signal model of the pipeline"));
+    m_start->setToolTip(tr("Run tests on simulated radar scans with these settings, in the background"));
+    m_onSelection->setToolTip(tr("Run one test on the visible frames and frequencies, with α, β and the cut-off from "
+                                 "above and the signal model of the pipeline"));
     connect(m_start, &QPushButton::clicked, this, &SequentialPanel::run);
     connect(m_cancel, &QPushButton::clicked, &m_tests, &SequentialTests::cancel);
     connect(m_onSelection, &QPushButton::clicked, this, &SequentialPanel::startOnSelection);
@@ -168,8 +168,8 @@ void SequentialPanel::addView(QWidget *widget, const QString &title, std::functi
 
 QWidget *SequentialPanel::buildWalks()
 {
-    m_walk->setEmptySentence(tr("Press Run: tests of noise and of targets walk here until they are sure."));
-    m_stopping->setEmptySentence(tr("When the tests stop is counted here."));
+    m_walk->setEmptySentence(tr("Press Run to plot ln Λ of each trial until it decides."));
+    m_stopping->setEmptySentence(tr("The stages at which tests stop are counted here."));
     m_stopping->setTitles(tr("stages taken"), tr("tests"));
     m_stopping->setAccessibleName(tr("How many tests stopped after each stage"));
     addView(m_walk, tr("Walks of ln Λ"), [this] { return walksCsv(m_tests.walks(), m_tests.isOfScans()); });
@@ -183,7 +183,7 @@ QWidget *SequentialPanel::buildWalks()
 QWidget *SequentialPanel::buildCurves()
 {
     for (ChartPlot *plot : {m_asn, m_variation, m_prior})
-        plot->setEmptySentence(tr("Press Run: the curve grows here."));
+        plot->setEmptySentence(tr("Press Run to plot the curve."));
     addView(m_asn, tr("Stages against SNR"), [this] { return chartCsv(m_asn->chart()); });
     addView(m_variation, tr("Coefficient of variation"), [this] { return chartCsv(m_variation->chart()); });
     return m_curvesPage = column({sideBySide(m_asn, m_variation, 3, 2), m_curvesText});
@@ -197,8 +197,8 @@ QWidget *SequentialPanel::buildPrior()
 
 QWidget *SequentialPanel::buildSectors()
 {
-    m_sectors->setEmptySentence(tr("How long the beam dwells on each sector appears here."));
-    m_sectors->setTitles(tr("sector"), tr("dwell, mean stages a look"));
+    m_sectors->setEmptySentence(tr("The dwell time on each sector appears here."));
+    m_sectors->setTitles(tr("sector"), tr("dwell, mean stages per look"));
     m_sectors->setAccessibleName(tr("Dwell time on each sector"));
     addView(m_sectors, tr("Sectors"),
             [this] { return m_tests.survey() ? surveyCsv(m_tests.test(), *m_tests.survey()) : std::string(); });
@@ -212,7 +212,7 @@ QWidget *SequentialPanel::buildRunRow()
     m_runText->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_slider->setFixedWidth(150);
     m_slider->setAccessibleName(tr("Stage"));
-    m_slider->setToolTip(tr("Stage that is looked at (J, L)"));
+    m_slider->setToolTip(tr("Stage shown (J, L)"));
     connect(m_slider, &QSlider::valueChanged, this, [this](int stage) { m_tests.setStage(stage); });
     auto *row = new QWidget;
     auto *layout = new QHBoxLayout(row);
@@ -286,10 +286,10 @@ void SequentialPanel::restart()
 {
     showBusy(m_tests.isRunning());
     m_trajectory->clear();
-    const QString none = tr("Curves and sectors are simulated: press Run.");
+    const QString none = tr("Curves and sectors are simulated. Press Run to plot them.");
     for (ChartPlot *plot : {m_asn, m_variation, m_prior})
-        plot->setEmptySentence(m_tests.isOfScans() ? tr("Press Run: the curve grows here.") : none);
-    m_sectors->setEmptySentence(m_tests.isOfScans() ? tr("How long the beam dwells on each sector appears here.") : none);
+        plot->setEmptySentence(m_tests.isOfScans() ? tr("Press Run to plot the curve.") : none);
+    m_sectors->setEmptySentence(m_tests.isOfScans() ? tr("The dwell time on each sector appears here.") : none);
     showWalks();
     showSelection();
     showStage();
@@ -305,7 +305,8 @@ void SequentialPanel::showBusy(bool isBusy)
         return m_progress->setValue(0);
     }
     m_progress->setValue(m_tests.isFixedSizeKnown() || (!m_tests.isOfScans() && !m_tests.isEmpty()) ? 1000 : 0);
-    m_state->setText(m_tests.isEmpty() ? QString() : m_progress->value() == 1000 ? tr("done") : tr("stopped; the rest is not there"));
+    m_state->setText(m_tests.isEmpty() ? QString() : m_progress->value() == 1000 ? tr("done") : tr("Stopped; results "
+                                                                                                   "incomplete"));
 }
 
 void SequentialPanel::followDocument()
@@ -346,7 +347,7 @@ void SequentialPanel::showStopping()
     if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
         marks.push_back({static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
     m_stopping->setMarks(std::move(marks));
-    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("When the tests stop is counted here.") : recordingNote(m_tests));
+    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("The stages at which tests stop are counted here.") : recordingNote(m_tests));
 }
 
 void SequentialPanel::selectStoppedAt(int stage)

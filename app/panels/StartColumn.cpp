@@ -74,11 +74,11 @@ void StartColumn::showState(const Experiments::Entry &entry)
     const QString done = tr("%1 of %2 runs").arg(entry.runsDone()).arg(runs);
     switch (entry.state) {
     case Experiments::State::Waiting:
-        return m_state->setText(tr("waiting for the one before"));
+        return m_state->setText(tr("waiting for the previous one"));
     case Experiments::State::Running:
         return m_state->setText(entry.doing.isEmpty() ? done : done + QStringLiteral(" · ") + entry.doing);
     case Experiments::State::Done:
-        return m_state->setText(entry.imported ? tr("imported: no trials behind its points") : tr("done, %1").arg(done));
+        return m_state->setText(entry.imported ? tr("imported without trials") : tr("done, %1").arg(done));
     case Experiments::State::Cancelled:
         return m_state->setText(tr("cancelled after %1").arg(done));
     case Experiments::State::Failed:

@@ -65,12 +65,13 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
       m_law(new LawPanel(document)), m_sight(new VisibilityWatcher(*this)), m_marks(std::make_unique<SliceMarks>(*m_view))
 {
-    m_others->addItems({tr("others at the cursor"), tr("best of the others")});
-    m_others->setToolTip(tr("The axes that are not shown: at the cursor's cell with its best rates, or the maximum over all of them"));
+    m_others->addItems({tr("other axes at cursor"), tr("best over other axes")});
+    m_others->setToolTip(tr("Axes not shown: fixed at the cursor's cell with its best rates, or maximum over all their "
+                            "values"));
     m_model->addItems({tr("non-manoeuvring"), tr("manoeuvring")});
-    m_model->setToolTip(tr("Which of the models that run in parallel"));
-    m_rows->setAccessibleName(tr("Axis upwards"));
-    m_columns->setAccessibleName(tr("Axis across"));
+    m_model->setToolTip(tr("Model shown, of those that run in parallel"));
+    m_rows->setAccessibleName(tr("Vertical axis"));
+    m_columns->setAccessibleName(tr("Horizontal axis"));
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_view->setViewport(&m_viewport);
@@ -275,7 +276,7 @@ void StateSlicePanel::update()
                 analysis, memoryShares::orSome(memoryShares::stateReplay, 8 * bytesOfStates(*analysis)));
         const auto states = m_replay->at(analysis->time().nearest(at.seconds), model, context);
         if (states->values.empty())
-            throw Error("state space", "this detector has no states; the sequential Markov detector has");
+            throw Error("state space", "this detector has no states; choose the sequential Markov detector");
         const StateSpace &space = analysis->modelAt(model).space;
         Cut cut{slice, readableAxes(*analysis, model), {}, {}, {}, model, states->frame, 0.0};
         std::vector<Index> cell;

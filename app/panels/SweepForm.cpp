@@ -88,14 +88,14 @@ namespace {
 
 SweepForm::SweepForm(QWidget *parent)
     : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit),
-      m_steps(count(6, 2, 60, tr("How many values"))), m_byFactors(new QCheckBox(tr("by factors"))), m_noise(new QComboBox),
+      m_steps(count(6, 2, 60, tr("Number of values"))), m_byFactors(new QCheckBox(tr("logarithmic"))), m_noise(new QComboBox),
       m_snr(number(0, -40, 40, 1, tr(" dB"), tr("SNR of a line, in a rectangular window of the current length"))),
-      m_duration(number(30, 0.001, 1e6, 1, tr(" s"), tr("How long a line lasts"))),
+      m_duration(number(30, 0.001, 1e6, 1, tr(" s"), tr("Duration of a line"))),
       m_margin(number(15, 0, 1e6, 1, tr(" s"), tr("Noise before and after a line, in which false alarms are counted"))),
       m_drift(number(0, -1e6, 1e6, 3, tr(" Hz/s"), tr("Steady drift"))),
       m_wander(number(0, 0, 1e6, 2, tr(" Hz"), tr("Standard deviation of the wander"))),
-      m_trials(count(40, 1, 100000, tr("Lines on which every value is tried"))),
-      m_seed(count(1, 0, 2147483647, tr("Seed: the same one gives the same bytes"))), m_meaning(plainLabel())
+      m_trials(count(40, 1, 100000, tr("Number of lines on which every value is tried"))),
+      m_seed(count(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
 {
     m_parameter->setAccessibleName(tr("Setting to vary"));
     m_parameter->setMaxVisibleItems(30);
@@ -103,10 +103,10 @@ SweepForm::SweepForm(QWidget *parent)
     m_parameter->setMinimumContentsLength(16);
     m_from->setAccessibleName(tr("First value"));
     m_to->setAccessibleName(tr("Last value"));
-    m_byFactors->setToolTip(tr("Equal factors from value to value instead of equal steps"));
+    m_byFactors->setToolTip(tr("Equal ratios between values instead of equal steps"));
     m_noise->addItem(tr("in simulated noise"));
     m_noise->addItem(tr("in this recording"));
-    m_noise->setAccessibleName(tr("Noise that the lines are in"));
+    m_noise->setAccessibleName(tr("Noise to which the lines are added"));
 
     auto *form = new QFormLayout(this);
     form->setContentsMargins(8, 6, 8, 6);

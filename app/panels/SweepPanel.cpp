@@ -13,7 +13,7 @@ namespace faintline {
 
 SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidget *parent)
     : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm),
-      m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values; the window stays free meanwhile"))),
+      m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values in the background"))),
       m_tabs(new QTabWidget),
       m_tradeOff(new ChartPlot), m_pd(new ChartPlot), m_falseAlarms(new ChartPlot), m_latency(new ChartPlot), m_cost(new ChartPlot)
 {
@@ -46,9 +46,10 @@ void SweepPanel::buildCharts()
                                                      {m_cost, tr("Cost")}};
     for (const auto &[chart, title] : pages) {
         m_tabs->addTab(chart, title);
-        chart->setEmptySentence(chart == m_cost ? tr("What each value costs is measured when the others are done.")
-                                                : tr("Choose a setting and its values, then press Start: what they are worth grows here."));
-        chart->setInvitation(tr("click to take this value"));
+        chart->setEmptySentence(chart == m_cost ? tr("The cost of each value is measured last.")
+                                                : tr("Choose a setting and its values, then press Start to plot the "
+                                                     "results."));
+        chart->setInvitation(tr("click it to apply this value"));
         connect(chart, &ChartPlot::pointActivated, this, [this, chart = chart](std::size_t, std::size_t point) { choose(*chart, point); });
     }
     m_tabs->setDocumentMode(true);

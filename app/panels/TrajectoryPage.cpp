@@ -18,7 +18,7 @@ namespace faintline {
 TrajectoryPage::TrajectoryPage(SequentialTests &tests, QWidget *parent)
     : QSplitter(Qt::Horizontal, parent), m_tests(tests), m_axis(new QComboBox), m_posterior(new CellPicture), m_scan(new CellPicture)
 {
-    m_posterior->setEmptySentence(tr("What the selected run thought of its target's place, stage by stage."));
+    m_posterior->setEmptySentence(tr("Posterior of the target's cell in the selected run, stage by stage."));
     m_posterior->setAccessibleName(tr("Posterior probability of the target's cell, stage by stage"));
     m_scan->setAccessibleName(tr("Range-Doppler map of the stage"));
     m_axis->setAccessibleName(tr("Axis of the posterior"));
@@ -30,7 +30,7 @@ TrajectoryPage::TrajectoryPage(SequentialTests &tests, QWidget *parent)
 
     auto *axisRow = new QHBoxLayout;
     axisRow->setContentsMargins(8, 3, 8, 0);
-    axisRow->addWidget(new QLabel(tr("Where along")));
+    axisRow->addWidget(new QLabel(tr("Axis")));
     axisRow->addWidget(m_axis);
     axisRow->addStretch(1);
     auto *left = new QWidget;
@@ -78,8 +78,8 @@ void TrajectoryPage::clear()
     m_axis->clear();
     m_posterior->clear();
     m_scan->clear();
-    m_scan->setEmptySentence(m_tests.isOfScans() ? tr("The scan of the stage that is looked at.")
-                                                 : tr("A recording's frames have no range and no Doppler."));
+    m_scan->setEmptySentence(m_tests.isOfScans() ? tr("The scan of the stage shown.")
+                                                 : tr("Frames of a recording have no range or Doppler axis."));
     showStage();
 }
 

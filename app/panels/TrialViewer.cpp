@@ -95,11 +95,11 @@ void TrialViewer::show(const ShownTrial &trial)
     const QString unit = statisticUnit(detector.settings);
     const bool isLine = std::holds_alternative<LineExperiment>(campaign.experiment);
     QString sentence = outcome.isDetected
-                           ? tr("%1 at %2 dB: detected. On the line D reaches %3 %5, the threshold is %4 %5.")
-                           : tr("%1 at %2 dB: missed. On the line D reaches only %3 %5, the threshold is %4 %5.");
+                           ? tr("%1 at %2 dB: detected. On the line, D reaches %3 %5; the threshold is %4 %5.")
+                           : tr("%1 at %2 dB: missed. On the line, D reaches only %3 %5; the threshold is %4 %5.");
     sentence = sentence.arg(name, db, numberText(outcome.statistic, 2),
                             numberText(shownThreshold(campaign, m_detector), 2), unit);
-    sentence += isLine ? tr(" Run %1, line %2; a window T_FT is drawn as one second, a resolution cell as one hertz.")
+    sentence += isLine ? tr(" Run %1, line %2. One second stands for a window T_FT, one hertz for a resolution cell.")
                              .arg(outcome.place.run)
                              .arg(outcome.place.signal)
                        : tr(" Trial %1, injected into the recording.").arg(outcome.place.run);

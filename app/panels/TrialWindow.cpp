@@ -24,7 +24,7 @@ TrialWindow::TrialWindow(QWidget *parent)
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_nextMissed->setToolTip(tr("The next trial behind this point that was not detected"));
+    m_nextMissed->setToolTip(tr("Next trial of this point in which the line was missed"));
     auto *top = new QHBoxLayout;
     top->setContentsMargins(10, 6, 10, 4);
     top->addWidget(m_sentence, 1);

@@ -86,17 +86,17 @@ namespace {
             return QObject::tr(", with the recording.");
         case ResetCause::Kind::Background:
             return std::isfinite(reset.lost)
-                ? QObject::tr(": going on from what came before would have begun %1 nat below the background.")
+                ? QObject::tr(": continuing an earlier path would have started %1 nat below the background.")
                       .arg(numberText(reset.lost, 2))
-                : QObject::tr(": nothing that came before leads there.");
+                : QObject::tr(": no earlier path leads there.");
         case ResetCause::Kind::Forgotten:
             break;
         }
         return reset.track > 0
-            ? QObject::tr(": what came before, %1 nat, was forgotten with the start of track %2.")
+            ? QObject::tr(": the previous score, %1 nat, was discarded when track %2 started.")
                   .arg(numberText(reset.lost, 2))
                   .arg(reset.track)
-            : QObject::tr(": what came before, %1 nat, was forgotten.").arg(numberText(reset.lost, 2));
+            : QObject::tr(": the previous score, %1 nat, was discarded.").arg(numberText(reset.lost, 2));
     }
 
 } // namespace
@@ -120,13 +120,14 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
                              placeWords(explanation.position, analysis.grid()), numberText(std::abs(margin), 2),
                              margin >= 0.0 ? QObject::tr("above") : QObject::tr("below"), statisticUnit(analysis.settings));
     if (!isScoreOfPaths(analysis.settings.detector))
-        words += QObject::tr("The detector has no paths; this one, in nats, is its guide's, a sequential Markov detector's. ");
+        words += QObject::tr("This detector has no paths; the path below, in nats, is that of the sequential Markov "
+                             "detector that guides its tracks. ");
     if (explanation.inhibitedFor)
         words += *explanation.inhibitedFor > 0
-            ? QObject::tr("The data here are kept from the detector for track %1. ").arg(*explanation.inhibitedFor)
+            ? QObject::tr("This cell is inhibited by track %1. ").arg(*explanation.inhibitedFor)
         : *explanation.inhibitedFor < 0
-            ? QObject::tr("The data here are kept from the detector for a track that was dropped later. ")
-            : QObject::tr("No signal is looked for here: the data are kept from the detector. ");
+            ? QObject::tr("This cell is inhibited by a track that was dropped later. ")
+            : QObject::tr("This cell is excluded: no signal is looked for here. ");
     const auto steps = explanation.steps.size();
     const QString since = secondsText(time.value(static_cast<double>(explanation.steps.front().frame)), time.step);
     words += steps == 1 ? QObject::tr("The path begins in this frame")
@@ -140,7 +141,7 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
         words += QObject::tr(", %1 %2")
                      .arg(!analysis.isBank() ? QObject::tr("K of the last frame") : QObject::tr("K and the model's threshold"),
                           signedText(explanation.offset));
-    return words + QObject::tr(" make %1.").arg(numberText(explanation.statistic, 2));
+    return words + QObject::tr(" add up to %1.").arg(numberText(explanation.statistic, 2));
 }
 
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
@@ -151,7 +152,7 @@ WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
     m_sentence->setContentsMargins(8, 6, 8, 4);
-    m_sentence->setText(tr("Click in a picture: here stands why there is a detection, or none."));
+    m_sentence->setText(tr("Click a cell to see why it was or was not detected."));
     m_plot->setEmptySentence(tr("The evidence along the path appears here."));
     makeReadingTable(*m_ladder, 20);
     m_ladder->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
@@ -252,9 +253,10 @@ void WhyPanel::layColumns(const Analysis &analysis)
     m_ladder->setHorizontalHeaderLabels(names);
     m_ladder->horizontalHeaderItem(axes + 1)->setToolTip(tr("Evidence: log-likelihood ratio of the cell's power, nat"));
     m_ladder->horizontalHeaderItem(axes + 2)->setToolTip(tr("Logarithm of the transition's probability, nat"));
-    m_ladder->horizontalHeaderItem(axes + 3)->setToolTip(tr("What going on is credited with, against starting afresh, nat"));
+    m_ladder->horizontalHeaderItem(axes + 3)->setToolTip(tr("ln K: bonus for continuing the path instead of restarting "
+                                                            "it (nat)"));
     m_ladder->horizontalHeaderItem(axes + 4)->setToolTip(tr("Sum of all terms so far, nat above background"));
-    m_ladder->horizontalHeaderItem(axes + 5)->setToolTip(tr("How far the second best way into this step lay behind, nat"));
+    m_ladder->horizontalHeaderItem(axes + 5)->setToolTip(tr("Margin over the second-best transition into this step, nat"));
 }
 
 void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)

@@ -27,9 +27,9 @@ namespace {
     {
         switch (result.decision) {
         case SprtDecision::H1:
-            return result.isForced ? tr("the cut-off decides for a target") : tr("a target accepted");
+            return result.isForced ? tr("target accepted at the cut-off") : tr("a target accepted");
         case SprtDecision::H0:
-            return result.isForced ? tr("the cut-off decides for noise") : tr("noise only accepted");
+            return result.isForced ? tr("noise accepted at the cut-off") : tr("noise only accepted");
         case SprtDecision::Undecided:
             break;
         }
@@ -50,8 +50,8 @@ namespace {
             worst = std::max(worst, last);
         }
         if (worst == 0)
-            return tr(" Its trajectory is right at every stage.");
-        return tr(" Its trajectory is off by %1 at last and by %2 cells at most.").arg(last).arg(worst);
+            return tr(" Its trajectory is correct at every stage.");
+        return tr(" Its trajectory is off by %1 at the last stage and by at most %2 cells.").arg(last).arg(worst);
     }
 
     QString recordingSentence(const SequentialTests &tests)
@@ -59,7 +59,8 @@ namespace {
         const SequentialTests::Selection &selection = tests.selection();
         const SprtResult &result = tests.walks().front().second;
         const Axis &time = selection.frames->time();
-        QString text = tr("A line since the first frame in view, in %1 bins: %2 after %3 of %4 frames (%5), ln Λ = %6.")
+        QString text = tr("Line present since the first visible frame, in %1 bins: %2 after %3 of %4 frames (%5), ln Λ "
+                          "= %6.")
                            .arg(selection.cellCount)
                            .arg(decisionText(result))
                            .arg(result.stages)
@@ -67,7 +68,8 @@ namespace {
                            .arg(secondsText(static_cast<double>(result.stages) * time.step, time.step),
                                 numberText(result.lnLambda.empty() ? 0.0 : result.lnLambda.back(), 1));
         if (result.decision == SprtDecision::H0)
-            text += tr(" That is final: of a line that starts later this test says nothing. Begin the view later to test again.");
+            text += tr(" This decision is final and does not cover lines that start later. Begin the view later to "
+                       "test again.");
         return text;
     }
 
@@ -89,11 +91,12 @@ QString runSentence(const SequentialTests &tests)
 
 QString recordingNote(const SequentialTests &tests)
 {
-    QString text = tr("One test stops once: there is nothing to count.\nIt asks whether a line has been there since the first frame in view. “No target” "
-                      "is final: a line that starts later is not looked for.");
+    QString text = tr("A single test stops once, so nothing is counted.\nIt tests for a line present since the first "
+                      "visible frame. “No target” is final: a line that starts later is not considered.");
     if (const Index every = tests.selection().frames ? framesApart(*tests.selection().frames) : 1; every > 1)
-        text += tr("\nWindows overlap and stages have to be independent: one frame in %1 counts, so α and β hold.").arg(every);
-    text += tr("\nα and β are those of a background that is right and of lines that move as the model says.");
+        text += tr("\nWindows overlap but stages must be independent, so the test uses one frame in %1. This makes α "
+                   "and β hold.").arg(every);
+    text += tr("\nα and β assume a correct background and lines that move as the model says.");
     return text;
 }
 
@@ -105,8 +108,8 @@ QString curvesSentence(const SequentialTests &tests)
         return {};
     const ScanPoint &p = tests.test().designFollows ? points.back() : *atDesign;
     const auto range = [](double low, double high) { return tr("%1 … %2").arg(numberText(low, 1), numberText(high, 1)); };
-    QString text = tr("At %1 dB: %2 stages on noise, bounds (8b) %3; %4 with a target, bounds (8a) %5. The bounds neglect by how far ln Λ "
-                      "overshoots its boundary")
+    QString text = tr("At %1 dB: %2 stages on noise, bounds (8b) %3; %4 with a target, bounds (8a) %5. The bounds "
+                      "neglect the overshoot of ln Λ")
                        .arg(numberText(p.snrDb, 0), numberText(p.h0.stages.value, 1), range(p.bounds.h0Low, p.bounds.h0High),
                             numberText(p.h1.stages.value, 1), range(p.bounds.h1Low, p.bounds.h1High));
     QStringList above;
@@ -114,10 +117,10 @@ QString curvesSentence(const SequentialTests &tests)
         above << tr("%1 on noise").arg(percent(p.h0.stages.value / p.bounds.h0High - 1.0));
     if (p.h1.stages.value > p.bounds.h1High)
         above << tr("%1 with a target").arg(percent(p.h1.stages.value / p.bounds.h1High - 1.0));
-    text += above.isEmpty() ? tr("; the simulated tests stay below the upper ones.")
-                            : tr(": the simulated tests exceed the upper ones by %1.").arg(above.join(tr(", ")));
+    text += above.isEmpty() ? tr("; the simulated tests stay below the upper bounds.")
+                            : tr("; the simulated tests exceed the upper bounds by %1.").arg(above.join(tr(", ")));
     if (tests.test().sprt.cutOffStage > 0)
-        text += tr(" Nor do they know of the cut-off.");
+        text += tr(" They also neglect the cut-off.");
     return text;
 }
 
@@ -126,7 +129,7 @@ QString priorSentence(const SequentialTests &tests)
     if (!tests.prior())
         return {};
     const PriorCurve &curve = *tests.prior();
-    const QString what = tr("A line of %1 cells at %2 dB, from a known trajectory (left) to one of which nothing is known (right), "
+    const QString what = tr("A line of %1 cells at %2 dB, from a known trajectory (left) to an unknown one (right), "
                             "without a cut-off.")
                              .arg(curve.cells)
                              .arg(numberText(tests.test().designSnrDb, 0));
@@ -136,7 +139,7 @@ QString priorSentence(const SequentialTests &tests)
     const QString how = over->h0 >= 0.0 && over->h1 >= 0.0
                             ? tr(" At the right end the stages exceed the “upper bounds” by %1 on noise and %2 with a target")
                             : tr(" At the right end the stages differ from the upper bounds by %1 on noise and %2 with a target");
-    return what + how.arg(percent(over->h0), percent(over->h1)) + tr(": the bounds neglect by how far ln Λ overshoots its boundary.");
+    return what + how.arg(percent(over->h0), percent(over->h1)) + tr(": the bounds neglect the overshoot of ln Λ.");
 }
 
 QString sectorsSentence(const SequentialTests &tests)
@@ -155,7 +158,8 @@ QString sectorsSentence(const SequentialTests &tests)
         falseAlarms += !isTarget && isAccepted ? 1 : 0;
     }
     const int looks = static_cast<int>(survey.visits.size());
-    const QString seen = tr(" A target is found in %1 of %2 looks at one; %3 of %4 looks at empty sectors end in a false alarm.")
+    const QString seen = tr(" %1 of %2 looks at sectors with a target find it; %3 of %4 looks at empty sectors end in "
+                            "a false alarm.")
                              .arg(found)
                              .arg(looksAtTargets)
                              .arg(falseAlarms)

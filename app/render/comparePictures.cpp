@@ -169,17 +169,17 @@ namespace {
         switch (one.state) {
         case CheckedPicture::State::Same:
             return one.difference.toleratedPixels > 0
-                       ? QStringLiteral("same, but for %1 tolerated raster pixel(s)").arg(one.difference.toleratedPixels)
+                       ? QStringLiteral("same, except for %1 tolerated raster pixel(s)").arg(one.difference.toleratedPixels)
                        : QStringLiteral("same");
         case CheckedPicture::State::Missing:
-            return QStringLiteral("missing: expected, but not there");
+            return QStringLiteral("missing: expected but not found");
         case CheckedPicture::State::New:
-            return QStringLiteral("new: there, but not expected");
+            return QStringLiteral("new: found but not expected");
         case CheckedPicture::State::Different:
             break;
         }
         if (!one.difference.isSameSize)
-            return QStringLiteral("another size: %1 instead of %2").arg(sizeText(one.actualSize), sizeText(one.expectedSize));
+            return QStringLiteral("different size: %1 instead of %2").arg(sizeText(one.actualSize), sizeText(one.expectedSize));
         return QStringLiteral("%1 pixel(s) changed in %2 place(s)").arg(one.difference.changedPixels).arg(one.difference.places.size());
     }
 
@@ -301,23 +301,24 @@ std::vector<CheckedPicture> checkPictures(const CheckOptions &options)
     const QString actual = QString::fromStdString(options.actual);
     for (const QString &path : {expected, actual})
         if (!QFileInfo::exists(path))
-            throw Error(path.toStdString(), "is not there; needed are two PNGs or two folders of PNGs");
+            throw Error(path.toStdString(), "does not exist; give two PNGs or two folders of PNGs");
     const bool areFolders = QFileInfo(expected).isDir();
     if (areFolders != QFileInfo(actual).isDir())
-        throw Error("check-pictures", "compares two PNGs or two folders of PNGs, not one with the other");
+        throw Error("check-pictures", "requires two PNGs or two folders of PNGs, not one of each");
     const QString out = QString::fromStdString(options.out);
     if (areFolders && !out.isEmpty() && (isInside(out, expected) || isInside(out, actual)))
-        throw Error("--out " + options.out, "lies within what is compared; the next run would compare its own report");
+        throw Error("--out " + options.out, "must lie outside the folders compared, or the next run would compare its "
+                                            "own report");
 
     const QMap<QString, QString> wanted = picturesIn(expected, areFolders);
     const QMap<QString, QString> made = picturesIn(actual, areFolders);
     QMap<QString, QString> names = wanted;
     names.insert(made);
     if (wanted.isEmpty())
-        throw Error(options.expected, "holds no PNG, so nothing would be checked");
+        throw Error(options.expected, "contains no PNG to check");
     std::vector<CheckedPicture> pictures;
     if (!out.isEmpty() && !QDir().mkpath(out))
-        throw Error(options.out, "cannot be made", Error::Kind::Failure);
+        throw Error(options.out, "cannot be created", Error::Kind::Failure);
     for (const QString &name : names.keys()) {
         CheckedPicture one = check(name, wanted.value(name), made.value(name), options.toleratesRasters);
         if (!out.isEmpty() && one.state != CheckedPicture::State::Same)
@@ -344,7 +345,7 @@ void runCheckPictures(const CheckOptions &options)
         return;
     throw Error("check-pictures",
                 std::to_string(differing) + " of " + std::to_string(pictures.size()) + " picture(s) differ"
-                    + (options.out.empty() ? "; --out DIR shows where" : "; see " + options.out + "/index.html"),
+                    + (options.out.empty() ? "; --out DIR writes a report" : "; see " + options.out + "/index.html"),
                 Error::Kind::Failure);
 }
 

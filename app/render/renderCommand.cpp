@@ -92,7 +92,7 @@ namespace {
     void testScans(MainWindow &window, const RenderOptions &options)
     {
         if (!options.part.assignments().empty())
-            throw Error("--from … --high", "choose a part of a recording; a radar's scans are simulated");
+            throw Error("--from … --high", "require a recording; radar scans are simulated");
         ScanTest test = readScanTest(pathText(options.source));
         for (const std::string &assignment : options.settings)
             setScanTestField(test, assignment);
@@ -110,7 +110,7 @@ namespace {
         const Lesson lesson = readLesson(pathText(options.source));
         const int step = options.step.value_or(1);
         if (!options.settings.empty() || !options.preset.empty() || !options.part.assignments().empty())
-            throw Error("--set", "does not go with a lesson, which has settings of its own");
+            throw Error("--set", "cannot be combined with a lesson, which has its own settings");
         if (const auto count = std::ssize(lesson.steps); step < 1 || step > count)
             throw Error("--step " + std::to_string(step), "must lie in 1 … " + std::to_string(count) + " of this lesson");
         QEventLoop loop;
@@ -132,15 +132,16 @@ namespace {
     {
         for (const std::string &view : views)
             if (view != "window" && !isOf(WindowView::Of::Scans, view))
-                throw Error("--view " + view, "is of a recording; a radar's scans have window, sequential, walk, stopping, posterior, "
-                                              "scan, asn, prior, sectors");
+                throw Error("--view " + view, "requires a recording; views of radar scans are window, sequential, "
+                                              "walk, stopping, posterior, scan, asn, prior, sectors");
     }
 
     void testSelection(MainWindow &window, const std::vector<std::string> &views)
     {
         for (const char *view : {"stopping", "scan", "asn", "prior", "sectors"})
             if (std::find(views.begin(), views.end(), view) != views.end())
-                throw Error(std::string("--view ") + view, "is of a radar's scans; the source must be a scenario of kind \"scans\"");
+                throw Error(std::string("--view ") + view, "requires radar scans; the source must be a scenario of "
+                                                           "kind \"scans\"");
         testAndSettle(window, [&] { window.sequential().startOnSelection(); });
     }
 
@@ -152,7 +153,8 @@ namespace {
         OutputLayers &layers = window.workbench().layers();
         const auto layer = static_cast<OutputLayer>(found - outputLayerNames.begin());
         if (!layers.isOffered(layer))
-            throw Error("--layer " + options.layer, "is of pings on range and bearing; these are lines over frequency");
+            throw Error("--layer " + options.layer, "requires pings on range and bearing; the source has lines over "
+                                                    "frequency");
         std::optional<Error> failure;
         QObject::connect(&layers, &OutputLayers::failed, &window, [&](const Error &error) { failure = error; });
         layers.setOverlay(options.isLayerOver);
@@ -195,7 +197,7 @@ namespace {
             explainCursor(window);
         for (const std::string &view : views)
             if (isOf(WindowView::Of::Pings, view) && !window.document().hasPings())
-                throw Error("--view " + view, "is a picture of pings on range and bearing; these are no such frames");
+                throw Error("--view " + view, "requires pings on range and bearing");
         if (has("latency"))
             measureLatency(window);
         if (has("slice"))
@@ -269,7 +271,7 @@ void render(const RenderOptions &options)
     for (const std::string &view : options.views)
         if (!WindowViews::names().contains(QString::fromStdString(view)))
             throw Error("--view " + view,
-                        "is not known; there are " + WindowViews::names().join(QStringLiteral(", ")).toStdString());
+                        "unknown; choose one of " + WindowViews::names().join(QStringLiteral(", ")).toStdString());
 
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
@@ -280,7 +282,8 @@ void render(const RenderOptions &options)
     if (isLesson(pathText(options.source))) {
         goThroughLesson(window, options);
     } else if (options.step) {
-        throw Error("--step " + std::to_string(*options.step), "is of a lesson; " + options.source + " is none");
+        throw Error("--step " + std::to_string(*options.step), "requires a lesson; " + options.source + " is not a "
+                                                                                                        "lesson");
     } else if (isScanScenario(pathText(options.source))) {
         checkViewsOfScans(options.views);
         testScans(window, options);
@@ -311,7 +314,7 @@ void report(const RenderOptions &options)
     const QString source = pathText(options.source);
     if (isScanScenario(source) || isLesson(source))
         throw Error(options.source, std::string(isLesson(source) ? "is a lesson" : "is a radar's scenario")
-                                        + "; a report is of a recording, of pings, or of a session");
+                                        + "; a report requires a recording, pings or a session");
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
     window.setAsking(false);

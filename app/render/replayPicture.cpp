@@ -46,7 +46,8 @@ namespace {
         const Json provenance = readJsonFile(options.picture + ".provenance.json");
         try {
             if (!provenance.contains("chart") || provenance.contains("recording"))
-                throw Error(options.picture, "is no chart of a test on a radar's scans; faintline-cli replay makes other tables again");
+                throw Error(options.picture, "is not a chart of a test on radar scans; use faintline-cli replay for "
+                                             "other tables");
             ScanTest test;
             readFields(provenance.at("sequential"), ScanTest::fields(), test, "sequential");
             checkScanTest(test);
@@ -62,14 +63,14 @@ namespace {
                 return one.title.toStdString() == name;
             });
             if (view == views.end())
-                throw Error(options.picture, "is of a chart that this version does not have");
+                throw Error(options.picture, "belongs to a chart that this version does not have");
             const QString kept = pathText(options.picture);
             const bool isSame = readBeginning(kept, std::numeric_limits<qint64>::max()).toStdString() == view->csv();
             std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(kept).fileName())).c_str(), isSame ? "the same bytes" : "differs");
             if (!isSame)
-                throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+                throw Error(options.picture, "differs from the result of its provenance", Error::Kind::Failure);
         } catch (const Json::exception &error) {
-            throw Error(options.picture, "has a provenance that is broken: " + complaint(error));
+            throw Error(options.picture, "has an invalid provenance: " + complaint(error));
         }
     }
 
@@ -79,12 +80,13 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
 {
     const QString text = picture.text(pictureProvenanceKey());
     if (text.isEmpty())
-        throw Error(options.picture, "tells nothing of what it was made from");
+        throw Error(options.picture, "contains no provenance");
     const Json provenance = parseJson(text.toStdString(), options.picture);
     try {
         if (!provenance.contains("recording") || !provenance.contains("render") || provenance["render"].contains("step"))
             throw Error(options.picture,
-                        "is of the whole window, of a radar's scans, or of a lesson: what it tells does not suffice to make it again");
+                        "shows the whole window, radar scans or a lesson; such pictures cannot be reproduced from "
+                        "their provenance");
         Json session = provenance;
         Json &source = session["recording"];
         if (source.contains("path")) {
@@ -94,18 +96,18 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
             const QString recording = absolutePath(options.recording.empty() ? beside : pathText(options.recording));
             if (!fileExists(recording))
                 throw Error(pathBytes(recording),
-                            "is what " + options.picture + " was made from, and is not there; --recording says where it is");
+                            "the input of " + options.picture + " was not found; give its path with --recording");
             if (recordingHash(pathBytes(recording)) != source["sha256"].get<std::string>())
-                throw Error(pathBytes(recording), "is not what " + options.picture + " was made from");
+                throw Error(pathBytes(recording), "is not the input of " + options.picture);
             source["path"] = recording.toStdString();
         }
         session.erase("render");
         session.erase("version");
         PictureOrigin origin{renderOptionsFromJson(provenance["render"]), provenance["render"].at("view").get<std::string>()};
         if (!(origin.options.scale >= 1.0 && origin.options.scale <= 4.0))
-            throw Error(options.picture, "tells of a scale that no picture has; it lies in 1 … 4");
+            throw Error(options.picture, "names an invalid scale; it must lie in 1 … 4");
         if (origin.options.size != picture.size() / origin.options.scale)
-            throw Error(options.picture, "tells of another size than it has");
+            throw Error(options.picture, "names a different size than it has");
         origin.options.source = QDir(folder).filePath(QStringLiteral("picture.faintline")).toStdString();
         origin.options.out = QDir(folder).filePath(QStringLiteral("picture.png")).toStdString();
         writeTextFile(origin.options.source, session.dump(2) + "\n");
@@ -113,11 +115,11 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
             readSession(pathText(origin.options.source));
         } catch (const Error &error) { // of a file of which nobody knows
             throw Error(options.picture,
-                        "tells of its making in a broken way: " + std::string(error.what()).substr(origin.options.source.size() + 2));
+                        "has an invalid provenance: " + std::string(error.what()).substr(origin.options.source.size() + 2));
         }
         return origin;
     } catch (const Json::exception &error) {
-        throw Error(options.picture, "tells of its making in a broken way: " + complaint(error));
+        throw Error(options.picture, "has an invalid provenance: " + complaint(error));
     }
 }
 
@@ -135,7 +137,7 @@ void replay(const ReplayOptions &options)
         QImage(pathText(remade)).convertToFormat(QImage::Format_RGB32) == kept.convertToFormat(QImage::Format_RGB32);
     std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(pathText(options.picture)).fileName())).c_str(), isSame ? "the same pixels" : "differs");
     if (!isSame)
-        throw Error(options.picture, "is not what its provenance makes", Error::Kind::Failure);
+        throw Error(options.picture, "differs from the result of its provenance", Error::Kind::Failure);
 }
 
 } // namespace faintline

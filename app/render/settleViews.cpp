@@ -71,7 +71,7 @@ void sweepThreshold(MainWindow &window)
     waitForExperiments(window);
     const Experiments::Entry *entry = window.experiments().entry(panel.shown());
     if (!entry || entry->state == Experiments::State::Failed)
-        throw Error("--view sweep", entry ? entry->failure.toStdString() : "cannot be made of this source", Error::Kind::Failure);
+        throw Error("--view sweep", entry ? entry->failure.toStdString() : "cannot be drawn for this source", Error::Kind::Failure);
 }
 
 void explainCursor(MainWindow &window)

@@ -45,9 +45,9 @@ namespace {
 ScanCard::ScanCard(QWidget *parent)
     : QAbstractButton(parent), m_scan(new CellPicture), m_walks(new WalkPlot), m_found(caption(tr("Simulating …"), Theme::font(12)))
 {
-    const QString sentence = tr("It leaves an empty sector as soon as it is sure, and follows a target through the cells it changes "
-                                "from scan to scan.");
-    setText(tr("A radar that looks until it is sure"));
+    const QString sentence = tr("The test leaves an empty sector as soon as it can decide, and follows a target that "
+                                "changes cells from scan to scan.");
+    setText(tr("A radar that looks until it can decide"));
     setAccessibleDescription(sentence);
     setCursor(Qt::PointingHandCursor);
     setFocusPolicy(Qt::StrongFocus);
@@ -60,9 +60,9 @@ ScanCard::ScanCard(QWidget *parent)
     layout->setContentsMargins(14, 12, 14, 12);
     layout->setSpacing(4);
     layout->addWidget(caption(text(), Theme::boldFont(15)));
-    layout->addWidget(caption(tr("One scan, its target ringed"), Theme::font(12)));
+    layout->addWidget(caption(tr("One scan, target circled"), Theme::font(12)));
     layout->addWidget(m_scan);
-    layout->addWidget(caption(tr("The evidence, scan after scan"), Theme::font(12)));
+    layout->addWidget(caption(tr("The evidence, scan by scan"), Theme::font(12)));
     layout->addWidget(m_walks);
     layout->addWidget(m_found);
     layout->addWidget(caption(sentence, Theme::font()));

@@ -77,8 +77,8 @@ WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_scanCard(new Scan
     column->setSpacing(12);
     column->addWidget(sentence(tr("Faintline"), Theme::boldFont(28)));
     column->addWidget(
-        sentence(tr("Finds what is too faint to see, by adding up the evidence along every path a signal could have taken. "
-                    "Click a picture to go inside."),
+        sentence(tr("Finds signals too faint to see by adding up the evidence along every path a signal could have "
+                    "taken. Click a picture to open it."),
                  Theme::font(15)));
     column->addSpacing(8);
     column->addLayout(cards);

@@ -277,7 +277,8 @@ void MainWindow::offerRecovery()
     if (left.isEmpty())
         return;
     const QString when = QFileInfo(left.first()).lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"));
-    m_messages->showMessage(MessageBar::Kind::Notice, tr("Unsaved work"), tr("of %1 was left behind when the program ended unexpectedly.").arg(when),
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Unsaved work"), tr("of %1 was recovered after the program "
+                                                                             "ended unexpectedly.").arg(when),
                             tr("Restore"), [this, session = left.first()] {
                                 m_welcome->stop();
                                 // What was left behind goes when it is kept again.
@@ -307,7 +308,7 @@ void MainWindow::openScans(const ScanTest &test)
         m_pages->hide(); // the panel gets its room
         m_presentAction->setEnabled(true);
         setWindowTitle(tr("Radar scans — Faintline"));
-        m_hint->setText(tr("Click a walk to follow that test; J and L go from stage to stage."));
+        m_hint->setText(tr("Click a walk to follow that test. J and L step through its stages."));
     }
     m_panels->show(m_sequential);
     m_sequential->start(test);
@@ -317,7 +318,8 @@ void MainWindow::chooseFile()
 {
     const QString folder = m_memory.recent().isEmpty() ? QString() : QFileInfo(m_memory.recent().first()).path();
     const QString path = pathOf(QFileDialog::getOpenFileUrl(this, tr("Open"), QUrl::fromLocalFile(folder),
-                                                            tr("Everything (*);;Sessions (*.faintline);;Scenarios (*.json)")));
+                                                            tr("All files (*);;Sessions (*.faintline);;Scenarios "
+                                                               "(*.json)")));
     if (!path.isEmpty())
         open(path);
 }
@@ -342,8 +344,8 @@ void MainWindow::offerIq()
     m_iqAction->setVisible(isPossible || options.iq);
     if (isPossible && info.channelCount == 2)
         m_messages->showMessage(MessageBar::Kind::Notice, m_document.source().name(),
-                                tr("two channels, of which the first is shown. Are they I and Q of one receiver?"),
-                                tr("Take as I and Q"), [this] { m_iqAction->trigger(); });
+                                tr("Two channels; showing the first. Treat them as I/Q?"),
+                                tr("Treat as I/Q"), [this] { m_iqAction->trigger(); });
 }
 
 void MainWindow::showWelcome()
@@ -455,7 +457,7 @@ void MainWindow::fillRecentMenu()
     for (const QString &path : m_memory.recent())
         m_recentMenu->addAction(buttonText(fileLabel(path)), this, [this, path] { open(path); })->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
     if (m_recentMenu->isEmpty())
-        m_recentMenu->addAction(tr("Nothing yet"))->setEnabled(false);
+        m_recentMenu->addAction(tr("No recent files"))->setEnabled(false);
 }
 
 void MainWindow::saveLayout()

@@ -69,7 +69,7 @@ void MainWindow::connectDocument()
         // Nothing of what was open before stays under the new name.
         m_events->setEvents({});
         for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
-            one->setEmptySentence(tr("Listening to the noise of %1 …").arg(m_document.source().name()));
+            one->setEmptySentence(tr("Estimating the noise of %1 …").arg(m_document.source().name()));
         if (m_pages->currentWidget() != m_welcome)
             showWorkbench();
         m_iqAction->setChecked(m_document.source().options.iq);
@@ -100,7 +100,7 @@ void MainWindow::connectController()
     connect(&m_controller, &AnalysisController::busyChanged, m_stopAction, &QAction::setEnabled);
     connect(&m_controller, &AnalysisController::busyChanged, this, [this](bool isBusy) {
         if (!isBusy && !m_document.isEmpty() && !m_document.analysis())
-            m_workbench->output()->setEmptySentence(tr("Stopped before the detector came to an end."));
+            m_workbench->output()->setEmptySentence(tr("Stopped before the detector finished."));
         showHint();
     });
     connect(&m_controller, &AnalysisController::progressed, m_activity, &ActivityBar::setProgress);
@@ -122,7 +122,8 @@ void MainWindow::connectController()
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
     connect(m_report, &ReportWriter::written, this,
-            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path), tr("is written.")); });
+            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path), tr("was "
+                                                                                                                "written.")); });
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
         m_memory.addRecent(path);

@@ -315,7 +315,7 @@ void MainWindow::buildToolBar()
     auto *scenarioMenu = new QMenu(this);
     for (const Scenario &scenario : scenarios())
         scenarioMenu->addAction(scenario.title, this, [this, path = scenario.path] { open(path); });
-    scenarioMenu->addAction(tr("A radar that looks until it is sure"), this, [this] { open(radarScenarioPath()); });
+    scenarioMenu->addAction(tr("A radar that looks until it can decide"), this, [this] { open(radarScenarioPath()); });
     auto *scenarioButton = new QToolButton;
     scenarioButton->setText(tr("Scenario"));
     scenarioButton->setToolTip(tr("Open a simulated recording"));

@@ -163,13 +163,13 @@ QWidget *PingBench::buildBar()
     m_reading->setContentsMargins(8, 0, 8, 2);
     m_reading->setAccessibleName(tr("Read-out"));
     auto *inhibition = new QCheckBox(tr("Inhibited"));
-    inhibition->setToolTip(tr("The boxes that are kept from the detector round the tracks"));
+    inhibition->setToolTip(tr("Show the boxes around tracks that are inhibited"));
     inhibition->setChecked(true);
     inhibition->setFocusPolicy(Qt::TabFocus);
     connect(inhibition, &QCheckBox::toggled, m_input, &PingMap::setInhibitionShown);
     connect(inhibition, &QCheckBox::toggled, m_output, &PingMap::setInhibitionShown);
     auto *conventional = new QCheckBox(tr("Conventional"));
-    conventional->setToolTip(tr("What thresholding each ping by itself finds: M hits in N pings, in a gate that admits "
+    conventional->setToolTip(tr("Show tracks found by thresholding each ping: M hits in N pings, in a gate that admits "
                                 "the largest speed (settings conventional.…)"));
     conventional->setFocusPolicy(Qt::TabFocus);
     connect(conventional, &QCheckBox::toggled, m_input, &PingMap::setConventionalShown);
@@ -187,7 +187,7 @@ QWidget *PingBench::buildBar()
     row->addWidget(button(tr("◀"), tr("Play backwards (Shift+Space)"), [this] { setPlayingBackward(!m_player.isActive()); }));
     row->addWidget(button(tr("−1"), tr("One ping back (J)"), [this] { stepFrames(-1); }));
     row->addWidget(m_slider, 1);
-    row->addWidget(button(tr("+1"), tr("One ping on (L)"), [this] { stepFrames(1); }));
+    row->addWidget(button(tr("+1"), tr("One ping forward (L)"), [this] { stepFrames(1); }));
     row->addWidget(button(tr("▶"), tr("Play (Space)"), [this] { setPlaying(!m_player.isActive()); }));
     row->addSpacing(10);
     row->addWidget(inhibition);
@@ -302,9 +302,8 @@ void PingBench::showRegulation()
     const std::vector<Index> dragged = draggedFrames(analysis);
     m_dragged->setVisible(!dragged.empty());
     if (!dragged.empty())
-        m_dragged->setText(tr("⚠ ln K lies below its band on noise in %1 of %2 pings, the first one ping %3: signals "
-                              "that no track has taken over drag it "
-                              "down, and every other statistic with it.")
+        m_dragged->setText(tr("⚠ ln K lies below its noise band in %1 of %2 pings, first in ping %3. Signals without a "
+                              "track lower it, and with it every other statistic.")
                                .arg(dragged.size())
                                .arg(analysis.lnK.size())
                                .arg(dragged.front() + 1));

@@ -189,7 +189,7 @@ void Workbench::showAnalysis()
     const Analysis &analysis = *m_document.analysis();
     const Axis &frequency = analysis.grid().axes.back();
     const bool isFirst = std::exchange(m_isFirstAnalysis, false);
-    m_statistic->setEmptySentence(tr("Click in a picture: D at that frequency, along time, appears here."));
+    m_statistic->setEmptySentence(tr("Click a picture to plot D at that frequency over time."));
 
     followExtents(analysis.time(), frequency);
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
@@ -219,7 +219,7 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
     m_input->setPicture(isReached ? pictures.input : pictures.quickLook, pictures.frequency);
     m_output->setPicture(pictures.statistic, pictures.frequency);
     if (!pictures.statistic)
-        m_output->setEmptySentence(tr("The detector listens to the noise first, then its statistic appears here as it goes."));
+        m_output->setEmptySentence(tr("The statistic appears here after the noise has been estimated."));
 }
 
 /// Above the output; its colour bar is the statistic's, a layer in its place has a key of its own.

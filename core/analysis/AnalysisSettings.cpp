@@ -108,7 +108,7 @@ namespace {
             constexpr double largest = 100.0;
             if (std::abs(slope) > largest)
                 throw fieldError(std::string("model.") + name, formatNumber(slope),
-                            "must lie in -100 … 100 bins/frame; longer windows make the same Hz/s more of them");
+                            "must lie in -100 … 100 bins/frame; use a shorter window to reduce it for the same Hz/s");
             const double inSteps = slope * model.slopesPerBin;
             if (std::abs(inSteps - std::round(inSteps)) > 1e-6)
                 throw fieldError(std::string("model.") + name, formatNumber(slope),
@@ -159,17 +159,16 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
     using S = ModelSettings;
     static const std::vector<Field<S>> table{
         field(&S::motion, "motion", motionNames,
-              "How signals move: slopes as given here, or a sonar's targets that keep their rates, that turn, or both "
-              "kinds in parallel."),
+              "Motion of signals: slopes as given here, or sonar targets that keep their rates, that turn, or both in "
+              "parallel."),
         field(&S::slopeUnit, "slopeUnit", slopeUnitNames,
-              "What the lowest and highest slope are given in; Hz/s become bins per frame with the window in use, taken "
-              "outwards to the next multiple of 1/slopesPerBin."),
+              "Unit of the lowest and highest slope; Hz/s are converted to bins per frame with the window in use and "
+              "rounded outward to a multiple of 1/slopesPerBin."),
         field(&S::lowestSlope, "lowestSlope", "bins/frame", -1e9, 1e9,
-              "Most negative slope a line may have, at least -100 bins/frame; in Hz/s where model.slopeUnit is "
+              "Most negative slope a line may have, at least -100 bins/frame; in Hz/s if model.slopeUnit is "
               "hzPerSecond."),
         field(&S::highestSlope, "highestSlope", "bins/frame", -1e9, 1e9,
-              "Most positive slope a line may have, at most 100 bins/frame; in Hz/s where model.slopeUnit is "
-              "hzPerSecond."),
+              "Most positive slope a line may have, at most 100 bins/frame; in Hz/s if model.slopeUnit is hzPerSecond."),
         field(&S::slopesPerBin, "slopesPerBin", "", 1.0, 64.0,
               "Number of slopes per bin/frame: 8 means steps of 1/8 bin/frame."),
         field(&S::slopeChange, "slopeChange", "", 0.0, 1.0,
@@ -178,12 +177,13 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
         field(&S::rangeRateChange, "rangeRateChange", "", 0.0, 1.0,
               "Law h(0), h(1), … of a manoeuvring target's change of range rate from ping to ping; h(0) + 2·(h(1) + …) "
               "= 1."),
-        field(&S::bearingRateChange, "bearingRateChange", "", 0.0, 1.0, "The same of its bearing rate."),
-        field(&S::rounding, "rounding", roundingNames, "How half a bin of movement is rounded."),
+        field(&S::bearingRateChange, "bearingRateChange", "", 0.0, 1.0, "Law of the change of its bearing rate, in the "
+                                                                        "same form."),
+        field(&S::rounding, "rounding", roundingNames, "Rounding of a movement by half a bin."),
         field(&S::likelihood, "likelihood", likelihoodNames,
-              "The signal's law: constant amplitude, fluctuating, or the plain power."),
+              "Signal law: constant amplitude, fluctuating, or the power itself."),
         field(&S::snr, "snr", "", 1e-6, 1e6,
-              "Signal-to-noise ratio r0 the likelihood is designed for, as a power ratio in one frame."),
+              "Signal-to-noise ratio r0 for which the likelihood is designed, as a power ratio in one frame."),
     };
     return table;
 }
@@ -222,21 +222,22 @@ const std::vector<Field<DecideSettings>> &DecideSettings::fields()
     using S = DecideSettings;
     static const std::vector<Field<S>> table{
         chosenBy(field(&S::falseAlarmsPerHour, "falseAlarmsPerHour", "1/h", 1e-9, 1e9,
-                       "False alarms per hour of recording that the threshold allows on noise."),
+                       "False alarms per hour of recording that the threshold permits on noise."),
                  S::By::FalseAlarmsPerHour),
         chosenBy(field(&S::pfaPerCell, "pfaPerCell", "", 1e-15, 0.5,
                        "Probability that a cell of noise exceeds the threshold in a frame."),
                  S::By::PfaPerCell),
         chosenBy(field(&S::thresholdNats, "thresholdNats", "nat", -100.0, 1e6, "Threshold on the statistic."), S::By::Nats),
-        field(&S::by, "by", S::byNames, "Which of the three sets the threshold."),
+        field(&S::by, "by", S::byNames, "Quantity that sets the threshold."),
         field(&S::linkCells, "linkCells", "bins", 0.0, 1000.0,
-              "Threshold crossings this near belong to one event, per axis; the last number repeats."),
+              "Largest distance between threshold crossings of one event, per axis; the last number repeats."),
         field(&S::inhibitCells, "inhibitCells", "cells", 0.0, 1000.0,
-              "Half the width, in resolution cells, kept from the detector round a track, per axis; the last number repeats."),
+              "Half width, in resolution cells, of the box inhibited around a track, per axis; the last number repeats."),
         field(&S::forgetCells, "forgetCells", "cells", 0.0, 1000.0,
-              "Half the width that the detector forgets round a new track, per axis; none: as inhibitCells."),
-        field(&S::resets, "resets", "Whether the detector forgets what a track has taken over."),
-        field(&S::inhibits, "inhibits", "Whether the data round a track are kept from the detector."),
+              "Half width of the box in which the detector is reset around a new track, per axis; none: as "
+              "inhibitCells."),
+        field(&S::resets, "resets", "Whether the detector is reset in the box around a new track."),
+        field(&S::inhibits, "inhibits", "Whether the detector is inhibited in the box around a track."),
     };
     return table;
 }
@@ -269,7 +270,8 @@ const Field<AnalysisSettings> &settingField(std::string_view name)
     const auto nearest = std::min_element(fields.begin(), fields.end(), [&](const auto &a, const auto &b) {
         return editDistance(a.name, name) < editDistance(b.name, name);
     });
-    throw Error(std::string(name), "is no setting; the nearest is " + nearest->name + " (all of them: faintline-cli describe)");
+    throw Error(std::string(name), "unknown setting; did you mean " + nearest->name + "? (faintline-cli describe lists "
+                                                                                      "all)");
 }
 
 FieldValue defaultValue(const Field<AnalysisSettings> &field)
@@ -286,7 +288,7 @@ void setSetting(AnalysisSettings &settings, std::string_view name, std::string_v
     const auto &f = settingField(name);
     f.set(settings, parseFieldValue(f, text));
     if (!f.get(settings))
-        throw Error(std::string(name), "belongs to another detector than the one chosen; choose it first with detector.kind").ofField(f.name);
+        throw Error(std::string(name), "belongs to a different detector; select that detector first with detector.kind").ofField(f.name);
 }
 
 void checkSettings(const AnalysisSettings &settings)
@@ -354,7 +356,7 @@ const std::vector<Preset> &presets()
         billon.model = laws::billon();
         billon.spectrogram.window = WindowShape::Rectangular;
         billon.spectrogram.binsPerCell = 4;
-        all.push_back({"billon", "The settings of Billon's tables: rectangular window, k_t = 2, k_f = 4, five slopes.", billon});
+        all.push_back({"billon", "Settings of Billon's tables: rectangular window, k_t = 2, k_f = 4, five slopes.", billon});
 
         AnalysisSettings steady;
         steady.model = laws::steady();
@@ -376,7 +378,7 @@ const std::vector<Preset> &presets()
         all.push_back({"sonarBank", "Active sonar, both models in parallel at equal false-alarm probability.", sonar});
 
         all.push_back({"whistles",
-                       "Fast sweeps such as whistles and calls: slopes of half a bin up to four bins a frame.",
+                       "Fast sweeps such as whistles and calls: slopes of half a bin to four bins per frame.",
                        whistles});
         return all;
     }();
@@ -391,7 +393,7 @@ const Preset &preset(std::string_view name)
             return p;
         known += (known.empty() ? "" : ", ") + p.name;
     }
-    throw Error("preset " + std::string(name), "is not known; there are " + known);
+    throw Error("preset " + std::string(name), "unknown; choose one of " + known);
 }
 
 MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
@@ -400,7 +402,7 @@ MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
         return sonarModel(grid, settings.motion == Motion::Manoeuvring ? turning(settings) : nonManoeuvring());
     if (settings.slopeUnit != SlopeUnit::BinsPerFrame)
         throw fieldError("model.slopeUnit", "hzPerSecond",
-                    "needs a recording, whose window says what a bin a frame is; give the slopes of frames and pings in binsPerFrame");
+                    "needs a recording; for frames and pings, give the slopes in binsPerFrame");
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)
         axes.push_back({axis.name,

@@ -60,7 +60,7 @@ struct DecideSettings {
     std::vector<double> inhibitCells{2.5}; ///< per axis; the last number repeats
     std::vector<double> forgetCells;       ///< per axis; empty: as inhibitCells
     bool resets = true;                    ///< the detector forgets what a track has taken over
-    bool inhibits = true;                  ///< the data round a track are kept from the detector
+    bool inhibits = true;                  ///< the detector is inhibited around a track
 
     static const std::vector<Field<DecideSettings>> &fields();
     bool operator==(const DecideSettings &) const = default;

@@ -67,7 +67,7 @@ enum class CalibrationDepth { FirstEstimate, Refined };
 std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context = {},
                                              CalibrationDepth depth = CalibrationDepth::Refined);
 
-/// The same for a band of so many bins on one axis: paths run off its ends, and in a narrow band few of them last.
+/// The same for a band of `bins` bins on one axis: paths run off its ends, and in a narrow band few of them last.
 ///
 ///   ln rate(T) = ln rate_wide(T) + ln S_band(T) - ln S_wide(T),   S: excursions per cell and frame, each by splitting
 ///

@@ -13,7 +13,7 @@ namespace faintline {
 
 /// An analysis's chain once more, frame by frame, and back again from checkpoints.
 ///
-/// It begins at the run's checkpoint before what is asked for. From one such beginning to the next it keeps the chain's state every
+/// It begins at the run's checkpoint before the frames requested. From one such beginning to the next it keeps the chain's state every
 /// `interval()` frames, as many as go into the byte budget, so that to go back costs at most one interval. Same scores as in the run, bit
 /// for bit; tracks are not traced back.
 /// A detector that cannot tell its state (fixed-window Viterbi and the like) is begun anew. One object per thread.
@@ -36,7 +36,7 @@ public:
     std::span<const float> frame() const { return m_y; } ///< y of the last one, before anything was kept from the detector
 
 private:
-    /// The frame before which the run's checkpoint before that one stands; 0: there is none.
+    /// The frame before which the run's checkpoint before that one stands; 0 if there is no earlier one.
     Index beginningOf(Index frame) const;
 
     std::shared_ptr<const Analysis> m_analysis;

@@ -12,7 +12,7 @@ namespace faintline {
 /// What a person thinks of a detection.
 enum class Verdict { None, Accepted, Rejected };
 
-/// "", "accepted", "rejected": as files write it. An unknown name is none.
+/// "", "accepted", "rejected": as files write it. An unknown name means no verdict.
 std::string nameOf(Verdict verdict);
 Verdict verdictNamed(const std::string &name);
 

@@ -23,7 +23,8 @@ std::shared_ptr<const StateScores> StateReplay::at(Index frame, std::size_t mode
     const Index first = m_replay.next();
     while (m_replay.next() <= frame) {
         const Index now = m_replay.next();
-        context.checkpoint(static_cast<double>(now - first) / static_cast<double>(frame + 1 - first), "going through it again");
+        context.checkpoint(static_cast<double>(now - first) / static_cast<double>(frame + 1 - first), "replaying the "
+                                                                                                      "recording");
         m_replay.step();
         if (frame - now < static_cast<Index>(m_mostKept)) {
             m_kept.push_back(std::make_shared<const StateScores>(scoresNow(*analysis(), m_replay.chain(), now, model)));

@@ -267,7 +267,7 @@ std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const An
     if (models.size() == 1)
         return analyseOneModel(std::move(frames), models.front(), settings, context, previous, sink);
     if (!std::holds_alternative<SmdSettings>(settings.detector))
-        throw fieldError("model.motion", "bank", "is for the sequential Markov detector; choose detector.kind = smd");
+        throw fieldError("model.motion", "bank", "requires the sequential Markov detector; choose detector.kind = smd");
     const auto analysis = analysisOf(std::move(frames), models.front(), settings);
     calibrateBank(*analysis, models, context.part(0.0, 0.5));
     regulateAndRun(*analysis, context.part(0.5, 1.0), previous, sink);

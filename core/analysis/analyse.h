@@ -20,7 +20,7 @@ enum class AnalysisDepth { Whole, Tracks };
 /// The pipeline: recording → frames → normalised frames → detector → threshold, clusters, tracks.
 ///
 /// Every caller, window, command line and library, comes through here. `previous`, if given, lends what is still valid.
-/// Streams: memory is bounded whatever the recording's length. Throws Error, Cancelled.
+/// Streams: memory is bounded for any recording length. Throws Error, Cancelled.
 /// A first estimate of the threshold is there sooner and is not the last word; nothing else of the run differs.
 std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context = {},
                                   const Analysis *previous = nullptr, const StatisticSink &sink = {}, const PictureSink &pictures = {},

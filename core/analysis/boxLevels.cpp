@@ -25,11 +25,11 @@ namespace {
     void check(const Grid &grid, Index frameCount, const FrameBox &box)
     {
         if (grid.axes.size() != 1)
-            throw Error("box", "is measured in frames on one axis; these have " + std::to_string(grid.axes.size()));
+            throw Error("box", "can be measured only in frames with one axis; the number of axes is " + std::to_string(grid.axes.size()));
         const bool isThere = box.beginFrame >= 0 && box.beginFrame < box.endFrame && box.endFrame <= frameCount && box.beginCell >= 0
                              && box.beginCell < box.endCell && box.endCell <= grid.size();
         if (!isThere)
-            throw Error("box", "must hold a frame and a cell, all of them of the recording");
+            throw Error("box", "must contain at least one frame and one cell, and lie within the recording");
     }
 
     /// The cells beside a box: [firstBegin, firstEnd) and [secondBegin, secondEnd).

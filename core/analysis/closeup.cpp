@@ -26,7 +26,7 @@ namespace {
         std::vector<float> block;
         for (Index first = frames.begin; first < frames.end; first += most) {
             const double share = static_cast<double>(first - frames.begin) / static_cast<double>(frames.end - frames.begin);
-            context.checkpoint(share, "looking closely");
+            context.checkpoint(share, "computing the close-up");
             const Index count = std::min(most, frames.end - first);
             block.resize(static_cast<std::size_t>(count * cells));
             analysis.frames->read(first, count, block);

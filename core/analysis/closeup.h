@@ -20,11 +20,11 @@ struct FrameStretch {
 /// that the byte budget would have rows of the close-up merged as far. Begins with a row of the picture's finest level.
 FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visible, double framesPerPixel, std::size_t byteBudget);
 
-/// Frames a row that a picture of so many frames has within a byte budget.
+/// Frames per row of a picture of this number of frames within a byte budget.
 Index framesPerRowWithin(std::size_t byteBudget, Index frames, Index cells);
 
 /// A stretch of an analysis's input and of its statistic, with the rows that an analysis of the whole with memory enough would have: the
-/// frames are read again, and the chain goes on from the checkpoint before them. Time axes begin with the stretch's first frame.
+/// frames are read again, and the chain continues from the checkpoint before them. Time axes begin with the stretch's first frame.
 ///
 /// Cost: of the input, reading; of the statistic, also the chain over the stretch and up to an interval of checkpoints, over all frames
 /// before it where the detector cannot tell its state. Throws Cancelled. Oracle: the analysis's own pictures where they are not merged.

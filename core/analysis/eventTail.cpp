@@ -30,7 +30,7 @@ std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFr
     const auto blocks = static_cast<double>(maxima.size());
     std::erase_if(maxima, [](float maximum) { return !std::isfinite(maximum); });
     if (maxima.size() < leastMaxima)
-        throw Error("detector", "decides too seldom to be calibrated on noise; choose a shorter window");
+        throw Error("detector", "decides too rarely to be calibrated on noise; choose a shorter window");
     std::sort(maxima.begin(), maxima.end());
     const double perMaximum = cellFramesPerBlock * blocks / static_cast<double>(maxima.size());
     constexpr double lower = 0.5;
@@ -49,7 +49,7 @@ void fitEventRate(std::span<const double> thresholds, std::span<const double> ev
 {
     const double total = std::accumulate(events.begin(), events.end(), 0.0);
     if (total < leastEvents)
-        throw Error("detector", "hardly ever exceeds any threshold on noise, which leaves nothing to calibrate on");
+        throw Error("detector", "exceeds thresholds on noise too rarely to be calibrated");
     double anchor = 0.0; // where both parameters' errors are independent
     for (std::size_t i = 0; i < thresholds.size(); ++i)
         anchor += thresholds[i] * events[i] / total;
@@ -91,7 +91,7 @@ void anchorTail(const RareRates &rare, std::span<const double> thresholds, const
         offsets.push_back(std::log(events / counts.cellFrames[i]) - rare.lnRateAt(thresholds[i]));
     }
     if (levels.empty())
-        throw Error("detector", "hardly ever exceeds any threshold on noise, which leaves nothing to calibrate on");
+        throw Error("detector", "exceeds thresholds on noise too rarely to be calibrated");
     const auto offset = [&](double level) {
         if (levels.size() == 1)
             return offsets.front();

@@ -32,7 +32,7 @@ namespace {
         const Index first = resumeBefore(*chain, analysis, std::min(begin, frame + 1 - chain->longestPath()));
         for (Index t = first; t <= frame; ++t) {
             if (t % 64 == 0)
-                context.checkpoint(static_cast<double>(t - first) / static_cast<double>(frame + 1 - first), "going through it again");
+                context.checkpoint(static_cast<double>(t - first) / static_cast<double>(frame + 1 - first), "replaying the recording");
             analysis.frames->read(t, 1, y);
             chain->update(t, y, statistic);
         }
@@ -94,7 +94,8 @@ namespace {
                 m_next = resumeBefore(*m_chain, m_analysis, frame);
             for (; m_next < frame; ++m_next) {
                 if (m_next % 64 == 0)
-                    context.checkpoint(static_cast<double>(m_next) / static_cast<double>(frame), "looking at what it beat");
+                    context.checkpoint(static_cast<double>(m_next) / static_cast<double>(frame), "evaluating competing "
+                                                                                                 "states");
                 m_analysis.frames->read(m_next, 1, m_y);
                 m_chain->update(m_next, m_y, m_statistic);
             }

@@ -31,7 +31,7 @@ struct Explanation {
     double threshold = 0.0;
     std::size_t model = 0;         ///< of a bank, the one whose path it is: it numbers the steps' states
     ResetCause reset;              ///< before the first step
-    /// The best of the other states of the cell and how far it lies behind, nat; of a model with one rate a cell there is none.
+    /// The best of the other states of the cell and how far it lies behind, nat; absent for a model with one rate per cell.
     std::optional<Index> otherState;
     double otherMargin = 0.0;
     std::optional<int> inhibitedFor; ///< the track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later

@@ -29,7 +29,7 @@ std::string falseAlarmWords(double perHour, double factor)
         return " (" + twoDigits(middle / factor) + " to " + twoDigits(middle * factor) + ")";
     };
     if (perHour > 1.0 + 1e-9)
-        return twoDigits(perHour) + " an hour" + interval(perHour);
+        return twoDigits(perHour) + " per hour" + interval(perHour);
     const double hours = 1.0 / perHour;
     const double unit = hours < 2.0 * hoursPerDay ? 1.0 : hours < hoursPerYear ? hoursPerDay : hoursPerYear;
     const char *name = unit == 1.0 ? " h" : unit == hoursPerDay ? " days" : " years";

@@ -60,7 +60,7 @@ namespace {
         if (isInside || std::isnan(percent)) // of a few frames nothing is measured
             return 0.5 * (low + high);
         throw fieldError("model.snr", formatNumber(model.likelihood.snr()),
-                    "leaves no ln K for which half of the states continue on noise: at " + formatNumber(end) + " nat "
+                    "permits no ln K at which half of the states continue on noise: at " + formatNumber(end) + " nat "
                         + formatNumber(std::round(10.0 * percent) / 10.0) + " % do; choose a " + (end > 0.0 ? "lower" : "higher") + " one");
     }
 

@@ -14,7 +14,7 @@ namespace faintline {
 RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, const AnalysisSettings &settings,
                      const Calibration &calibration, const CalibrationEffort &effort, const RunContext &context);
 
-/// As `followTail`, in so many bins with two ends, or in a band that closes on itself.
+/// As `followTail`, in `bins` bins with two ends, or in a band that closes on itself.
 RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic, const SplittingSettings &splitting,
                      const RunContext &context);
 

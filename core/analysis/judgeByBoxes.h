@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// Judgements somebody wrote beside boxes in another place, as what is said about the events in them.
+/// Applies the reviews of annotated boxes to the events within them.
 struct JudgedByBoxes {
     std::vector<Review> reviews;    ///< the given ones and what was added
     std::vector<Annotation> others; ///< boxes that judge no event here, or judge nothing

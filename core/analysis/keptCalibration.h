@@ -12,7 +12,7 @@ namespace faintline {
 
 inline constexpr int calibrationWindowSamples = 256; ///< of the simulated recording; its noise does not depend on it
 
-/// How the chain decides, at whatever threshold.
+/// How the chain decides, independent of the threshold.
 DecideSettings withoutThreshold(DecideSettings decide);
 
 /// The settings that the answer to noise depends on.

@@ -4,7 +4,7 @@
 
 namespace faintline {
 
-/// The refined calibration that `calibrate` has kept for these settings, in memory or on disk, or null: for whoever would rather do
+/// The refined calibration that `calibrate` has kept for these settings, in memory or on disk, or null: for callers that would rather do
 /// something else first than wait.
 std::shared_ptr<const Calibration> knownCalibration(const AnalysisSettings &settings);
 

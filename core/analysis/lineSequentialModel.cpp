@@ -7,7 +7,7 @@ namespace faintline {
 SequentialModel lineSequentialModel(const ModelSettings &settings, const Grid &grid, const NormalisedFrames &frames)
 {
     if (grid.axes.size() != 1 || settings.motion != Motion::Slopes)
-        throw Error("sequential test", "is made on the frequencies of a line recording with the slopes' model");
+        throw Error("sequential test", "requires a line recording and model.motion = slopes");
     const MarkovModel line = makeModel(settings, grid);
     checkLikelihoodRatio(line.likelihood, "model.likelihood");
     SequentialModel model = makeSequentialModel(line.space.axes(), {false}, line.likelihood);
@@ -24,7 +24,8 @@ Index framesApart(const NormalisedFrames &frames)
 void checkLikelihoodRatio(const Likelihood &likelihood, const std::string &where)
 {
     if (likelihood.kind() == LikelihoodKind::Linear)
-        throw Error(where, "linear is no likelihood ratio of noise power, so no error probability could be kept; take rice or exponential");
+        throw Error(where, "linear is not a likelihood ratio, so error probabilities cannot be guaranteed; choose rice "
+                           "or exponential");
 }
 
 } // namespace faintline

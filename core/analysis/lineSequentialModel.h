@@ -17,7 +17,7 @@ namespace faintline {
 /// stage to stage more. What is assumed besides: a background that is right, and a line that
 /// is there from the first frame on and moves as the model says, over whose paths β is a mean.
 ///
-/// `grid` may be a part of the frames'. Throws Error for sonar's motions, and for a likelihood that is none of noise power.
+/// `grid` may be a part of the frames'. Throws Error for sonar's motions, and for a likelihood that is not one of noise power.
 SequentialModel lineSequentialModel(const ModelSettings &settings, const Grid &grid, const NormalisedFrames &frames);
 
 /// Frames from one to the next that shares no sample with it: k_t of a spectrogram, 1 of ready-made frames.

@@ -25,7 +25,7 @@ namespace {
     constexpr double noiseMean = 1.1;
     constexpr double overlap = 1.3; ///< deviation of a mean over frames that overlap, in that of independent ones
 
-    /// Part of a track that lies in a stretch, with the power round it.
+    /// Part of a track that lies in a stretch, with the power around it.
     struct Piece {
         std::vector<TrackPoint> points;
         std::vector<double> below; ///< Σ y at 0, 1, 2 … bins below the track
@@ -77,8 +77,8 @@ std::string NoiseLaw::warning() const
     char text[200];
     const bool isMore = found > expected;
     std::snprintf(text, sizeof text,
-                  "the noise outside tracks is not what the threshold was calibrated for: %.1f %% of paths go on, %.1f … %.1f %% "
-                  "are expected; expect %s false alarms than ordered",
+                  "the noise outside tracks differs from that of the calibration: %.1f %% of paths continue, %.1f … "
+                  "%.1f %% are expected; expect %s false alarms than specified",
                   100.0 * found, 100.0 * band.low, 100.0 * band.high, isMore ? "more" : "fewer");
     return text;
 }
@@ -111,7 +111,7 @@ std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext
             piece.above.resize(static_cast<std::size_t>(widest));
         }
         for (auto it = points.begin(); it != points.end();) {
-            context.checkpoint(0.0, "looking at the noise outside tracks");
+            context.checkpoint(0.0, "checking the noise outside tracks");
             const Index frame = it->first;
             frames.read(frame, 1, y);
             for (; it != points.end() && it->first == frame; ++it) {
@@ -130,7 +130,7 @@ std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext
         Smd detector(analysis.model, resetRule(*smd, analysis.calibration->lnK));
         for (Index frame = first; frame < first + length; ++frame) {
             context.checkpoint(static_cast<double>(stretch * length + frame - first) / static_cast<double>(stretches * length),
-                               "looking at the noise outside tracks");
+                               "checking the noise outside tracks");
             frames.read(frame, 1, y);
             const auto [from, to] = points.equal_range(frame);
             for (auto it = from; it != to; ++it)

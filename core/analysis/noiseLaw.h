@@ -10,7 +10,7 @@ namespace faintline {
 
 /// Whether a recording's noise outside its tracks is the noise that its threshold was calibrated for.
 ///
-/// On that noise a known fraction p of the states goes on from frame to frame (half of them, at the usual K). Levels that are wrong by a few
+/// On that noise a known fraction p of the states continues from frame to frame (half of them, at the usual K). Levels that are wrong by a few
 /// per cent, spread signals and noise that is not Gaussian move the fraction before they make events. The detector's recursion goes
 /// through a few stretches of the frames once more; cells near tracks hold simulated noise, so that what a line takes or leaves is not
 /// counted. The band is
@@ -31,7 +31,7 @@ struct NoiseLaw {
 };
 
 /// Nothing for ready-made frames, for detectors without a fixed K, and where there are too few frames to tell. Cost: some four million cells
-/// and frames, whatever the recording's length. Throws Cancelled.
+/// and frames, independent of the recording's length. Throws Cancelled.
 std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext &context = {});
 
 } // namespace faintline

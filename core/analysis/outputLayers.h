@@ -25,7 +25,7 @@ struct CellLayers {
     std::vector<std::int32_t> plane;  ///< of the best state; the lowest among equals
     std::vector<std::int32_t> age;    ///< frames since the last reset of the best path, where asked for; 0: it was reset in this frame
     std::vector<float> resetFraction; ///< of the cell's states, those that were reset in this frame
-    std::vector<char> isInhibited;    ///< kept from the detector in this frame, for a track or as a blind place
+    std::vector<char> isInhibited;    ///< inhibited in this frame for a track, or excluded
 };
 
 /// Goes through an analysis's chain again and tells of every cell which state won and for how long its path has gone on.
@@ -134,7 +134,7 @@ struct LayerPicture {
     Index pixelAt(Index row, Index column) const;
 };
 
-/// Of lines: frames × cells.
+/// For lines: frames × cells.
 LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const RunContext &context = {});
 /// Of one ping. Precondition: the grid has two axes.
 LayerPicture layerPictureOf(LayerReplay &replay, Index ping, const LayerWindow &window, const RunContext &context = {});
@@ -151,7 +151,7 @@ struct CellReading {
     double statistic = 0.0; ///< D
 };
 CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index cell);
-/// Of a pixel.
+/// Values of one pixel.
 CellReading readPixel(const LayerPicture &picture, Index pixel);
 
 } // namespace faintline

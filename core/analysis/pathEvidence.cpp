@@ -17,10 +17,10 @@ PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> p
     for (const PathCell &at : path) {
         if (at.frame < 0 || at.frame >= analysis.time().count || at.cell < 0 || at.cell >= cells)
             throw Error("path at frame " + std::to_string(at.frame) + ", cell " + std::to_string(at.cell),
-                        "lies outside of the picture");
+                        "lies outside the picture");
         if (evidence.frames % 64 == 0)
             context.checkpoint(static_cast<double>(evidence.frames) / static_cast<double>(path.size()),
-                               "going along a path");
+                               "evaluating a path");
         analysis.frames->read(at.frame, 1, y);
         const auto value = static_cast<double>(y[static_cast<std::size_t>(at.cell)]);
         evidence.logLikelihoodRatio += analysis.model.likelihood.at(value);

@@ -68,7 +68,7 @@ std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Ind
     const Index cells = source->grid().size();
     kept->values.resize(static_cast<std::size_t>(count * cells));
     for (Index done = 0; done < count; done += blockFrames) {
-        context.checkpoint(static_cast<double>(done) / static_cast<double>(count), "reading what is visible");
+        context.checkpoint(static_cast<double>(done) / static_cast<double>(count), "reading the visible part");
         const Index block = std::min(blockFrames, count - done);
         source->read(first + done, block,
                      std::span(kept->values).subspan(static_cast<std::size_t>(done * cells), static_cast<std::size_t>(block * cells)));

@@ -154,7 +154,7 @@ namespace {
             append(m_level, lnRate, variance);
             for (int number = 1; number < mostLevels && lnRate > m_settings.leastLnRate; ++number) {
                 m_context.checkpoint(std::min(1.0, lnRate / m_settings.leastLnRate),
-                                     "following rare excursions of the noise");
+                                     "simulating rare excursions of the noise");
                 const double next = nextLevel(number);
                 if (std::isinf(next))
                     return {};

@@ -19,7 +19,7 @@ NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const 
     std::vector<double> lnK;
     Random random(2000, 0);
     for (int frame = 0; frame < frames; ++frame) {
-        context.checkpoint(static_cast<double>(frame) / frames, "settling K on noise");
+        context.checkpoint(static_cast<double>(frame) / frames, "regulating K on noise");
         for (float &value : y)
             value = static_cast<float>(random.exponential());
         detector.update(y, statistic);

@@ -11,7 +11,7 @@ namespace faintline {
 /// scaled to the whole. Of deviation 0 where the law regulates nothing.
 NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const RunContext &context = {});
 
-/// The frames in which ln K lies below its band, ascending: signals that nobody has taken over drag it down, and the statistic of all
+/// The frames in which ln K lies below its band, ascending: signals without a track lower it, and the statistic of all
 /// others with it. Above the band it is still settling. Empty where K is not regulated.
 std::vector<Index> draggedFrames(const Analysis &analysis);
 

@@ -131,7 +131,7 @@ namespace {
             }
         }
 
-        /// An empty strip round a piece of a path, which goes on for some frames at either end: as the track does, or beyond its ends as it
+        /// An empty strip around a piece of a path, which goes on for some frames at either end: as the track does, or beyond its ends as it
         /// begins and ends.
         PathStrip stripRound(const Piece &piece) const
         {

@@ -14,7 +14,7 @@ bool looksTwice(const Analysis &analysis);
 ///
 /// The chain decides causally what is found; its statistic stays as it is, and so do times of detection, but for those that lie outside of where the
 /// signal turned out to be: they are put at its nearer end. Each of the chain's tracks, the strongest first, is looked at in a strip of frames
-/// round its path (bothWays.h):
+/// around its path (bothWays.h):
 ///
 ///   1. y is divided by the floor that stronger tracks raise (explanation.h);
 ///   2. a track that the detector would not have found over that floor was theirs: it goes;

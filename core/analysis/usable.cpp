@@ -21,19 +21,19 @@ void checkUsable(const Spectrogram &spectrogram, const NoiseBackground &backgrou
     const Index before = recording.nonFiniteCount();
     std::vector<float> samples(static_cast<std::size_t>(blockSamples * recording.info().floatsPerSample()));
     for (Index at = first; at < end; at += blockSamples) {
-        context.checkpoint(0.0, "looking for samples that can be used");
+        context.checkpoint(0.0, "looking for usable samples");
         recording.read(channel, at, std::min(blockSamples, end - at), samples);
         const auto used = samples.begin() + std::min(blockSamples, end - at) * recording.info().floatsPerSample();
         if (std::any_of(samples.begin(), used, [](float value) { return value != 0.0f; }))
             return;
     }
     const Index nonFinite = recording.nonFiniteCount() - before;
-    const std::string all = "holds nothing that can be used: all of the " + std::to_string(end - first) + " samples looked at ";
+    const std::string all = "has no usable samples: all of the " + std::to_string(end - first) + " samples read ";
     if (nonFinite >= (end - first) * recording.info().floatsPerSample())
         throw Error(recording.info().path, all + "are not finite in single precision");
     if (nonFinite > 0)
         throw Error(recording.info().path, all + "are 0 or not finite");
-    throw Error(recording.info().path, all + "are 0 or below 1e-45, the least that single precision holds");
+    throw Error(recording.info().path, all + "are 0 or below 1e-45, the smallest value in single precision");
 }
 
 } // namespace faintline

@@ -31,7 +31,7 @@ namespace {
         if (path.empty())
             throw Error("a file to write", "has no name");
         if (path.find('\0') != std::string::npos)
-            throw Error(path, "is no name of a file: it holds a zero byte");
+            throw Error(path, "is not a valid file name: it contains a zero byte");
         std::error_code code;
         const fs::file_status status = fs::status(path, code);
         if (!fs::exists(status))
@@ -39,7 +39,7 @@ namespace {
         if (fs::is_directory(status))
             throw Error(path, "is a folder; give the name of a file");
         if (!fs::is_regular_file(status)) // renaming over a device would replace it
-            throw Error(path, "is not a regular file, so it cannot be replaced in one step");
+            throw Error(path, "is not a regular file and cannot be replaced atomically");
         const fs::path resolved = fs::canonical(path, code);
         return code ? path : resolved.string();
     }

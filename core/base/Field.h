@@ -20,7 +20,7 @@ enum class FieldKind { Flag, Integer, Number, Choice, Numbers };
 /// What is known of one setting without an object that holds it: drives forms, documentation, checks, JSON.
 struct FieldInfo {
     std::string name; ///< "spectrogram.windowSeconds"
-    std::string unit; ///< "s", "" where there is none
+    std::string unit; ///< "s"; "" without a unit
     double minimum = 0.0;
     double maximum = 0.0;
     std::string sentence;
@@ -51,7 +51,7 @@ std::string formatFieldValue(const FieldValue &value);
 /// Shortest decimal form of a number that reads back the same.
 std::string formatNumber(double value);
 
-/// A number from the whole of a text, in the C locale; nothing if it is none.
+/// A number from the whole of a text, in the C locale; nothing if it is not a number.
 std::optional<double> parseNumber(std::string_view text);
 
 // ---- making tables -------------------------------------------------------------------------------------------------

@@ -71,7 +71,7 @@ void Interruption::wait()
     if (m_ended.wait_for(lock, m_patience, [this] { return m_isOver; }))
         return;
     removeTemporaries();
-    constexpr std::string_view message = "error: interrupted: nothing half-written is left\n";
+    constexpr std::string_view message = "error: interrupted: no incomplete output was left\n";
     (void)!::write(STDERR_FILENO, message.data(), message.size());
     std::_Exit(1);
 }

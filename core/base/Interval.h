@@ -13,13 +13,13 @@ struct Interval {
     bool operator==(const Interval &) const = default;
 };
 
-/// Of a probability, from `successes` in `trials` independent ones (Wilson 1927): never empty, never outside of 0 … 1.
+/// Interval of a probability, from `successes` in `trials` independent trials (Wilson 1927): never empty, within 0 … 1.
 Interval wilsonInterval(std::int64_t successes, std::int64_t trials);
 
-/// Of a Poisson mean from one count, exact (Garwood 1936, by χ² quantiles).
+/// Interval of a Poisson mean from one count, exact (Garwood 1936, by χ² quantiles).
 Interval poissonInterval(std::int64_t count);
 
-/// Of a mean, from its standard error: ± 1.96 errors.
+/// Interval of a mean, from its standard error: ± 1.96 errors.
 Interval normalInterval(double mean, double standardError);
 
 } // namespace faintline

@@ -59,7 +59,8 @@ namespace {
         bool key(std::string &name)
         {
             if (++m_keys.back() > mostKeys)
-                throw Error(m_where, "has an object of more than " + std::to_string(mostKeys) + " keys; nothing that is read here has");
+                throw Error(m_where, "has an object of more than " + std::to_string(mostKeys) + " keys, the limit for "
+                                                                                                "any input");
             return Base::key(name);
         }
 
@@ -68,7 +69,8 @@ namespace {
         {
             m_keys.push_back(0);
             if (m_keys.size() > deepest)
-                throw Error(m_where, "is nested more than " + std::to_string(deepest) + " levels deep; nothing that is read here is");
+                throw Error(m_where, "is nested more than " + std::to_string(deepest) + " levels deep, the limit for "
+                                                                                        "any input");
         }
 
         const std::string &m_where;
@@ -97,7 +99,7 @@ Json parseJson(std::string_view text, const std::string &where)
     } catch (const Json::parse_error &error) {
         throw Error(where, "is not valid JSON at " + place(text, error.byte));
     } catch (const Json::exception &) {
-        throw Error(where, "is not valid JSON: a number in it is too large");
+        throw Error(where, "is not valid JSON: it contains a number that is too large");
     }
 }
 
@@ -106,9 +108,9 @@ Json readJsonFile(const std::string &path)
     constexpr std::uintmax_t largest = std::uintmax_t(64) << 20;
     std::error_code code;
     if (!std::filesystem::exists(path, code))
-        throw Error(path, "there is no such file");
+        throw Error(path, "no such file");
     if (!std::filesystem::is_regular_file(path, code))
-        throw Error(path, "is not a file; a JSON file is wanted here");
+        throw Error(path, "is not a file; expected a JSON file");
     const std::uintmax_t size = std::filesystem::file_size(path, code);
     if (!code && size > largest)
         throw Error(path, "is larger than 64 MiB, too large for a JSON file");
@@ -125,7 +127,7 @@ void checkKeys(const Json &object, const std::string &where, const std::vector<s
         throw Error(where.empty() ? "JSON" : where, "must be an object, { … }");
     for (const auto &item : object.items())
         if (std::find(known.begin(), known.end(), item.key()) == known.end())
-            throw Error(jsonName(where, item.key()), "is not known; known are " + list(known));
+            throw Error(jsonName(where, item.key()), "unknown; expected one of " + list(known));
 }
 
 FieldValue fieldValueFromJson(const Json &value, const FieldInfo &info)

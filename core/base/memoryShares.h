@@ -20,7 +20,7 @@ inline constexpr std::size_t documentBytes = 432 * mebibyte;
 
 inline constexpr std::size_t picture = 64 * mebibyte;       ///< of the input, and as much of the statistic; 1.33 a cell
 inline constexpr std::size_t background = 64 * mebibyte;    ///< of the noise; twice while it is estimated, before the pictures are there
-inline constexpr std::size_t checkpoints = 32 * mebibyte;   ///< of the chain, kept of a run for whoever goes through a part of it again
+inline constexpr std::size_t checkpoints = 32 * mebibyte;   ///< of the chain, kept of a run to replay a part of it
 inline constexpr std::size_t pathRecord = 32 * mebibyte;    ///< of frames a path is traced back through, and as much of checkpoints
 inline constexpr std::size_t closeup = 24 * mebibyte;       ///< of what is visible: of the input, of the statistic, of its preview
 inline constexpr std::size_t previewFrames = 24 * mebibyte; ///< kept while a detector is being tuned

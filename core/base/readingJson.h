@@ -17,7 +17,7 @@ auto readingJson(const std::string &where, const Read &read)
     try {
         return read();
     } catch (const Json::exception &error) {
-        throw Error(where, "holds something else than is wanted: " + complaint(error));
+        throw Error(where, "has the wrong type or is missing: " + complaint(error));
     }
 }
 

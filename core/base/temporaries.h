@@ -14,7 +14,7 @@ void makeTemporary(const std::function<std::string()> &make);
 /// It is gone, or has become a result.
 void forgetTemporary(const std::string &path);
 
-/// Removes all that there are. The program has to end after it: whoever still wants to make something waits for ever.
+/// Removes all temporaries. The program must end after it: later attempts to create one block.
 void removeTemporaries();
 
 } // namespace faintline

@@ -7,7 +7,7 @@
 namespace faintline {
 
 /// Seconds since 1970-01-01T00:00:00 UTC of an ISO 8601 date and time ("2024-07-26T00:00:00.25Z", "… +02:00"; a space
-/// may stand for the T, no zone means UTC); nothing if the text is none.
+/// may stand for the T, no zone means UTC); nothing if the text is not a time.
 std::optional<double> parseUtc(std::string_view text);
 
 /// ISO 8601, to the microsecond, trailing zeros of the fraction left out: "2024-07-26T00:00:00.25Z".

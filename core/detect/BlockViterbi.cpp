@@ -10,7 +10,7 @@ const std::vector<Field<BlockViterbiSettings>> &BlockViterbiSettings::fields()
     using S = BlockViterbiSettings;
     static const std::vector<Field<S>> table{
         field(&S::durationWindows, "durationWindows", "windows", 0.0, 1e5,
-              "Length of a block in windows of the spectrogram; a decision falls at the end of each."),
+              "Length of a block in windows of the spectrogram; a decision is made at the end of each block."),
     };
     return table;
 }

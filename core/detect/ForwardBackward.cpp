@@ -27,7 +27,7 @@ namespace {
             for (const StateSpace::Predecessor &p : space.predecessors(n, phase))
                 result.moves.push_back({p.state, n, p.lnProbability});
             if (result.moves.size() > most)
-                throw Error("law", "makes more than 2²⁷ moves from frame to frame; take fewer cells or rates");
+                throw Error("law", "gives more than 2²⁷ transitions per frame; use fewer cells or rates");
         }
         return result;
     }
@@ -106,7 +106,7 @@ namespace {
             }
             const double lnEvidence = lnSumOf(frame(m_frames - 1));
             if (!(lnEvidence > minusInfinity))
-                throw Error("log-likelihoods and law", "leave no path that has a probability above 0");
+                throw Error("log-likelihoods and law", "leave no path with a probability above 0");
             return lnEvidence;
         }
 

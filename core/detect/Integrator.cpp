@@ -41,7 +41,7 @@ const std::vector<Field<IntegratorSettings>> &IntegratorSettings::fields()
 {
     using S = IntegratorSettings;
     static const std::vector<Field<S>> table{
-        field(&S::shape, "shape", S::shapeNames, "A sliding mean, or an exponentially fading one."),
+        field(&S::shape, "shape", S::shapeNames, "Sliding mean, or exponentially weighted mean."),
         field(&S::durationWindows, "durationWindows", "windows", 0.0, 1e5,
               "Length of the mean, or its time constant, in windows of the spectrogram."),
     };

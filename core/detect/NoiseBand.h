@@ -5,7 +5,7 @@
 namespace faintline {
 
 /// Where ln K stays on settled noise: mean ± 4 standard deviations. One global K regulates all states, so strong
-/// signals that nobody takes over drag it down, and with it every other path; outside of the band that has begun.
+/// signals without a track lower it, and with it every other path; outside of the band that has begun.
 /// Source: Parsons 2008 has no such check; eight targets of 7 dB take K from -1.5 to -2.9 within 25 pings.
 struct NoiseBand {
     double mean = 0.0;

@@ -32,7 +32,7 @@ struct RecursionRecord {
 
     /// The scores of all states after a frame, before anything was forgotten.
     struct Checkpoint {
-        Index frame = -1; ///< -1: there is none
+        Index frame = -1; ///< -1 if there is no checkpoint
         std::span<const float> scores{};
     };
     /// The latest that was kept of the frames before `frame`. May be empty: none are kept.

@@ -81,9 +81,10 @@ const std::vector<Field<PofNSettings>> &PofNSettings::fields()
 {
     using S = PofNSettings;
     static const std::vector<Field<S>> table{
-        field(&S::p, "p", "frames", 1.0, maximumFrames, "Frames that must have an event."),
-        field(&S::n, "n", "frames", 1.0, maximumFrames, "Frames in the window."),
-        field(&S::r1, "r1", "", 0.0, 1e6, "A frame has an event where the largest y in the band exceeds this; noise has mean 1."),
+        field(&S::p, "p", "frames", 1.0, maximumFrames, "Number of frames that must have an event."),
+        field(&S::n, "n", "frames", 1.0, maximumFrames, "Number of frames in the window."),
+        field(&S::r1, "r1", "", 0.0, 1e6, "A frame has an event if the largest y in the band exceeds this value; noise "
+                                          "has mean 1."),
         field(&S::r2, "r2", "", 0.0, 1e6, "Second threshold, on the mean of the P largest; 0: none."),
         field(&S::widthCells, "widthCells", "cells", 0.0, 1000.0, "Bandwidth of the window in resolution cells."),
     };

@@ -48,7 +48,7 @@ private:
         std::vector<float> windows; ///< two frames of a tile
         std::vector<float> halo;    ///< of every frame: the last columns of the tile before
         std::vector<float> lambda;
-        std::vector<float> unused;  ///< a statistic nobody looks at
+        std::vector<float> unused;  ///< a statistic that is not used
         std::vector<const float *> ahead;
     };
 

@@ -15,9 +15,9 @@ const std::vector<Field<SprtSettings>> &SprtSettings::fields()
 {
     using S = SprtSettings;
     static const std::vector<Field<S>> table{
-        field(&S::falseAlarm, "falseAlarm", "", 1e-300, 0.5, "Wanted probability of accepting a signal on noise, α."),
-        field(&S::miss, "miss", "", 1e-300, 0.5, "Wanted probability of accepting noise with a signal, β."),
-        field(&S::cutOffStage, "cutOffStage", "", 0.0, 1e9, "Stage at which a decision is forced; 0 is never."),
+        field(&S::falseAlarm, "falseAlarm", "", 1e-300, 0.5, "Specified probability of accepting a signal on noise, α."),
+        field(&S::miss, "miss", "", 1e-300, 0.5, "Specified probability of accepting noise with a signal, β."),
+        field(&S::cutOffStage, "cutOffStage", "", 0.0, 1e9, "Stage at which a decision is forced; 0: never."),
     };
     return table;
 }
@@ -26,7 +26,7 @@ void checkSprt(const SprtSettings &settings, const std::string &where)
 {
     checkFields(settings, SprtSettings::fields(), where);
     if (!(settings.falseAlarm + settings.miss < 1.0))
-        throw Error(where, "falseAlarm + miss must stay below 1; a coin does as well");
+        throw Error(where, "falseAlarm + miss must be below 1, the value of a random decision");
 }
 
 SprtBoundaries sprtBoundaries(const SprtSettings &settings)

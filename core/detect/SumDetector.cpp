@@ -20,7 +20,7 @@ SumDetector::SumDetector(const MarkovModel &model, const ResetRule &rule)
       m_weights(static_cast<std::size_t>(model.space.stateCount()), 1.0), m_scores(m_weights.size())
 {
     if (rule.law != ResetLaw::Fixed && rule.law != ResetLaw::None)
-        throw Error("reset.law", "must be fixed or none where the semiring is sum");
+        throw Error("reset.law", "must be fixed or none if the semiring is sum");
 }
 
 void SumDetector::update(std::span<const float> y, std::span<float> statistic)

@@ -34,7 +34,7 @@ StageSource averagedStages(StageSource source, const SequentialModel &model, Ind
 {
     const Likelihood likelihood = model.markov.likelihood;
     if (likelihood.kind() != LikelihoodKind::Exponential)
-        throw Error(where, "needs an exponential likelihood; that of the average is known for no other");
+        throw Error(where, "requires an exponential likelihood; no other likelihood of the average is implemented");
     const Row row = rowOf(model.reduction);
     if (N < 1 || N >= row.cells)
         throw Error(where + " = " + std::to_string(N), row.cells < 2 ? "has no neighbours to average"
@@ -44,8 +44,8 @@ StageSource averagedStages(StageSource source, const SequentialModel &model, Ind
             line = std::vector<float>(static_cast<std::size_t>(row.cells))](Index stage, std::span<double> y) mutable {
         source(stage, y);
         if (std::any_of(y.begin(), y.end(), [](double value) { return std::isnan(value); }))
-            throw Error(where, "averages neighbours, which needs all cells; stage " + std::to_string(stage)
-                                   + " has some that were not observed");
+            throw Error(where, "averages neighbours and needs all cells; stage " + std::to_string(stage)
+                                   + " has unobserved cells");
         const Index block = row.cells * row.stride;
         for (Index first = 0; first < std::ssize(y); ++first) {
             if (first % block >= row.stride) // not the first cell of a row

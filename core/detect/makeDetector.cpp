@@ -29,8 +29,9 @@ const std::vector<Field<SmdSettings>> &SmdSettings::fields()
     using S = SmdSettings;
     static const std::vector<Field<S>> table{
         field(&S::reset, "reset", S::resetNames,
-              "How K is found: calibrated on noise for a 50 % reset probability, fixed, regulated to 50 %, or Parsons' mean law."),
-        field(&S::lnK, "lnK", "nat", -100.0, 100.0, "ln K where it is fixed."),
+              "Choice of K: calibrated on noise for a 50 % reset probability, fixed, regulated to 50 %, or Parsons' "
+              "mean law."),
+        field(&S::lnK, "lnK", "nat", -100.0, 100.0, "ln K if it is fixed."),
     };
     return table;
 }
@@ -45,7 +46,8 @@ const std::vector<Field<ShiryaevRobertsSettings>> &ShiryaevRobertsSettings::fiel
 {
     using S = ShiryaevRobertsSettings;
     static const std::vector<Field<S>> table{
-        field(&S::lnK, "lnK", "nat", -100.0, 0.0, "How fast old evidence fades; 0 is the classical procedure, which never settles on noise."),
+        field(&S::lnK, "lnK", "nat", -100.0, 0.0, "Rate at which old evidence fades; 0 is the classical procedure, "
+                                                  "which is not stationary on noise."),
     };
     return table;
 }

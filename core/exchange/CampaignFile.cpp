@@ -156,7 +156,7 @@ namespace {
                 isWhole = isWhole && !values.empty();
         }
         if (!isWhole)
-            throw Error(where, "must hold values for each of the " + std::to_string(detectors) + " detectors and " + std::to_string(snrs) + " SNRs");
+            throw Error(where, "must contain values for each of the " + std::to_string(detectors) + " detectors and " + std::to_string(snrs) + " SNRs");
     }
 
     std::string sweepCsv(const Campaign &campaign)
@@ -250,12 +250,12 @@ Campaign readCampaign(const std::string &path)
     if (!file)
         throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
     if (std::error_code code; !std::filesystem::is_regular_file(path, code))
-        throw Error(path, "is not a file; the runs of a campaign are one");
+        throw Error(path, "is not a file; expected a file of campaign runs");
     std::string line;
     std::getline(file, line);
     const Json head = parseJson(line, path + ", line 1");
     if (!head.is_object() || head.value(versionKey, Json()) != fileVersion || !head.contains("experiment") || !head.contains("thresholds"))
-        throw Error(path, "is no campaign: its first line must hold " + std::string(versionKey) + ", experiment and thresholds");
+        throw Error(path, "is not a campaign: its first line must contain " + std::string(versionKey) + ", experiment and thresholds");
     Campaign campaign{experimentFromJson(head["experiment"], path), {}, {}};
     campaign.thresholds = readingJson(path + ", line 1: thresholds", [&] { return head["thresholds"].get<std::vector<double>>(); });
     for (int number = 2; std::getline(file, line); ++number) {
@@ -299,7 +299,7 @@ std::vector<CurvePoint> readCurve(const std::string &path)
         throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
     std::string line;
     if (!std::getline(file, line) || !line.starts_with(curveHead))
-        throw Error(path, "is no curve: its first line must be " + std::string(curveHead));
+        throw Error(path, "is not a curve: its first line must be " + std::string(curveHead));
     std::vector<CurvePoint> curve;
     for (int number = 2; std::getline(file, line); ++number)
         curve.push_back(pointFrom(line, path + ", line " + std::to_string(number)));
@@ -311,7 +311,7 @@ Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> 
     const std::string parts = partsPath(path);
     std::optional<Campaign> begun = readParts(parts);
     if (begun && !(begun->experiment == experiment))
-        throw Error(parts, "holds runs of another experiment; remove it or choose another name for the result");
+        throw Error(parts, "contains runs of a different experiment; remove it or choose another name for the result");
     Campaign campaign = begun ? std::move(*begun) : begin(experiment, context.part(0.0, 0.1));
     if (!begun)
         writeParts(campaign, parts);

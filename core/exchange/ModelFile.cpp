@@ -68,7 +68,7 @@ namespace {
         if (found == object.end())
             return otherwise;
         if (!found->is_string())
-            throw Error(jsonName(where, key), "must be a text");
+            throw Error(jsonName(where, key), "must be a string");
         constexpr std::size_t mostBytes = 80; // a name or a unit, which goes onto labels and to terminals
         return oneLine(found->get<std::string>(), mostBytes);
     }
@@ -133,7 +133,7 @@ namespace {
         axis.name = text(json, where, "name", "");
         const double cells = number(json, where, "cells", 0.0);
         if (!(cells >= 1.0 && cells <= 1e9 && cells == std::floor(cells)))
-            throw Error(where + ".cells", "must be a whole number from 1 on");
+            throw Error(where + ".cells", "must be a whole number, at least 1");
         axis.cells = static_cast<Index>(cells);
         axis.cyclic = flag(json, where, "cyclic");
         readRates(axis, numbers(json, where, "rates"), where);
@@ -241,7 +241,7 @@ ModelFile modelFromJson(const Json &json, const std::string &path)
         file.isSum = file.isSum || choice(reset, place, "semiring", std::array<std::string_view, 2>{"max", "sum"}, 0) == 1;
     }
     if (file.isSum && file.reset.law != ResetLaw::Fixed && file.reset.law != ResetLaw::None)
-        throw Error(path + ": reset.law", "must be fixed or none where the semiring is sum");
+        throw Error(path + ": reset.law", "must be fixed or none if the semiring is sum");
     return file;
 }
 
@@ -265,7 +265,7 @@ SequentialModel readSequentialModel(const std::string &path, const FrameCells *f
         initial = numbers(json, path, "initial");
     const Likelihood likelihood = readLikelihood(json, path);
     if (json.contains("scaleTransitions") && json["scaleTransitions"] != false)
-        throw Error(path + ": scaleTransitions", "has no place in a sequential test, whose likelihood ratio is exact");
+        throw Error(path + ": scaleTransitions", "cannot be used in a sequential test, whose likelihood ratio is exact");
     try {
         return makeSequentialModel(axes, isFolded, likelihood, std::move(initial));
     } catch (const Error &error) {
@@ -314,7 +314,7 @@ namespace {
         const auto bad = std::find_if(values.begin(), values.end(), [](auto y) { return y < 0 || std::isinf(y); });
         if (bad != values.end())
             throw Error(where, "holds " + formatNumber(static_cast<double>(*bad)) + " at position " + std::to_string(bad - values.begin())
-                                   + "; normalised power is finite and not negative, or NaN where nothing was observed");
+                                   + "; normalised power must be finite and not negative, or NaN for unobserved cells");
     }
 
     template <class Array>

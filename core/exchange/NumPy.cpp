@@ -90,16 +90,16 @@ namespace {
 
     Error cutShort(const NumPyLayout &layout, const std::string &path)
     {
-        return Error(path, "is cut short: its shape " + shapeText(layout.shape) + " asks for " + std::to_string(valueCount(layout)) + " values");
+        return Error(path, "is truncated: its shape " + shapeText(layout.shape) + " requires " + std::to_string(valueCount(layout)) + " values");
     }
 
     NumPyLayout readLayout(std::ifstream &file, int mostExponent, const std::string &path)
     {
         if (!file)
-            throw Error(path, "cannot be opened; a NumPy file (.npy) is wanted");
+            throw Error(path, "cannot be opened; expected a NumPy file (.npy)");
         char start[10] = {};
         if (!file.read(start, 10) || std::string_view(start, 6) != magic)
-            throw Error(path, "is no NumPy file (.npy)");
+            throw Error(path, "is not a NumPy file (.npy)");
         std::size_t length = static_cast<unsigned char>(start[8]) + 256u * static_cast<unsigned char>(start[9]);
         std::size_t before = 10;
         if (start[6] >= 2) {
@@ -109,15 +109,15 @@ namespace {
             before = 12;
         }
         if (length > (1u << 20))
-            throw Error(path, "its NumPy header is longer than any should be");
+            throw Error(path, "its NumPy header is too long");
         std::string dictionary(length, ' ');
         if (!file.read(dictionary.data(), static_cast<std::streamsize>(length)))
-            throw Error(path, "is cut short in its NumPy header");
+            throw Error(path, "is truncated within its NumPy header");
         if (entry(dictionary, "fortran_order", path).starts_with("True"))
             throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
         const std::string_view type = entry(dictionary, "descr", path);
         if (!type.starts_with("'<f4'") && !type.starts_with("'<f8'"))
-            throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; float32 or float64, little-endian, is wanted");
+            throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; expected float32 or float64, little-endian");
         NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path), static_cast<Index>(before + length), type.starts_with("'<f8'")};
         std::error_code code;
         const std::uintmax_t size = std::filesystem::file_size(path, code);

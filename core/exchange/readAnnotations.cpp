@@ -31,13 +31,13 @@ namespace {
         if (!file)
             throw Error(path, std::string("cannot be read: ") + std::strerror(errno));
         if (std::error_code code; std::filesystem::is_directory(path, code))
-            throw Error(path, "is a folder; annotations are a file");
+            throw Error(path, "is a folder; expected a file of annotations");
         std::string text;
         std::vector<char> block(1 << 16);
         while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
             text.append(block.data(), static_cast<std::size_t>(file.gcount()));
             if (text.size() > mostBytes)
-                throw Error(path, "is longer than 64 MiB; annotations are expected, not samples");
+                throw Error(path, "is larger than 64 MiB; expected annotations, not samples");
         }
         if (text.starts_with("\xef\xbb\xbf"))
             text.erase(0, 3);
@@ -106,7 +106,7 @@ namespace {
         const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
         if (error != std::errc() || std::string_view(end, text.data() + text.size()).find_first_not_of(' ') != std::string_view::npos
             || !std::isfinite(value))
-            throw Error(place, "\"" + oneLine(text.substr(0, 40)) + "\" is no number for " + what);
+            throw Error(place, "\"" + oneLine(text.substr(0, 40)) + "\" is not a number for " + what);
         return value;
     }
 
@@ -119,7 +119,7 @@ namespace {
     void add(std::vector<Annotation> &all, Annotation box, const std::string &place)
     {
         if (!(box.endSeconds >= box.startSeconds) || !std::isfinite(box.startSeconds) || !std::isfinite(box.endSeconds))
-            throw Error(place, "an annotation's end must not lie before its begin");
+            throw Error(place, "an annotation must not end before it begins");
         if (box.lowHz.has_value() != box.highHz.has_value())
             throw Error(place, "an annotation needs both a lower and an upper frequency, or none");
         if (box.lowHz && !(*box.highHz >= *box.lowHz))
@@ -143,7 +143,7 @@ namespace {
         {
             if (const std::ptrdiff_t found = column(name); found >= 0)
                 return found;
-            throw Error(where(path, 1), "there is no column \"" + name + "\"");
+            throw Error(where(path, 1), "missing column \"" + name + "\"");
         }
     };
 
@@ -241,7 +241,8 @@ namespace {
             const std::vector<std::string> cells = splitAtTabs(line);
             if (cells[0] == "\\") {
                 if (all.empty() || cells.size() < 3)
-                    throw Error(place, "a line of frequencies belongs after a label and holds a lower and an upper one");
+                    throw Error(place, "a line of frequencies must follow a label and contain a lower and an upper "
+                                       "frequency");
                 Annotation box = all.back();
                 all.pop_back();
                 const double low = numberOf(cells[1], place, "the lower frequency");
@@ -254,7 +255,7 @@ namespace {
                 continue;
             }
             if (cells.size() < 2)
-                throw Error(place, "is no label: begin, end and text, separated by tabs, are expected");
+                throw Error(place, "is not a label; expected begin, end and text, separated by tabs");
             Annotation box;
             box.startSeconds = numberOf(cells[0], place, "the begin");
             box.endSeconds = numberOf(cells[1], place, "the end");
@@ -282,7 +283,7 @@ namespace {
         if (json.contains("global"))
             rate = readingJson(path + ": global", [&] { return json["global"].value("core:sample_rate", rate); });
         if (!(rate > 0.0) || !std::isfinite(rate))
-            throw Error(path, "tells no sample rate");
+            throw Error(path, "has no sample rate");
         return fromList(json["annotations"], path + ", annotation", [&](const Json &one, const std::string &) {
             Annotation box;
             const double start = one.at("core:sample_start").get<double>();
@@ -325,7 +326,7 @@ namespace {
             return fromSigmf(json, path, info);
         if (json.contains("events"))
             return fromEventsJson(json, path);
-        throw Error(path, "holds neither SigMF's \"annotations\" nor \"events\"");
+        throw Error(path, "contains neither SigMF's \"annotations\" nor \"events\"");
     }
 
 } // namespace

@@ -10,7 +10,7 @@ namespace faintline {
 /// The same chart gives the same bytes.
 std::string chartSvg(const Chart &chart);
 
-/// A chart's points as CSV: "curve,kind,x,y,low,high", a row per point; low and high empty where there is no interval.
+/// A chart's points as CSV: "curve,kind,x,y,low,high", a row per point; low and high are empty without an interval.
 std::string chartCsv(const Chart &chart);
 
 } // namespace faintline

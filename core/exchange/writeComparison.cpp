@@ -48,7 +48,7 @@ namespace {
 void checkComparisonPath(const std::string &path)
 {
     if (!path.ends_with(".csv"))
-        throw Error(path, "the kind of file is told by its extension: .csv");
+        throw Error(path, "the file name must end in .csv");
 }
 
 void writeComparison(const Comparison &comparison, const Grid &grid, const std::string &path)

@@ -12,7 +12,7 @@ namespace faintline {
 /// Numbers in the C locale, shortest form that reads back the same. The file appears when it is complete. Throws Error.
 void writeComparison(const Comparison &comparison, const Grid &grid, const std::string &path);
 
-/// Throws Error where a name's extension is none that `writeComparison` knows: to be asked before a long run.
+/// Throws Error if `writeComparison` does not know the extension of a name; call it before a long run.
 void checkComparisonPath(const std::string &path);
 
 /// Writes the difference layer, .npy: float32, shape (rows, cells), nat.

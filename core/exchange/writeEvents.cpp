@@ -138,7 +138,7 @@ namespace {
     std::string sigmfAnnotations(const Analysis &analysis)
     {
         if (!analysis.recording)
-            throw Error("events as SigMF", "need a recording; write .csv or .json for ready-made frames");
+            throw Error("events as SigMF", "require a recording; write .csv or .json for ready-made frames");
         const double rate = analysis.recording->info().sampleRateHz;
         const double centre = analysis.recording->info().centreHz;
         Json json;
@@ -222,7 +222,7 @@ namespace {
     void checkExtension(const std::string &path, std::initializer_list<std::string_view> extensions, const std::string &known)
     {
         if (std::none_of(extensions.begin(), extensions.end(), [&](std::string_view extension) { return path.ends_with(extension); }))
-            throw Error(path, "the kind of file is told by its extension: " + known);
+            throw Error(path, "the file name must end in one of " + known);
     }
 
 } // namespace

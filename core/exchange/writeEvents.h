@@ -15,13 +15,13 @@ namespace faintline {
 /// band) and noise_probability (that noise alone brings such an event in this recording). Files appear only when complete. Throws Error for an unknown extension or a full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
 
-/// Throws Error where a name's extension is none that `writeEvents` or `writeTracks` knows: to be asked before a long run.
+/// Throws Error if `writeEvents` or `writeTracks` does not know the extension of a name; call it before a long run.
 void checkEventsPath(const std::string &path);
 void checkTracksPath(const std::string &path);
 
 /// Writes the tracks: .csv with a row per frame of each track (track, t, f, statistic; where they were looked at
 /// from both ends also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db), or .json. The statistic is the score of the track's path,
-/// in nats whatever the detector: where it has no paths, that of the sequential Markov detector that guides it.
+/// in nats for every detector: if it has no paths, that of the sequential Markov detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);
 
 } // namespace faintline

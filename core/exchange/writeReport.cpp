@@ -251,7 +251,7 @@ namespace {
         const double decided = isScore ? why.statistic : why.displayed;
         const std::string unit = " " + std::string(statisticUnit(analysis.settings.detector));
         std::string text = "<details>\n<summary>Event " + std::to_string(one.event) + ": "
-                           + (isScore ? "" : fixed(decided, 2) + unit + "; its guide's path has ") + fixed(why.statistic, 2) + " nat over "
+                           + (isScore ? "" : fixed(decided, 2) + unit + "; the path of its guide has ") + fixed(why.statistic, 2) + " nat over "
                            + std::to_string(why.steps.size()) + " frames, " + (isScore ? "" : "the statistic is ")
                            + fixed(std::abs(decided - why.threshold), 2) + unit + (decided > why.threshold ? " above" : " below")
                            + " the threshold</summary>\n";
@@ -278,7 +278,7 @@ namespace {
         }
         text += "</table>\n";
         if (why.offset != 0.0)
-            text += "<p>And " + fixed(why.offset, 4) + " nat that all states are given alike.</p>\n";
+            text += "<p>And " + fixed(why.offset, 4) + " nat common to all states.</p>\n";
         return text + "</details>\n";
     }
 
@@ -323,12 +323,15 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
     text += "</div>\n<h2>Events</h2>\n" + eventsTable(analysis, material) + annotationsTable(material.annotations.boxes);
     text += "<h2>Threshold and calibration</h2>\n" + calibrationFacts(analysis);
     if (!material.ladders.empty()) {
-        text += "<h2>Why they were detected</h2>\n<p>The best path up to the moment of detection, term by term from its last reset on; the terms add up to the statistic.</p>\n";
+        text += "<h2>Path breakdown of detections</h2>\n<p>The best path up to the moment of detection, term by term "
+                "from its last reset; the terms add up to the statistic.</p>\n";
         for (const ReportMaterial::Ladder &one : material.ladders)
             text += ladder(analysis, one);
     }
     text += "<h2>Settings that differ from the defaults</h2>\n" + settingsTable(analysis.settings);
-    text += "<h2>Provenance</h2>\n<p>Faintline " + escaped(material.version) + ". The same recording with these settings gives the same results.</p>\n<pre>"
+    text += "<h2>Provenance</h2>\n<p>Faintline " + escaped(material.version) + ". The same recording with these "
+                                                                               "settings gives the same "
+                                                                               "results.</p>\n<pre>"
           + escaped(material.provenance) + "</pre>\n";
     return text + "</body>\n</html>\n";
 }

@@ -123,7 +123,7 @@ void writeReproduction(const Reproduction &reproduction, const std::string &fold
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
-        throw Error(folder, "cannot be made: " + error.message(), Error::Kind::Failure);
+        throw Error(folder, "cannot be created: " + error.message(), Error::Kind::Failure);
     std::string stem = reproduction.name;
     for (char &c : stem)
         c = c == ':' ? '-' : c;

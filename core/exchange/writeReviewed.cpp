@@ -168,7 +168,7 @@ namespace {
     std::string sigmf(const Analysis &analysis, const std::vector<Row> &rows)
     {
         if (!analysis.recording)
-            throw Error("events as SigMF", "need a recording; write .csv or .json for ready-made frames");
+            throw Error("events as SigMF", "require a recording; write .csv or .json for ready-made frames");
         const double rate = analysis.recording->info().sampleRateHz;
         const double centre = analysis.recording->info().centreHz;
         Json json;
@@ -207,7 +207,8 @@ void checkReviewedPath(const std::string &path)
     for (const char *extension : {".csv", ".json", ".txt", ".sigmf-meta"})
         if (path.ends_with(extension))
             return;
-    throw Error(path, "the kind of file is told by its extension: .csv, .json, .selections.txt (Raven), .txt (Audacity labels) or .sigmf-meta");
+    throw Error(path, "the file name must end in .csv, .json, .selections.txt (Raven), .txt (Audacity labels) or "
+                      ".sigmf-meta");
 }
 
 void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations, const std::string &path)

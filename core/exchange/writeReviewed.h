@@ -14,7 +14,7 @@ namespace faintline {
 /// format has one text only it reads "label [rejected] note"; `readAnnotations` reads all of them back. Throws Error as `writeEvents` does.
 void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations, const std::string &path);
 
-/// Throws Error where a name's extension is none that `writeReviewed` knows.
+/// Throws Error if `writeReviewed` does not know the extension of a name.
 void checkReviewedPath(const std::string &path);
 
 } // namespace faintline

@@ -36,7 +36,7 @@ namespace {
     void checkProbability(double probability, const std::string &where)
     {
         if (!(probability >= 0.0 && probability <= 1.0))
-            throw Error(where, "holds " + formatNumber(probability) + "; a probability lies in 0 … 1");
+            throw Error(where, "holds " + formatNumber(probability) + "; a probability must lie in 0 … 1");
     }
 
     void checkLaw(const std::vector<double> &law, const std::string &where)
@@ -55,7 +55,7 @@ namespace {
     void checkMatrix(const std::vector<double> &matrix, Index cells, const std::string &where)
     {
         if (std::ssize(matrix) != cells * cells)
-            throw Error(where, "must hold as many rows and columns as the axis has cells, " + std::to_string(cells));
+            throw Error(where, "must have as many rows and columns as the axis has cells, " + std::to_string(cells));
         for (Index from = 0; from < cells; ++from) {
             double sum = 0.0;
             for (Index to = 0; to < cells; ++to) {
@@ -79,8 +79,8 @@ namespace {
             }
             for (Index number = 0; number < axis.phaseCount(); ++number)
                 if (!(axis.remaining(cell, axis.rateGoingOn(cell, 0, number), number) > 0.0))
-                    throw Error(where, "let no target stay on the axis that is in cell " + std::to_string(cell)
-                                           + "; a law that loses nothing needs a move from every cell");
+                    throw Error(where, "let no target in this cell stay on the axis: " + std::to_string(cell)
+                                           + "; a lossless law needs a transition from every cell");
         }
     }
 
@@ -181,7 +181,8 @@ KinematicAxis KinematicAxis::stochastic(const std::string &where) const
         for (Index from = 0; from < cells; ++from) {
             const double sum = remaining(from);
             if (!(sum > 0.0))
-                throw Error(where + ".transition", "row " + std::to_string(from) + " holds zeros only; a target there could not go on");
+                throw Error(where + ".transition", "row " + std::to_string(from) + " contains only zeros, so a target "
+                                                                                   "there cannot continue");
             for (Index to = 0; to < cells; ++to)
                 result.transition[static_cast<std::size_t>(from * cells + to)] /= sum;
         }
@@ -218,14 +219,14 @@ void KinematicAxis::check(const std::string &where) const
     if (ratesPerCell < 1 || ratesPerCell > 64)
         throw Error(where + ".ratesPerCell", "must lie in 1 … 64");
     if (!step.empty() && rateCount > 1)
-        throw Error(where, "has both rates and a step law; a random walk has no rates");
+        throw Error(where, "has both rates and a step law; use rates or, for a random walk, a step law");
     if (!transition.empty()) {
         if (!step.empty() || rateCount > 1 || cyclic)
-            throw Error(where, "has a transition matrix, which says all of its moves: no rates, no step law, not cyclic");
+            throw Error(where, "has a transition matrix, so rates, a step law or cyclic cannot be given");
         checkMatrix(transition, cells, where + ".transition");
     }
     if (renormalised && !transition.empty())
-        throw Error(where, "has a transition matrix, whose rows say all of what remains on the axis");
+        throw Error(where, "has a transition matrix, whose rows already define the losses at the edges");
     if (renormalised && step.empty()) {
         checkLaw(rateChange, where + ".rateChange");
         checkWaysOn(*this, where + ".rates");
@@ -235,14 +236,15 @@ void KinematicAxis::check(const std::string &where) const
         if (!(step.front() > 0.0))
             checkWaysOn(*this, where + ".step");
         if (cyclic && 2 * std::ssize(step) - 1 > cells)
-            throw Error(where + ".step", "reaches the same cell both ways round a cyclic axis of " + std::to_string(cells));
+            throw Error(where + ".step", "reaches the same cell in both directions on a cyclic axis of " + std::to_string(cells));
     } else if (step.empty()) {
         checkLaw(rateChange, where + ".rateChange");
     } else {
         checkLaw(step, where + ".step");
     }
     if (cyclic && largestDisplacement() >= cells)
-        throw Error(where, "a step of " + std::to_string(largestDisplacement()) + " cells goes round a cyclic axis of "
+        throw Error(where, "a step of " + std::to_string(largestDisplacement()) + " cells wraps around a cyclic axis "
+                                                                                  "of "
                                + std::to_string(cells));
 }
 

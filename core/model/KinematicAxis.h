@@ -21,13 +21,13 @@ inline constexpr std::array<std::string_view, 2> roundingNames{"halfDown", "trun
 ///
 /// With rates r in firstRate … firstRate+rateCount-1:   r' = r + δ with probability h(|δ|),   p' = p + round((r + r')/2).
 /// With `ratesPerCell` = q > 1 rates are whole multiples k of 1/q cell per step, and the target's moves it as Bresenham's line does:
-/// in step t = 0, 1, …   p' = p + ⌊k'(t + 1)/q + ½⌋ - ⌊k'·t/q + ½⌋, whatever the rate before. A state that keeps its rate stays within half
+/// in step t = 0, 1, …   p' = p + ⌊k'(t + 1)/q + ½⌋ - ⌊k'·t/q + ½⌋, independent of the previous rate. A state that keeps its rate stays within half
 /// a cell of a straight line; the phase t mod q is common to all states, so it costs neither states nor probability.
 /// Without rates (rateCount = 1, firstRate = 0) and with a step law q:   p' = p + δ with probability q(|δ|), a random walk.
 /// h(0) + 2 Σ h(i) = 1, the same for q. Rates outside the set do not exist; neither do positions outside a bounded axis;
 /// the probability lost there is not given to others (Billon 2005 section 4, Parsons 2008 section 3): K absorbs that in a detector.
 ///
-/// A likelihood ratio needs a law that loses nothing. On a `renormalised` axis the moves that exist share what is lost,
+/// A likelihood ratio needs a lossless law. On a `renormalised` axis the moves that exist share what is lost,
 ///
 ///   P(r', p' | r, p) = h(|r'-r|) / Σ over r'' with p + d(r, r'') on the axis of h(|r''-r|),   P(p'|p) = q(|p'-p|) / Σ over existing cells
 ///
@@ -62,16 +62,16 @@ struct KinematicAxis {
     /// By how many cells a move between two rates (indices) goes in step number `step`.
     int displacement(int fromRate, int toRate, Index step = 0) const;
 
-    /// After so many steps the moves repeat.
+    /// Number of steps after which the moves repeat.
     Index phaseCount() const { return ratesPerCell; }
 
     /// A rate by its index, in cells per step.
     double rate(Index index) const { return static_cast<double>(firstRate + index) / ratesPerCell; }
 
-    /// Σ of the law's probabilities over the moves that exist from a cell and a rate (index) in step number `step`; 0: there is none.
+    /// Σ of the law's probabilities over the moves that exist from a cell and a rate (index) in step number `step`; 0 if no move exists.
     double remaining(Index fromCell, int fromRate = 0, Index step = 0) const;
 
-    /// The rate a target goes on with: its own, or on a renormalised axis where that has no move, the nearest that has one.
+    /// The rate with which a target continues: its own, or on a renormalised axis where that has no move, the nearest that has one.
     int rateGoingOn(Index cell, int rate, Index step = 0) const;
 
     /// What a move has on top of its ln probability: -ln of what remains where renormalised, otherwise 0.
@@ -99,7 +99,7 @@ struct KinematicAxis {
     bool operator==(const KinematicAxis &) const = default;
 };
 
-/// Step law of a random walk in `deviation` cells, q(d) = Φ((d + ½)/σ) - Φ((d - ½)/σ), as far as an axis of so many cells reaches and
+/// Step law of a random walk in `deviation` cells, q(d) = Φ((d + ½)/σ) - Φ((d - ½)/σ), truncated to an axis of `cells` cells and
 /// q exceeds 1e-17 of its maximum; to be renormalised. σ = 0 stays, σ = ∞ is uniform. Source: Grossi and Lops 2006, section 4.2.
 std::vector<double> gaussianStep(double deviation, Index cells);
 

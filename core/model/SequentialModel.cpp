@@ -17,16 +17,17 @@ std::vector<double> SequentialModel::initialLaw() const
 void SequentialModel::check(const std::string &where) const
 {
     if (reduction.stateCells() != markov.space.cellCount())
-        throw Error(where, "has " + std::to_string(markov.space.cellCount()) + " cells, but the frames leave "
+        throw Error(where, "has " + std::to_string(markov.space.cellCount()) + " cells, but the reduced frames have "
                                + std::to_string(reduction.stateCells()));
     if (observedEvery < 1)
         throw Error(where + ".observedEvery = " + std::to_string(observedEvery), "must be at least 1");
     if (markov.transitionScale != 1.0)
-        throw Error(where, "has scaled transitions, which are no probabilities");
+        throw Error(where, "has scaled transitions, which are not probabilities");
     for (const KinematicAxis &axis : markov.space.axes())
         if (const double loss = axis.largestLoss(); loss > 1e-12)
             throw Error(where, "has an axis" + (axis.name.empty() ? std::string() : " of " + axis.name) + " that loses up to "
-                                   + formatNumber(100.0 * loss) + " % of a target's probability a stage; a likelihood ratio needs a law that loses none");
+                                   + formatNumber(100.0 * loss) + " % of a target's probability per stage; a "
+                                                                  "likelihood ratio needs a lossless law");
     if (initial.empty())
         return;
     if (std::ssize(initial) != markov.space.stateCount())
@@ -35,7 +36,7 @@ void SequentialModel::check(const std::string &where) const
     double sum = 0.0;
     for (const double p : initial) {
         if (!(p >= 0.0 && p <= 1.0))
-            throw Error(where + ".initial", "holds " + formatNumber(p) + "; a probability lies in 0 … 1");
+            throw Error(where + ".initial", "holds " + formatNumber(p) + "; a probability must lie in 0 … 1");
         sum += p;
     }
     if (std::abs(sum - 1.0) > 1e-6)

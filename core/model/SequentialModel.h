@@ -10,7 +10,7 @@ namespace faintline {
 
 /// What a sequential test is told of the world: a Markov model of the target, where it starts, and frame axes it has no state on.
 ///
-/// Its law is stochastic: whatever a state, P over the states it can move to adds up to 1, rates and ends of an axis included. Otherwise
+/// Its law is stochastic: for every state, P over the states it can move to adds up to 1, rates and ends of an axis included. Otherwise
 /// E0[Λ_k] would fall from stage to stage (by 9 % with five slopes, h = ⅓), and every test would drift to "no target".
 struct SequentialModel {
     MarkovModel markov;          ///< on the frame axes that are not folded; one cell where all are
@@ -23,7 +23,7 @@ struct SequentialModel {
     /// P(x1) of every state, written out.
     std::vector<double> initialLaw() const;
 
-    /// Throws Error naming `where` if the initial law is none, cells do not fit, or the law of an axis loses probability.
+    /// Throws Error naming `where` if the initial law is not a probability law, cells do not match, or the law of an axis loses probability.
     void check(const std::string &where) const;
 };
 

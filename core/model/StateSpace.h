@@ -36,7 +36,7 @@ public:
     /// Rates, in cells per step, of the states of one plane: one per axis.
     std::vector<double> ratesOfPlane(Index plane) const;
 
-    /// After so many steps the moves of all axes repeat: the least common multiple of theirs.
+    /// Number of steps after which the moves of all axes repeat: the least common multiple of theirs.
     Index phaseCount() const;
 
     struct Predecessor {

@@ -21,7 +21,7 @@ SonarMotion manoeuvring(int reach)
 MarkovModel sonarModel(const Grid &grid, const SonarMotion &motion)
 {
     if (grid.axes.size() != 2)
-        throw Error("model.motion", "a sonar target moves in range and bearing, but the frames have "
+        throw Error("model.motion", "requires frames on range and bearing; the frames have "
                                         + std::to_string(grid.axes.size()) + (grid.axes.size() == 1 ? " axis" : " axes"));
     const Axis &range = grid.axes[0];
     const Axis &bearing = grid.axes[1];

@@ -17,7 +17,7 @@ struct ArrayLayout {
 
 /// Samples that are in memory already, sample after sample, its channels side by side.
 ///
-/// They are not copied: `samples` keeps what owns them alive, and nobody may change them meanwhile. They are in a unit of their own, as those
+/// They are not copied: `samples` keeps what owns them alive, and they must not change meanwhile. They are in a unit of their own, as those
 /// of a file of floats are. Thread-safe.
 class ArrayRecording final : public Recording
 {

@@ -40,11 +40,11 @@ public:
     /// What libsndfile wrote down while parsing the header.
     std::string log() const;
 
-    /// The bytes of a chunk of the header ("auxi"); empty where there is none.
+    /// The bytes of a chunk of the header ("auxi"); empty if absent.
     std::vector<std::byte> chunk(std::string_view id) const;
 
     std::optional<SF_BROADCAST_INFO> broadcastInfo() const;
-    std::string text(int which) const; ///< SF_STR_DATE …; empty where there is none
+    std::string text(int which) const; ///< SF_STR_DATE …; empty if absent
 
 private:
     struct Source;

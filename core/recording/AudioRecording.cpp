@@ -42,10 +42,10 @@ namespace {
     std::string refusal(const std::string &said)
     {
         if (said.find("not recognised") != std::string::npos || said.find("unknown format") != std::string::npos)
-            return "is not in a format that is known here; ";
+            return "has an unknown format; ";
         if (said.find("SF_INFO struct incomplete") != std::string::npos)
-            return "its header gives a sample rate or a channel count of 0; ";
-        return "is damaged or cut off in its header (" + said + "); ";
+            return "the sample rate or channel count in its header is 0; ";
+        return "is damaged or truncated in its header (" + said + "); ";
     }
 
 } // namespace
@@ -58,10 +58,10 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     std::unique_ptr<AudioDecoder> decoder = openDecoder();
     const SF_INFO format = decoder->format();
     if ((format.format & SF_FORMAT_TYPEMASK) == SF_FORMAT_AIFF && !hasAiffRate(*m_file))
-        throw Error(path, "its header gives a sample rate that is no number from 1 Hz to 1e9 Hz");
+        throw Error(path, "the sample rate in its header is not a number from 1 Hz to 1e9 Hz");
     m_streams = format.channels;
     if (iq && m_streams % 2 != 0)
-        throw Error(path, "has " + std::to_string(m_streams) + " channel(s), but I/Q needs them in pairs");
+        throw Error(path, "has " + std::to_string(m_streams) + " channel(s); I/Q needs an even number");
     m_info.container = containerName(format.format);
     m_info.sampleType = sampleTypeName(format.format);
     m_info.sampleRateHz = format.samplerate;
@@ -77,11 +77,11 @@ AudioRecording::AudioRecording(const std::string &path, bool iq) : m_file(std::m
     if (const long long missing = missingBytes(decoder->log()); missing > 0)
         m_info.notes.push_back(
             "The header claims " + std::to_string(missing)
-            + " bytes more than the file holds (it was cut short or never closed); what is there is read.");
+            + " bytes more than the file holds (it was truncated or never closed); the existing part is read.");
     if (m_access == Access::Blocks) {
         m_info.sampleCount = readableCount(decoder);
         if (m_info.sampleCount != format.frames)
-            m_info.notes.push_back("The header does not say where the file ends, or says more than there is; the "
+            m_info.notes.push_back("The header gives no length or more than the file holds; the "
                                    + std::to_string(m_info.sampleCount) + " samples that can be decoded are read.");
     }
     if (m_info.sampleCount <= 0)
@@ -115,7 +115,7 @@ void AudioRecording::failAt(Index sample) const
 {
     throw Error(m_info.path,
                 "cannot be decoded near sample " + std::to_string(sample)
-                    + ": it is damaged there or became shorter while it was open",
+                    + ": it is damaged or was truncated while open",
                 Error::Kind::Failure);
 }
 

@@ -12,7 +12,7 @@ namespace faintline {
 ///
 /// With `iq`, channels 2k and 2k+1 are I and Q of complex channel k. Start time and centre frequency are taken from a
 /// broadcast chunk (bext), from the chunk that receivers write (auxi) or that of XWAV (harp), where there is one. A file that was cut short
-/// gives what is there, with a note.
+/// gives the existing part, with a note.
 ///
 /// Uncompressed data is read where it is wanted. Compressed data is decoded in fixed blocks that are kept while they
 /// are in use. Each block of a lossy codec (OGG, MP3) is decoded by a fresh decoder after a run-up, which it needs to

@@ -14,11 +14,11 @@ namespace faintline {
 FileBytes::FileBytes(const std::string &path) : m_path(path)
 {
     if (path.find('\0') != std::string::npos) // the system would stop reading there, and open another file
-        throw Error(path, "there is no such file; a name holds no zero byte");
+        throw Error(path, "no such file; a file name cannot contain a zero byte");
     // Without O_NONBLOCK a named pipe would keep us waiting for its writer.
     m_descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (m_descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
-        throw Error(path, "there is no such file");
+        throw Error(path, "no such file");
     if (m_descriptor < 0)
         throw Error(path, std::string("cannot be opened: ") + std::strerror(errno));
     struct stat status = {};
@@ -29,8 +29,8 @@ FileBytes::FileBytes(const std::string &path) : m_path(path)
     }
     ::close(m_descriptor);
     if (isKnown && S_ISDIR(status.st_mode))
-        throw Error(path, "is a folder; a recording is a file");
-    throw Error(path, "is a device or a pipe; a recording must be a regular file, because it is read out of order");
+        throw Error(path, "is a folder; expected a recording file");
+    throw Error(path, "is a device or a pipe; a recording must be a regular file because it is read in any order");
 }
 
 FileBytes::~FileBytes()

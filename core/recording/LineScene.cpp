@@ -40,14 +40,15 @@ const std::vector<Field<LineSettings>> &LineSettings::fields()
         field(&S::snrDb, "snrDb", "dB", -60.0, 120.0,
               "Power of the line over the noise power in one resolution cell of a rectangular window of "
               "referenceSeconds."),
-        field(&S::referenceSeconds, "referenceSeconds", "s", 1e-6, 1e6, "Length of the window that the SNR refers to."),
-        field(&S::startSeconds, "startSeconds", "s", 0.0, 1e9, "When the line begins."),
-        field(&S::durationSeconds, "durationSeconds", "s", 0.0, 1e9, "How long it lasts; 0 is to the recording's end."),
-        field(&S::frequencyHz, "frequencyHz", "Hz", -1e12, 1e12, "Frequency at its start."),
-        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of its frequency."),
-        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of its random wander about the drift."),
+        field(&S::referenceSeconds, "referenceSeconds", "s", 1e-6, 1e6, "Length of the window to which the SNR refers."),
+        field(&S::startSeconds, "startSeconds", "s", 0.0, 1e9, "Start time of the line."),
+        field(&S::durationSeconds, "durationSeconds", "s", 0.0, 1e9, "Duration of the line; 0 extends it to the end of "
+                                                                     "the recording."),
+        field(&S::frequencyHz, "frequencyHz", "Hz", -1e12, 1e12, "Frequency of the line at its start."),
+        field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Constant drift of the frequency."),
+        field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of the random wander around the drift."),
         field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e9, "Correlation time of the wander."),
-        field(&S::fading, "fading", fadingNames, "Whether its amplitude is constant or fades."),
+        field(&S::fading, "fading", fadingNames, "Whether the amplitude is constant or fades."),
         field(&S::fadingSeconds, "fadingSeconds", "s", 1e-6, 1e9, "Correlation time of the fading."),
     };
     return table;
@@ -60,9 +61,9 @@ const std::vector<Field<NoiseSettings>> &NoiseSettings::fields()
         field(&S::deviation, "deviation", "", 1e-12, 1e6,
               "Standard deviation of the noise in a sample; full scale is 1."),
         field(&S::slopeDbPerOctave, "slopeDbPerOctave", "dB", -6.0, 6.0,
-              "How the noise's density goes with frequency."),
+              "Spectral shape of the noise density."),
         field(&S::levelDriftDb, "levelDriftDb", "dB", 0.0, 20.0,
-              "Standard deviation of the slow changes of its level."),
+              "Standard deviation of the slow changes of the noise level."),
         field(&S::levelDriftSeconds, "levelDriftSeconds", "s", 1e-3, 1e9, "Correlation time of these changes."),
     };
     return table;
@@ -76,9 +77,9 @@ const std::vector<Field<LineScene>> &LineScene::fields()
         field(&S::durationSeconds, "durationSeconds", "s", 1e-9, 1e9, "Length of the recording."),
         field(&S::isComplex, "complex",
               "Whether samples are I/Q, so that negative frequencies differ from positive ones."),
-        field(&S::centreHz, "centreHz", "Hz", -1e12, 1e12, "Frequency that 0 Hz of the samples stands for."),
+        field(&S::centreHz, "centreHz", "Hz", -1e12, 1e12, "Frequency to which 0 Hz of the samples corresponds."),
         field(&S::seed, "seed", "", 0.0, 2147483647.0,
-              "Names the random numbers: the same seed gives the same recording."),
+              "Seed of the random numbers; the same seed gives the same recording."),
     };
     return table;
 }
@@ -103,10 +104,10 @@ void checkLine(const LineSettings &line, const RecordingInfo &recording, const s
     const double recordingEnd = recording.durationSeconds();
     if (line.startSeconds >= recordingEnd)
         throw Error(name + ".startSeconds = " + formatNumber(line.startSeconds),
-                    "must lie before the recording's end, " + formatNumber(recordingEnd) + " s");
+                    "must lie before the end of the recording, " + formatNumber(recordingEnd) + " s");
     if (line.startSeconds + line.durationSeconds > recordingEnd + 1.0 / recording.sampleRateHz)
         throw Error(name + ".durationSeconds = " + formatNumber(line.durationSeconds),
-                    "takes the line beyond the recording's end, " + formatNumber(recordingEnd) + " s");
+                    "extends the line beyond the end of the recording, " + formatNumber(recordingEnd) + " s");
 
     const double duration = durationOf(line, recording);
     const double low = recording.centreHz - (recording.isComplex ? 0.5 * recording.sampleRateHz : 0.0);
@@ -133,7 +134,7 @@ void checkLines(std::span<const LineSettings> lines, const RecordingInfo &record
         const double duration = durationOf(lines[i], recording);
         nodes += wanderNodes(lines[i], duration) + fadingNodes(lines[i], duration);
         if (nodes > mostNodes)
-            throw Error(lineName(name, i), "wanders or fades too fast for its length, together with the lines before it");
+            throw Error(lineName(name, i), "wanders or fades too fast for its length, counting all lines before it");
     }
 }
 
@@ -144,7 +145,7 @@ void checkScene(const LineScene &scene)
     const double samples = scene.sampleRateHz * scene.durationSeconds;
     if (!(samples >= 1.0 && samples <= 1e15))
         throw fieldError("durationSeconds", formatNumber(scene.durationSeconds),
-                    "gives " + formatNumber(std::floor(samples)) + " samples; there must be 1 … 1e15");
+                    "gives " + formatNumber(std::floor(samples)) + " samples; must be 1 … 1e15");
     if (scene.noise.levelDriftDb > 0.0 && scene.durationSeconds > 1e6 * scene.noise.levelDriftSeconds)
         throw fieldError("noise.levelDriftSeconds", formatNumber(scene.noise.levelDriftSeconds),
                     "must be at least a millionth of the duration");

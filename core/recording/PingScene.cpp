@@ -41,7 +41,8 @@ namespace {
         }
         if (target.vanishPing != 0 && target.vanishPing <= target.appearPing)
             throw Error(name + ".vanishPing = " + std::to_string(target.vanishPing),
-                        "must come after appearPing = " + std::to_string(target.appearPing) + ", or be 0 for never");
+                        "must be greater than appearPing = " + std::to_string(target.appearPing) + ", or 0 if the "
+                                                                                                   "target stays");
         if (target.appearPing >= scene.pings)
             throw Error(name + ".appearPing = " + std::to_string(target.appearPing),
                         "must be one of the pings, 0 … " + std::to_string(scene.pings - 1));
@@ -58,12 +59,13 @@ const std::vector<Field<PingLeg>> &PingLeg::fields()
 {
     using S = PingLeg;
     static const std::vector<Field<S>> table{
-        field(&S::pings, "pings", "pings", 0.0, 1e6, "How long the leg lasts; 0 is to the end."),
+        field(&S::pings, "pings", "pings", 0.0, 1e6, "Number of pings in the leg; 0 extends it to the end."),
         field(&S::rangeRateMetresPerSecond, "rangeRateMetresPerSecond", "m/s", -1e6, 1e6, "Rate of range, outward positive."),
         field(&S::bearingRateDegreesPerSecond, "bearingRateDegreesPerSecond", "°/s", -360.0, 360.0, "Rate of bearing."),
         field(&S::rangeCellsPerPing, "rangeCellsPerPing", "cells/ping", -1e4, 1e4, "Rate of range in cells; adds to the one in m/s."),
         field(&S::beamsPerPing, "beamsPerPing", "beams/ping", -1e3, 1e3, "Rate of bearing in beams; adds to the one in °/s."),
-        field(&S::turnPings, "turnPings", "pings", 1.0, 1e6, "Pings over which the rates slide from the last leg's to this one's."),
+        field(&S::turnPings, "turnPings", "pings", 1.0, 1e6, "Pings over which the rates change from those of the "
+                                                             "previous leg to these."),
     };
     return table;
 }
@@ -72,13 +74,16 @@ const std::vector<Field<PingTarget>> &PingTarget::fields()
 {
     using S = PingTarget;
     static const std::vector<Field<S>> table{
-        field(&S::snrDb, "snrDb", "dB", -60.0, 80.0, "Power of the echo over the noise power in a cell, reverberation not counted."),
-        field(&S::echo, "echo", echoNames, "Constant added power, a power drawn anew in every ping, or a constant amplitude."),
-        field(&S::rangeMetres, "rangeMetres", "m", 0.0, 1e9, "Range where it appears."),
-        field(&S::bearingDegrees, "bearingDegrees", "°", -360.0, 720.0, "Bearing where it appears."),
-        field(&S::appearPing, "appearPing", "ping", 0.0, 1e6, "First ping with it, counted from 0."),
-        field(&S::vanishPing, "vanishPing", "ping", 0.0, 1e6, "First ping without it; 0 is never."),
-        field(&S::weaveCellsPerPing, "weaveCellsPerPing", "cells/ping", 0.0, 1e4, "Amplitude of a sinusoid added to its range rate."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 80.0, "Power of the echo over the noise power in a cell, without "
+                                                     "reverberation."),
+        field(&S::echo, "echo", echoNames, "Constant added power, a power drawn independently in every ping, or a "
+                                           "constant amplitude."),
+        field(&S::rangeMetres, "rangeMetres", "m", 0.0, 1e9, "Range at which the target appears."),
+        field(&S::bearingDegrees, "bearingDegrees", "°", -360.0, 720.0, "Bearing at which the target appears."),
+        field(&S::appearPing, "appearPing", "ping", 0.0, 1e6, "First ping with the target, counted from 0."),
+        field(&S::vanishPing, "vanishPing", "ping", 0.0, 1e6, "First ping without the target; 0: it stays to the end."),
+        field(&S::weaveCellsPerPing, "weaveCellsPerPing", "cells/ping", 0.0, 1e4, "Amplitude of a sinusoid added to "
+                                                                                  "the range rate."),
         field(&S::weavePings, "weavePings", "pings", 1.0, 1e6, "Period of that sinusoid."),
     };
     return table;
@@ -88,9 +93,11 @@ const std::vector<Field<Reverberation>> &Reverberation::fields()
 {
     using S = Reverberation;
     static const std::vector<Field<S>> table{
-        field(&S::levelDb, "levelDb", "dB", -60.0, 80.0, "Its power over the noise in the first range cell."),
-        field(&S::decayPower, "decayPower", "", 0.0, 10.0, "It falls with range to this power."),
-        field(&S::normalisation, "normalisation", pingNormalisationNames, "Whether the mean it is divided by is known or estimated."),
+        field(&S::levelDb, "levelDb", "dB", -60.0, 80.0, "Power of the reverberation over the noise in the first range "
+                                                         "cell."),
+        field(&S::decayPower, "decayPower", "", 0.0, 10.0, "Exponent with which the reverberation falls with range."),
+        field(&S::normalisation, "normalisation", pingNormalisationNames, "Whether the mean used for normalisation is "
+                                                                          "known or estimated."),
     };
     return table;
 }
@@ -99,16 +106,17 @@ const std::vector<Field<PingScene>> &PingScene::fields()
 {
     using S = PingScene;
     static const std::vector<Field<S>> table{
-        field(&S::pings, "pings", "pings", 1.0, 1e6, "How many pings there are."),
+        field(&S::pings, "pings", "pings", 1.0, 1e6, "Number of pings."),
         field(&S::priSeconds, "priSeconds", "s", 1e-6, 1e6, "Time from ping to ping."),
-        field(&S::rangeCells, "rangeCells", "cells", 1.0, 1e6, "Range cells of a ping."),
+        field(&S::rangeCells, "rangeCells", "cells", 1.0, 1e6, "Number of range cells in a ping."),
         field(&S::firstRangeMetres, "firstRangeMetres", "m", 0.0, 1e9, "Range of the first cell's centre."),
         field(&S::rangeStepMetres, "rangeStepMetres", "m", 1e-6, 1e6, "Length of a range cell."),
-        field(&S::beams, "beams", "beams", 1.0, 1e4, "Beams of a ping."),
+        field(&S::beams, "beams", "beams", 1.0, 1e4, "Number of beams in a ping."),
         field(&S::firstBearingDegrees, "firstBearingDegrees", "°", -360.0, 360.0, "Bearing of the first beam."),
-        field(&S::beamStepDegrees, "beamStepDegrees", "°", 0.0, 360.0, "From beam to beam; 0 is all round, 360°/beams."),
-        field(&S::looks, "looks", "", 1.0, 1000.0, "Powers averaged in a cell."),
-        field(&S::seed, "seed", "", 0.0, 2147483647.0, "Names the random numbers: the same seed gives the same pings."),
+        field(&S::beamStepDegrees, "beamStepDegrees", "°", 0.0, 360.0, "Bearing step between beams; 0: full circle, "
+                                                                       "360°/beams."),
+        field(&S::looks, "looks", "", 1.0, 1000.0, "Number of powers averaged in a cell."),
+        field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of the random numbers; the same seed gives the same pings."),
     };
     return table;
 }
@@ -141,14 +149,14 @@ void checkScene(const PingScene &scene)
     const double cells = static_cast<double>(scene.rangeCells) * scene.beams;
     if (cells > 1e7)
         throw fieldError("rangeCells", std::to_string(scene.rangeCells),
-                    "times beams gives " + formatNumber(cells) + " cells; there may be 1e7");
+                    "times beams gives " + formatNumber(cells) + " cells; at most 1e7 are possible");
     if (scene.beamStepDegrees * scene.beams > 360.0 * (1.0 + 1e-9))
         throw fieldError("beamStepDegrees", formatNumber(scene.beamStepDegrees),
                     "times beams is more than 360°; at most " + formatNumber(360.0 / scene.beams) + "°");
     if (scene.reverberation) {
         checkFields(*scene.reverberation, Reverberation::fields(), "reverberation");
         if (scene.firstRangeMetres <= 0.0)
-            throw Error("firstRangeMetres = 0", "must be above 0 where there is reverberation, whose level refers to it");
+            throw Error("firstRangeMetres = 0", "must be above 0 with reverberation, whose level refers to it");
         constexpr int fewestCells = 32;
         if (scene.reverberation->normalisation == PingNormalisation::Estimated && cells < fewestCells)
             throw fieldError("reverberation.normalisation", "estimated", "needs at least " + std::to_string(fewestCells) + " cells in a ping");
@@ -167,9 +175,10 @@ void checkScene(const PingScene &scene)
         places += end - target.appearPing;
         steps += static_cast<double>(end - target.appearPing) * static_cast<double>(target.legs.size());
         if (places > mostPlaces)
-            throw Error(targetName(i), "is there for too many pings, together with the targets before it; there may be 3e6 in all");
+            throw Error(targetName(i), "exceeds the limit of 3e6 pings in total, counting the targets before it");
         if (steps > mostSteps)
-            throw Error(targetName(i) + ".legs", "are too many for so many pings, together with those of the targets before it");
+            throw Error(targetName(i) + ".legs", "are too many for this number of pings, counting those of the targets "
+                                                 "before it");
     }
 }
 

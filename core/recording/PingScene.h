@@ -26,7 +26,7 @@ struct PingLeg {
     double bearingRateDegreesPerSecond = 0.0;
     double rangeCellsPerPing = 0.0;
     double beamsPerPing = 0.0;
-    int turnPings = 1; ///< the rates slide from the last leg's to these over so many pings
+    int turnPings = 1; ///< pings over which the rates change from the last leg's to these
 
     static const std::vector<Field<PingLeg>> &fields();
     bool operator==(const PingLeg &) const = default;

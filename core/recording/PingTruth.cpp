@@ -13,10 +13,10 @@ namespace {
         using S = TruthTarget;
         static const std::vector<Field<S>> table{
             field(&S::snrDb, "snrDb", "dB", -1e3, 1e3, "Power of the echo over the noise in a cell."),
-            field(&S::firstPing, "firstPing", "ping", 0.0, 1e9, "The ping the lists begin with."),
-            field(&S::rangeMetres, "rangeMetres", "m", -1e15, 1e15, "Range, a value each ping."),
-            field(&S::bearingDegrees, "bearingDegrees", "°", -1e15, 1e15, "Bearing, a value each ping."),
-            field(&S::cell, "cell", "", -1.0, 1e15, "The cell of the grid that it fills, -1 beyond the grid."),
+            field(&S::firstPing, "firstPing", "ping", 0.0, 1e9, "First ping of the lists."),
+            field(&S::rangeMetres, "rangeMetres", "m", -1e15, 1e15, "Range, one value per ping."),
+            field(&S::bearingDegrees, "bearingDegrees", "°", -1e15, 1e15, "Bearing, one value per ping."),
+            field(&S::cell, "cell", "", -1.0, 1e15, "Cell of the grid that the target occupies; -1 outside the grid."),
         };
         return table;
     }
@@ -117,7 +117,7 @@ PingTruth pingTruthFromJson(const Json &json)
         TruthTarget &target = truth.targets.emplace_back();
         readFields(entry, fields(), target, name);
         if (target.rangeMetres.size() != target.cell.size() || target.bearingDegrees.size() != target.cell.size())
-            throw Error(name, "must have as many values of rangeMetres and bearingDegrees as of cell");
+            throw Error(name, "must have equally many values of rangeMetres, bearingDegrees and cell");
     }
     return truth;
 }

@@ -23,7 +23,7 @@ namespace {
         if (layout.channelCount < 1 || layout.channelCount > 1024)
             throw Error(path, "its channel count, " + std::to_string(layout.channelCount) + ", must lie in 1 … 1024");
         if (layout.headerBytes < 0 || layout.trailingBytes < 0)
-            throw Error(path, "the lengths of its header and of what follows its samples must not be negative");
+            throw Error(path, "the lengths of its header and trailer must not be negative");
     }
 
 } // namespace
@@ -33,7 +33,7 @@ RawLayout withIqPairs(const std::string &path, RawLayout layout)
     if (layout.type.isComplex)
         return layout;
     if (layout.channelCount % 2 != 0)
-        throw Error(path, "has " + std::to_string(layout.channelCount) + " channel(s), but I/Q needs them in pairs");
+        throw Error(path, "has " + std::to_string(layout.channelCount) + " channel(s); I/Q needs an even number");
     layout.type.isComplex = true;
     layout.channelCount /= 2;
     return layout;
@@ -54,12 +54,12 @@ RawRecording::RawRecording(const std::string &path, const RawLayout &layout) : m
     m_info.isComplex = layout.type.isComplex;
     if (m_info.sampleCount == 0)
         throw Error(path,
-                    "holds no whole sample: " + std::to_string(m_file.size()) + " bytes, of which a sample takes "
+                    "contains no complete sample: " + std::to_string(m_file.size()) + " bytes, but one sample takes "
                         + std::to_string(m_frameBytes)
                         + (layout.headerBytes > 0 ? " after a header of " + std::to_string(layout.headerBytes) : ""));
     if (const Index rest = dataBytes % m_frameBytes)
         m_info.notes.push_back("The file's last " + std::to_string(rest)
-                               + " bytes are no whole sample and are left out; it may have been cut short.");
+                               + " bytes are an incomplete sample and are ignored; the file may have been truncated.");
 }
 
 void RawRecording::read(int channel, Index first, Index count, std::span<float> out) const
@@ -73,7 +73,7 @@ void RawRecording::read(int channel, Index first, Index count, std::span<float> 
             const Index run = std::min(perRead, samples - done);
             const std::span<std::byte> wanted = std::span(bytes).first(static_cast<std::size_t>(run * m_frameBytes));
             if (m_file.readAt(m_layout.headerBytes + (from + done) * m_frameBytes, wanted) < wanted.size())
-                throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
+                throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
             convertSamples(
                 m_layout.type, wanted.subspan(static_cast<std::size_t>(channel * m_layout.type.sampleBytes())),
                 m_frameBytes,

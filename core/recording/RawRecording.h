@@ -19,7 +19,7 @@ struct RawLayout {
 /// layout stays as it is. Throws Error where channels are left over.
 RawLayout withIqPairs(const std::string &path, RawLayout layout);
 
-/// A file of bare samples, I/Q or real, read by random access whatever its size.
+/// A file of bare samples, I/Q or real, read by random access for any size.
 ///
 /// A last sample that is cut in the middle is left out, with a note. Thread-safe.
 class RawRecording : public Recording

@@ -56,7 +56,7 @@ public:
 
 protected:
     /// What every `read` does besides fetching: 0 outside the recording, `fetch(first, out)` for the part inside, then
-    /// 0 for whatever is not finite.
+    /// 0 for values that are not finite.
     void fill(Index first, Index count, std::span<float> out,
               const std::function<void(Index first, std::span<float> out)> &fetch) const;
 

@@ -111,7 +111,7 @@ SampleType parseSampleType(std::string_view name, const std::string &where)
             type.isBigEndian = type.isBigEndian && type.bytes > 1;
             return type;
         }
-    throw Error(where, std::string(name.substr(0, 40)) + " is no sample type; known are " + sampleTypeList());
+    throw Error(where, std::string(name.substr(0, 40)) + " is not a sample type; expected one of " + sampleTypeList());
 }
 
 void convertSamples(const SampleType &type, std::span<const std::byte> bytes, Index stride, std::span<float> out)

@@ -72,7 +72,7 @@ namespace {
         {
             const Json *value = find(key);
             if (value && !value->is_string())
-                refuse(key, "must be a text");
+                refuse(key, "must be a string");
             return value ? std::optional(value->get<std::string>()) : std::nullopt;
         }
 
@@ -104,23 +104,23 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
 {
     const std::string metaPath = SigmfRecording::metaPath(path);
     if (!std::filesystem::exists(metaPath))
-        throw Error(path, metaPath == path ? "there is no such file"
+        throw Error(path, metaPath == path ? "no such file"
                                            : "its metadata, " + metaPath
                                                  + ", is missing; without it the samples can be opened as raw ones "
                                                    "(such as --raw-type ci16_le --raw-rate 48000)");
     const Json json = readJsonFile(metaPath);
     if (!json.is_object() || !json.contains("global"))
-        throw Error(metaPath, "is no SigMF metadata: it must be an object with a key \"global\"");
+        throw Error(metaPath, "is not SigMF metadata: it must be an object with a key \"global\"");
     const Section global(json["global"], metaPath + ": global");
 
     Meta meta;
     const std::optional<std::string> type = global.text("core:datatype");
     if (!type)
-        global.refuse("core:datatype", "is missing; known are " + sampleTypeList());
+        global.refuse("core:datatype", "is missing; expected one of " + sampleTypeList());
     meta.layout.type = parseSampleType(*type, metaPath + ": global.core:datatype");
     const std::optional<double> rate = global.number("core:sample_rate", 1e-9, 1e15);
     if (!rate)
-        global.refuse("core:sample_rate", "is missing; without it there are no frequencies");
+        global.refuse("core:sample_rate", "is missing; frequencies require it");
     meta.layout.sampleRateHz = *rate;
     meta.layout.channelCount = static_cast<int>(global.count("core:num_channels", 1.0, 1024.0, 1));
     meta.layout.trailingBytes = global.count("core:trailing_bytes", 0.0, largestCount, 0);
@@ -154,9 +154,10 @@ SigmfRecording::Meta SigmfRecording::readMeta(const std::string &path)
                 *meta.startUnixSeconds -= static_cast<double>(start) / *rate;
             else if (time)
                 meta.notes.push_back("core:datetime \"" + oneLine(*time, 40)
-                                     + "\" is no ISO 8601 time and is left out.");
+                                     + "\" is not an ISO 8601 time and is ignored.");
         } else if (header > 0) {
-            capture.refuse("core:header_bytes", "bytes between captures cannot be skipped; only before the first");
+            capture.refuse("core:header_bytes", "bytes can be skipped before the first capture only, not between "
+                                                "captures");
         } else if (frequency != meta.centreHz) {
             meta.notes.push_back("From sample " + std::to_string(start)
                                  + " on, another capture has the centre frequency " + formatNumber(frequency)

@@ -47,7 +47,7 @@ namespace {
             const auto wanted =
                 std::span(buffer).first(static_cast<std::size_t>(std::min(count - done, std::ssize(buffer))));
             if (file.readAt(first + done, wanted) < wanted.size())
-                throw Error(file.path(), "became shorter while it was read", Error::Kind::Failure);
+                throw Error(file.path(), "was truncated while being read", Error::Kind::Failure);
             hash.add(wanted);
             done += std::ssize(wanted);
         }

@@ -15,7 +15,7 @@ namespace {
     RecordingPointer openRaw(const std::string &path, const std::string &typeName, const OpenOptions &options)
     {
         if (!(options.rawRateHz > 0.0))
-            throw Error(path, "raw samples do not tell their rate; give it in Hz (such as --raw-rate 48000)");
+            throw Error(path, "raw samples have no header; give their rate in Hz (such as --raw-rate 48000)");
         const RawLayout layout{parseSampleType(typeName, path), options.rawRateHz, options.rawChannels,
                                options.rawHeaderBytes, 0};
         return std::make_shared<RawRecording>(path, options.iq ? withIqPairs(path, layout) : layout);
@@ -26,13 +26,13 @@ namespace {
                                         const OpenOptions &options)
     {
         if (typeName.empty())
-            throw Error(path, "holds raw samples by its name; give their type and their rate in Hz (such as --raw-type "
+            throw Error(path, "appears to contain raw samples; give their type and rate in Hz (such as --raw-type "
                               "ci16_le --raw-rate 48000); types are "
                                   + sampleTypeList());
         if (!(options.rawRateHz > 0.0))
-            throw Error(path, "holds raw samples (" + typeName
-                                  + " by its name); give their rate in Hz (such as --raw-rate "
-                                    "48000), and --raw-type if they are of another type");
+            throw Error(path, "appears to contain raw samples (" + typeName
+                                  + " according to its name); give their rate in Hz (such as --raw-rate 48000), and "
+                                    "--raw-type if the type differs");
         return openRaw(path, typeName, options);
     }
 

@@ -67,7 +67,7 @@ namespace {
             SF_INFO format = {};
             format.channels = static_cast<int>(info.channelCount * info.floatsPerSample());
             if (std::floor(info.sampleRateHz) != info.sampleRateHz || info.sampleRateHz > 2147483647.0)
-                throw Error(path, "audio files have whole sample rates up to 2147483647 Hz, not "
+                throw Error(path, "audio files need a whole-number sample rate up to 2147483647 Hz, not "
                                       + formatNumber(info.sampleRateHz) + " Hz; write a .sigmf-meta pair");
             format.samplerate = static_cast<int>(info.sampleRateHz);
             const double bytes = static_cast<double>(info.sampleCount) * format.channels * (m_bits == 16 ? 2 : 4);
@@ -79,7 +79,7 @@ namespace {
                                               : SF_FORMAT_FLOAT);
             m_channels = static_cast<std::size_t>(format.channels);
             if (!sf_format_check(&format))
-                throw Error(path, "this kind of file cannot hold " + std::to_string(format.channels) + " channel(s) at "
+                throw Error(path, "this file format does not support " + std::to_string(format.channels) + " channel(s) at "
                                       + formatNumber(info.sampleRateHz) + " Hz; write .wav, .w64 or .sigmf-meta");
             m_handle.reset(sf_open_fd(m_file.descriptor(), SFM_WRITE, &format, SF_FALSE));
             if (!m_handle)
@@ -120,7 +120,7 @@ namespace {
 
         [[noreturn]] void fail() const
         {
-            throw Error(m_file.path(), "cannot be written to its end; is the disk full?", Error::Kind::Failure);
+            throw Error(m_file.path(), "cannot be written completely; the disk may be full", Error::Kind::Failure);
         }
 
         void writeStart(double unixSeconds, double rateHz)
@@ -218,8 +218,7 @@ namespace {
             if (extension == name)
                 return std::make_unique<AudioWriter>(info, path, kind, type);
         throw Error(path,
-                    "has no extension that says what to write; known are .wav, .rf64, .w64, .aiff, .caf, .au, .flac, "
-                    ".sigmf-meta");
+                    "has no known extension; expected .wav, .rf64, .w64, .aiff, .caf, .au, .flac or .sigmf-meta");
     }
 
 } // namespace

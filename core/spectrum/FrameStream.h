@@ -13,7 +13,7 @@ class FrameStream
 public:
     FrameStream(const NormalisedFrames &frames, bool readsAhead); ///< `frames` outlive this
 
-    /// Of the frame that `next` begins with.
+    /// Index of the first frame of `next`.
     Index position() const { return m_position; }
 
     /// The next block, row by row; empty at the end.

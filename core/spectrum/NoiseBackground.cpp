@@ -76,9 +76,11 @@ const std::vector<Field<NormaliserSettings>> &NormaliserSettings::fields()
     using S = NormaliserSettings;
     static const std::vector<Field<S>> table{
         field(&S::halfWidthCells, "halfWidthCells", "cells", 2.0, 10000.0,
-              "Half the frequency window of the background estimate: wider than any line, narrower than the noise's shape."),
+              "Half width of the frequency window of the background estimate: wider than any line, narrower than the "
+              "noise's spectral shape."),
         field(&S::blockWindows, "blockWindows", "T_FT", 4.0, 1e6,
-              "Length of a background block in windows: longer than any burst, shorter than level changes."),
+              "Length of a background block in windows: longer than any burst, shorter than the time between level "
+              "changes."),
         field(&S::followLevel, "followLevel",
               "Divide out sudden level changes of a whole band, such as bursts, gain steps and clicks."),
     };

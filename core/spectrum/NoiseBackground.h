@@ -26,7 +26,7 @@ struct NormaliserSettings {
 ///
 /// Per block and cell: the median over the block's non-overlapping frames (frames of digital silence left out, frames much louder or
 /// softer than most brought to their level), freed of its bias for exponential data. Blocks are averaged with their neighbours in time as far
-/// as the noise keeps its colour, whatever its level does. Then a running median over ±halfWidth cells, continued beyond the band edges
+/// as the noise keeps its spectral shape, independent of its level. Then a running median over ±halfWidth cells, continued beyond the band edges
 /// by point reflection of the logarithm, which follows any slope; then the mean ratio of the unsuspicious cells to that median within the
 /// same window, which removes the median's bias and variance.
 /// A line, however long, is narrower than the window, so it never becomes its own background; a burst, however broad,

@@ -22,7 +22,7 @@ namespace {
             power[i] += noise[2 * i] * noise[2 * i] + noise[2 * i + 1] * noise[2 * i + 1];
     }
 
-    /// Range half-width of the window round a cell: shorter at the axis's ends, so that the cell stays in its middle.
+    /// Range half-width of the window around a cell: shorter at the axis's ends, so that the cell stays in its middle.
     Index windowAt(Index range, Index rangeCells)
     {
         constexpr Index widest = 16;

@@ -58,12 +58,13 @@ const std::vector<Field<SpectrogramSettings>> &SpectrogramSettings::fields()
     using S = SpectrogramSettings;
     static const std::vector<Field<S>> table{
         field(&S::windowSeconds, "windowSeconds", "s", 0.0, 1e6,
-              "Length T_FT of the sliding Fourier window; 0 chooses it from the recording: from its length and rate, and then, with the default slopes, from what is found."),
+              "Length T_FT of the sliding Fourier window; 0 chooses it from the recording's length and rate and, with "
+              "the default slopes, from the tracks found."),
         field(&S::stepsPerWindow, "stepsPerWindow", "", 1.0, 64.0, "Frames per window, k_t: 2 overlaps by half."),
         field(&S::binsPerCell, "binsPerCell", "", 1.0, 32.0,
               "Frequency bins per resolution cell 1/T_FT, k_f: above 1 the window is padded with zeros."),
         field(&S::window, "window", windowShapeNames,
-              "Shape of the window: the lower its side lobes, the nearer a faint line may lie to a strong one."),
+              "Shape of the window; lower side lobes permit a faint line nearer to a strong one."),
     };
     return table;
 }
@@ -73,9 +74,10 @@ const std::vector<Field<SelectionSettings>> &SelectionSettings::fields()
     using S = SelectionSettings;
     static const std::vector<Field<S>> table{
         field(&S::channel, "channel", "", 0.0, 1023.0, "Channel, counted from 0."),
-        field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part looked at, from the first sample."),
-        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part looked at; 0 is the recording's end."),
-        field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12, "Lower edge of the band; the whole band where it equals the upper."),
+        field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part analysed, from the first sample."),
+        field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part analysed; 0 is the end of the recording."),
+        field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12, "Lower edge of the band; the whole band is used if it equals the "
+                                                     "upper edge."),
         field(&S::highHz, "highHz", "Hz", -1e12, 1e12, "Upper edge of the band."),
     };
     return table;
@@ -114,7 +116,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     const double to = selection.toSeconds > 0.0 ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
     if (selection.fromSeconds >= to)
         throw fieldError("selection.fromSeconds", formatNumber(selection.fromSeconds),
-                    "must lie before the end of the part looked at, " + seconds(to));
+                    "must lie before the end of the selection, " + seconds(to));
     m_firstSample = static_cast<Index>(std::llround(selection.fromSeconds * rate));
     const Index sampleCount = std::min(static_cast<Index>(std::llround(to * rate)), info.sampleCount) - m_firstSample;
 
@@ -126,10 +128,10 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     m_windowSamples = static_cast<int>(std::llround(wantedSamples));
     if (m_windowSamples < 2)
         throw fieldError("spectrogram.windowSeconds", formatNumber(windowSeconds),
-                    "holds fewer than 2 samples at " + formatNumber(rate) + " Hz");
+                    "contains fewer than 2 samples at " + formatNumber(rate) + " Hz");
     if (sampleCount < m_windowSamples)
         throw Error(info.path,
-                    "the part looked at is " + std::to_string(sampleCount) + " samples (" + seconds(static_cast<double>(sampleCount) / rate)
+                    "the selected part is " + std::to_string(sampleCount) + " samples (" + seconds(static_cast<double>(sampleCount) / rate)
                         + ") long, shorter than one window of " + seconds(windowSeconds)
                         + "; choose a shorter spectrogram.windowSeconds");
     m_hopSamples = hopOf(m_windowSamples, settings);
@@ -155,7 +157,7 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
             std::floor(std::min(static_cast<double>(whole.count - 1), whole.position(selection.highHz) + 1e-9)));
         if (low > high)
             throw Error("selection.lowHz … highHz = " + formatNumber(selection.lowHz) + " … " + formatNumber(selection.highHz),
-                        "holds no bin; the recording spans " + formatNumber(whole.first) + " … " + formatNumber(whole.last()) + " Hz")
+                        "contains no bin; the recording spans " + formatNumber(whole.first) + " … " + formatNumber(whole.last()) + " Hz")
                 .ofField("selection.lowHz");
         m_firstBin = low;
         m_frequency.first = whole.value(static_cast<double>(low));

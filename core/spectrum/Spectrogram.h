@@ -81,7 +81,7 @@ public:
     };
     static Steps stepsOf(const SpectrogramSettings &settings, const RecordingInfo &info);
 
-    /// T_FT for a recording nobody said anything about: 3·√(duration/rate), rounded to 1, 2 or 5 · 10ⁿ seconds, which
+    /// Default T_FT for a recording: 3·√(duration/rate), rounded to 1, 2 or 5 · 10ⁿ seconds, which
     /// gives about as many cells as frames.
     static double automaticWindowSeconds(const RecordingInfo &info);
 

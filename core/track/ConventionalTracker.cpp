@@ -11,13 +11,13 @@ const std::vector<Field<ConventionalSettings>> &ConventionalSettings::fields()
     using S = ConventionalSettings;
     static const std::vector<Field<S>> table{
         field(&S::hitThreshold, "hitThreshold", "× noise", 0.0, 1e6,
-              "Power above which a cell of one ping is a hit of the conventional detector."),
-        field(&S::hits, "hits", "pings", 1.0, 1000.0, "M: pings with a hit that make a conventional track."),
-        field(&S::window, "window", "pings", 1.0, 1000.0, "N: the latest pings among which these must be."),
+              "Power above which a cell of a ping is a hit of the conventional detector."),
+        field(&S::hits, "hits", "pings", 1.0, 1000.0, "M: number of pings with a hit that form a conventional track."),
+        field(&S::window, "window", "pings", 1.0, 1000.0, "N: number of latest pings that must contain these hits."),
         field(&S::fastestCells, "fastestCells", "cells/ping", 0.0, 1e5,
-              "Largest speed the gate admits along the range."),
+              "Largest range rate that the gate admits."),
         field(&S::fastestAcross, "fastestAcross", "cells/ping", 0.0, 1e5,
-              "Largest speed the gate admits along the bearing."),
+              "Largest bearing rate that the gate admits."),
     };
     return table;
 }

@@ -27,7 +27,7 @@ struct ConventionalSettings {
 ///
 ///   hit: y(cell) > hitThreshold;   gate: |hit - last hit| ≤ speed · (frames since) along every axis;   track: M hits within N frames
 ///
-/// The oldest track chooses first and takes the strongest hit of its gate, the lowest cell among equals; a hit nobody took starts a track,
+/// The oldest track chooses first and takes the strongest hit of its gate, the lowest cell among equals; a hit that no gate took starts a track,
 /// which is reported once it has M hits in N frames and ends when it can have so many no more. It has a point for each hit; its statistic
 /// is the mean y of its M strongest hits. The gate grows with the largest speed, and false tracks with it: a price that a recursion over
 /// states does not pay. Source: Parsons 2008, sections 1 and 4 (the processing he compares with).

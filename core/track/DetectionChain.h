@@ -22,20 +22,20 @@ namespace faintline {
 struct ChainSettings {
     double threshold = 0.0;           ///< on the detector's statistic
     /// Nat, where the statistic is not the score of the paths that trackers follow (GuidedDetector): what a tracker's level is held against,
-    /// and begins with at least, for its signal has been detected.
+    /// and begins with at least, because its signal has been detected.
     std::optional<double> trackThreshold;
-    double shoulder = 0.0;            ///< cells above this round a crossing belong to the same excursion and are forgotten with it
+    double shoulder = 0.0;            ///< cells above this around a crossing belong to the same excursion and are forgotten with it
     std::vector<Index> linkCells;     ///< crossings this near belong to one cluster, per axis
-    std::vector<Index> inhibitCells;  ///< half the box kept from the detector round a track, per axis
-    std::vector<Index> forgetCells;   ///< half the box the detector forgets round a new track, per axis; may be empty: as inhibitCells
+    std::vector<Index> inhibitCells;  ///< half the box inhibited around a track, per axis
+    std::vector<Index> forgetCells;   ///< half the box reset around a new track, per axis; may be empty: as inhibitCells
     /// Cells where no signal is looked for, by coordinates: kept from the detector as if a track were there all the time.
     std::vector<std::vector<Index>> excluded;
     TrackSettings track;
-    /// How far back the beginning of a new track is looked for; 0: as far as its path goes. 1: nobody looks back, no past is remembered.
+    /// How far back the beginning of a new track is looked for; 0: as far as its path goes. 1: no traceback, no past is kept.
     Index onsetFrames = 0;
     bool feedback = true;             ///< false: detector only, no reset, no inhibition, no tracks
     bool resets = true;               ///< the detector forgets what a track has taken over
-    bool inhibits = true;             ///< y is kept from the detector round the tracks
+    bool inhibits = true;             ///< y is inhibited around the tracks
     /// Half-width along the last axis over which a signal of power y leaks into its neighbours; may be empty.
     std::function<Index(double y)> leakageExtent;
     /// Bins of one resolution cell along the last axis: a strong signal's skirts are followed outward in such steps; 0: not.
@@ -58,8 +58,8 @@ struct ChainState {
 /// From frames to tracks: Parsons' Figure 1.
 ///
 /// For each frame, in this order: the trackers take the raw frame, and those whose signal is gone end; y is set to 0 in a box
-/// round every track and the detector takes the rest; crossings are clustered; the peak of each cluster starts a track,
-/// whose past is traced back to its onset, and the detector forgets the box round it. The statistic shown is the
+/// around every track and the detector takes the rest; crossings are clustered; the peak of each cluster starts a track,
+/// whose past is traced back to its onset, and the detector resets the box around it. The statistic shown is the
 /// detector's, raised to the trackers' scores where they follow something. Under a bank of models a track belongs to the model
 /// whose statistic crossed: its path is traced, and followed, with that one. Of a detector that is guided, a track's cell shows the statistic
 /// that it was detected with, for its tracker's scores are something else. Deterministic; one object per thread.

@@ -71,14 +71,16 @@ const std::vector<Field<TrackSettings>> &TrackSettings::fields()
     using S = TrackSettings;
     static const std::vector<Field<S>> table{
         field(&S::windowCells, "windowCells", "bins", 0.0, 10000.0,
-              "Half the window of states that follows a signal, per axis; the last number repeats."),
-        field(&S::decayNats, "decayNats", "nat", 0.0, 1000.0, "Taken off a track's level every frame, so that a track on noise fades."),
-        field(&S::ceilingNats, "ceilingNats", "nat", 0.0, 1e6, "A track's level never stands higher above the threshold than this."),
+              "Half width of the window of states that follows a signal, per axis; the last number repeats."),
+        field(&S::decayNats, "decayNats", "nat", 0.0, 1000.0, "Amount subtracted from a track's level every frame, so "
+                                                              "that a track on noise fades."),
+        field(&S::ceilingNats, "ceilingNats", "nat", 0.0, 1e6, "Upper limit of a track's level above the threshold."),
         field(&S::endNats, "endNats", "nat", 0.0, 1e6, "A track ends when its level is this far below the threshold."),
         field(&S::confirmNats, "confirmNats", "nat", 0.0, 1e6, "A track is confirmed when its level is this far above the threshold."),
-        field(&S::confirmFrames, "confirmFrames", "frames", 1.0, 1e6, "A track is confirmed at this age at the earliest."),
+        field(&S::confirmFrames, "confirmFrames", "frames", 1.0, 1e6, "Lowest age at which a track is confirmed."),
         field(&S::smoothingFrames, "smoothingFrames", "frames", 1.0, 10000.0, "Lag of the smoothing of a track's path."),
-        field(&S::bothWays, "bothWays", "Whether complete tracks of lines are followed backward too: onset, end and frequency from both sides."),
+        field(&S::bothWays, "bothWays", "Whether complete tracks of lines are also followed backward to refine onset, "
+                                        "end and frequency."),
     };
     return table;
 }

@@ -7,7 +7,7 @@
 
 namespace faintline {
 
-/// y in the cells round a path along one axis: what is looked at again of a recording when a track is complete.
+/// y in the cells around a path along one axis: the data of the second pass when a track is complete.
 struct PathStrip {
     Index firstFrame = 0;
     Index halfWidth = 0;        ///< cells on either side of the path

@@ -36,7 +36,7 @@ struct Track {
     Index confirmFrame = -1; ///< where it was confirmed, -1: never
     std::size_t model = 0;   ///< which of a bank's models found it and follows it
     double detectStatistic = 0.0; ///< the detector's, in its own unit, where it was detected
-    std::vector<SmoothedPoint> smoothed{}; ///< one a point; none where nobody looked twice
+    std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
 
     /// Where a point is along the last axis, in cells, as exactly as is known.
     double lastPosition(std::size_t point, const Axis &axis) const

@@ -29,7 +29,7 @@ struct BothWays {
 /// Half-width of a strip that this look needs, in bins.
 Index bothWaysHalfWidth(double binsPerCell);
 
-/// Takes the posterior of presence and place in a corridor of ±3 resolution cells round the strip's path, twice, the second time round the first
+/// Takes the posterior of presence and place in a corridor of ±3 resolution cells around the strip's path, twice, the second time around the first
 /// one's mean.
 ///
 ///   r(t) = mean of y along the path over ±12 frames, less 1; λ is the likelihood's at SNR clamp(r, ½, 4), in half octaves

@@ -23,7 +23,7 @@ struct TracksOnAxes {
 /// its r grows with T_FT as the number of frames falls. Of one that moves by more than a cell within the longer window the power spreads
 /// over several cells, of which a path follows one.
 /// Answers the median over the tracks X of at least `leastStatistic` that the longer window has seen at all, weighted by their duration;
-/// NaN where there is none.
+/// NaN without such tracks.
 double energyKept(const TracksOnAxes &shorter, const TracksOnAxes &longer, double leastStatistic);
 
 } // namespace faintline

@@ -30,7 +30,7 @@ struct ExplainedSignal {
 class Explanations
 {
 public:
-    /// `leakage`: |W|² at a distance in cells of an axis of so many cells.
+    /// `leakage`: |W|² at a distance in cells of an axis with `cells` cells.
     Explanations(Index cells, const std::function<double(double)> &leakage);
 
     void add(ExplainedSignal signal);

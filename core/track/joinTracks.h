@@ -15,9 +15,9 @@ struct JoinRule {
     std::vector<Index> windowCells;    ///< farthest a tracker looks, per axis
 };
 
-/// Joins each track to the one it goes on from: a signal that a tracker lost for a while and the detector found again.
+/// Joins each track to the one that it continues: a signal that a tracker lost for a while and the detector found again.
 ///
-/// A track that was detected after another one's evidence had ended, n frames later, goes on from it if
+/// A track that was detected after another one's evidence had ended, n frames later, continues it if
 ///
 ///   |Δcell| ≤ min(linkCells + n·reachCells, windowCells)   on every axis: it could have come from there,
 ///   (n - 1)·g ≤ threshold                                  g: nats a frame the weaker of the two gathered

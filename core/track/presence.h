@@ -6,7 +6,7 @@
 
 namespace faintline {
 
-/// The evidence in a corridor round a path along one axis: `width` cells in each frame, from a first cell that follows the path.
+/// The evidence in a corridor around a path along one axis: `width` cells in each frame, from a first cell that follows the path.
 struct Corridor {
     Index width = 0;
     std::vector<Index> firstCells; ///< lowest cell of each frame; may lie off the axis

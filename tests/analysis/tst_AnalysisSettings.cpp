@@ -95,10 +95,10 @@ void tst_AnalysisSettings::jsonKeepsTheChoice()
 void tst_AnalysisSettings::refusals()
 {
     AnalysisSettings settings;
-    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.windowSecond", "1"); }), "the nearest is spectrogram.windowSeconds"));
+    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.windowSecond", "1"); }), "did you mean spectrogram.windowSeconds"));
     QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.windowSeconds", "-1"); }), "must lie in 0 … 1e+06 s"));
     QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.window", "round"); }), "must be one of rectangular, hann"));
-    QVERIFY(contains(errorOf([&] { settingsFromJson("{\"a\": 1}", "x.json"); }), "is no setting"));
+    QVERIFY(contains(errorOf([&] { settingsFromJson("{\"a\": 1}", "x.json"); }), "unknown setting"));
     QVERIFY(contains(errorOf([&] { settingsFromJson("{", "x.json"); }), "x.json"));
     setSetting(settings, "model.slopeChange", "0.5, 0.1");
     QVERIFY(contains(errorOf([&] { checkSettings(settings); }), "it must be 1"));

@@ -190,7 +190,8 @@ void tst_analyse::aKOutOfReachIsAnError()
     AnalysisSettings s = settings();
     s.model.snr = 50.0;
     const std::string said = test::errorOf([&] { calibrate(s); });
-    QVERIFY2(said.starts_with("model.snr = 50: leaves no ln K for which half of the states continue on noise: at 20 nat "), said.c_str());
+    QVERIFY2(said.starts_with("model.snr = 50: permits no ln K at which half of the states continue on noise: at 20 "
+                              "nat "), said.c_str());
     QVERIFY2(said.ends_with("% do; choose a lower one"), said.c_str());
 }
 

@@ -192,11 +192,11 @@ private slots:
             QTest::newRow(name) << QString::fromLatin1(type) << value << other << QString::fromUtf8(message);
         };
         constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-        row("zeros", "rf32_le", 0.0, 0.0, "all of the 4000 samples looked at are 0 or below 1e-45");
-        row("too small", "rf64_le", 1e-60, -1e-200, "all of the 4000 samples looked at are 0 or below 1e-45");
-        row("no numbers", "rf32_le", nan, nan, "all of the 4000 samples looked at are not finite in single precision");
-        row("too large", "rf64_le", 1e60, -1e60, "all of the 4000 samples looked at are not finite in single precision");
-        row("of each", "rf32_le", nan, 0.0, "all of the 4000 samples looked at are 0 or not finite");
+        row("zeros", "rf32_le", 0.0, 0.0, "all of the 4000 samples read are 0 or below 1e-45");
+        row("too small", "rf64_le", 1e-60, -1e-200, "all of the 4000 samples read are 0 or below 1e-45");
+        row("no numbers", "rf32_le", nan, nan, "all of the 4000 samples read are not finite in single precision");
+        row("too large", "rf64_le", 1e60, -1e60, "all of the 4000 samples read are not finite in single precision");
+        row("of each", "rf32_le", nan, 0.0, "all of the 4000 samples read are 0 or not finite");
     }
 
     void nothingThatCouldBeUsed()
@@ -214,7 +214,7 @@ private slots:
         }
         const RecordingPointer recording = openBytes(bytes, type.toStdString());
         const std::string said = errorOf([&] { analyse(recording, settings()); });
-        QVERIFY2(contains(said, "holds nothing that can be used: " + message.toStdString()), said.c_str());
+        QVERIFY2(contains(said, "has no usable samples: " + message.toStdString()), said.c_str());
     }
 
     void oneSoundSampleIsUsed()

@@ -97,7 +97,7 @@ private slots:
         QVERIFY(!window.comparer().isOfWhatIsOpen());
         QVERIFY(!window.comparer().result().has_value());
         QVERIFY(panel.computeButton()->isVisible());
-        QVERIFY(panel.sentence().contains("something else"));
+        QVERIFY(panel.sentence().contains("another source"));
         panel.computeButton()->click();
         QTRY_VERIFY_WITH_TIMEOUT(window.comparer().result().has_value(), patience);
         QVERIFY(!panel.computeButton()->isVisible());

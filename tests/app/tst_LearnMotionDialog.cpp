@@ -41,7 +41,7 @@ private slots:
         QVERIFY(openAndSettle(*window, scene));
         LearnMotionDialog *dialog = learned(*window);
         QVERIFY(dialog);
-        QVERIFY(dialog->findChild<QLabel *>("learnedMotion")->text().contains("there is none here"));
+        QVERIFY(dialog->findChild<QLabel *>("learnedMotion")->text().contains("no such track was found"));
         QVERIFY(!dialog->findChild<QPushButton *>("applyLearnedMotion")->isEnabled());
     }
 

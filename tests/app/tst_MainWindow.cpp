@@ -512,7 +512,7 @@ private slots:
         replay.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), {"replay", path("window.png")});
         QVERIFY(replay.waitForFinished(patience));
         const QByteArray error = replay.readAllStandardError();
-        QVERIFY2(error.startsWith("error: ") && error.contains("does not suffice") && error.count('\n') == 1, error.constData());
+        QVERIFY2(error.startsWith("error: ") && error.contains("cannot be reproduced") && error.count('\n') == 1, error.constData());
     }
 
     void remembersFilesAndLayout()

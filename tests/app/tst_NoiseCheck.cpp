@@ -31,7 +31,7 @@ private slots:
         QCOMPARE(button(check, "countOnSurrogates")->text(), QString("Stop"));
         QVERIFY(settle(check));
         const QString said = label(check, "surrogateResult")->text();
-        QVERIFY2(said.contains(" ordered in ") && said.contains("ratio "), qPrintable(said));
+        QVERIFY2(said.contains(" specified in ") && said.contains("ratio "), qPrintable(said));
         QVERIFY(!label(check, "surrogateResult")->isHidden());
         QCOMPARE(button(check, "countOnSurrogates")->text(), QString("Count on noise like this recording's"));
     }

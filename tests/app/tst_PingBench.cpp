@@ -427,7 +427,7 @@ private slots:
         writeFile(m_folder, "loud.npy", bytes);
         QFile::copy(path("stack.grid.json"), path("loud.grid.json"));
         QVERIFY(openWithNineRates(*w, path("loud.npy")));
-        QVERIFY2(w->messages().text().contains("the noise's mean is about 5"), qPrintable(w->messages().text()));
+        QVERIFY2(w->messages().text().contains("the mean of the noise is about 5"), qPrintable(w->messages().text()));
     }
 
     void aMistakeIsALine()

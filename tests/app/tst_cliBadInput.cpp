@@ -176,10 +176,10 @@ void tst_cliBadInput::wrongKinds_data()
     const QStringList evaluate{"evaluate", "bad.json", "--out", "o.csv"};
     const QStringList merge{"merge", "bad.json", "--out", "o.csv"};
     const QStringList annotated{"detect", "line.wav", "--events", "o.csv", "--annotations", "bad.json"};
-    const char *const otherKind = "holds something else than is wanted: type must be number, but is string";
+    const char *const otherKind = "has the wrong type or is missing: type must be number, but is string";
     QTest::newRow("kind of an experiment") << evaluate << QByteArray(R"({"kind": 7})") << "bad.json.kind: must be lines, injection";
     QTest::newRow("version of a shard") << merge << QByteArray(R"({"faintlineCampaign": "1", "experiment": {}, "thresholds": []})")
-                                        << "bad.json: is no campaign";
+                                        << "bad.json: is not a campaign";
     const QByteArray shard =
         R"({"faintlineCampaign": 1, "thresholds": ["high"], "experiment": )" + QByteArray(experiment).replace('\n', ' ') + "}\n";
     QTest::newRow("thresholds of a shard") << merge << shard << QStringLiteral("bad.json, line 1: thresholds: ") + otherKind;
@@ -191,14 +191,16 @@ void tst_cliBadInput::wrongKinds_data()
     const QByteArray sweep = R"({"faintlineCampaign": 1, "thresholds": [1], "experiment": {"kind": "sweep", "trials": 1, "values": [5],)"
                              R"( "parameter": "decide.thresholdNats"}})" "\n" R"({"run": 0, "signal": [[[1]]], "noise": )";
     for (const char *noise : {"[[1e30, 5]]", "[[null, 5]]", "[[-1, 5]]", "[[1, 1e30]]"})
-        QTest::newRow(noise) << merge << sweep + noise + "}\n" << "bad.json, line 2: must hold values for each of the 1 detectors";
+        QTest::newRow(noise) << merge << sweep + noise + "}\n" << "bad.json, line 2: must contain values for each of "
+                                                                  "the 1 detectors";
     QTest::newRow("a folder as a shard") << QStringList{"merge", ".", "--out", "o.csv"} << QByteArray() << ".: is not a file";
     QTest::newRow("begin of an event") << annotated << QByteArray(R"({"events": [{"t_onset": "soon", "t_end": 2}]})")
                                        << QStringLiteral("bad.json, event 1: ") + otherKind;
     QTest::newRow("event without an end") << annotated << QByteArray(R"({"events": [{"t_onset": 1}]})")
-                                          << "bad.json, event 1: holds something else than is wanted: key 't_end' not found";
+                                          << "bad.json, event 1: has the wrong type or is missing: key 't_end' not "
+                                             "found";
     QTest::newRow("events that are none") << annotated << QByteArray(R"({"events": "none"})")
-                                          << "an object or a list must stand where there is a string";
+                                          << "expected an object or a list, found a string";
 }
 
 void tst_cliBadInput::wrongKinds()
@@ -344,7 +346,7 @@ void tst_cliBadInput::sigmfIsReadAndMadeAgain()
         writeBytes(pathOf(name), before + " ");
         const Outcome replayed = run({"replay", "judged.csv"});
         QCOMPARE(replayed.code, 2);
-        QVERIFY2(replayed.err.startsWith(QByteArray("error: ") + name + ": is not what"), replayed.err.constData());
+        QVERIFY2(replayed.err.startsWith(QByteArray("error: ") + name + ": differs from"), replayed.err.constData());
         writeBytes(pathOf(name), before);
     }
 }
@@ -353,7 +355,7 @@ void tst_cliBadInput::annotationsThatAreNoFile()
 {
     const Outcome told = run(QStringList{"detect", "line.wav", "--annotations", ".", "--events", "o.csv"} + settings);
     QCOMPARE(told.code, 2);
-    QCOMPARE(told.err, QByteArray("error: .: is a folder; annotations are a file\n"));
+    QCOMPARE(told.err, QByteArray("error: .: is a folder; expected a file of annotations\n"));
     QVERIFY(named("o.csv*").isEmpty());
 }
 
@@ -379,7 +381,7 @@ void tst_cliBadInput::reportOfALesson()
     writeBytes(pathOf("lesson.json"), R"({"steps": []})"); // one that cannot be opened, either
     const Outcome told = run(QStringLiteral("faintline"), {"report", "lesson.json", "--out", "o.html"});
     QCOMPARE(told.code, 2);
-    QCOMPARE(told.err, QByteArray("error: lesson.json: is a lesson; a report is of a recording, of pings, or of a session\n"));
+    QCOMPARE(told.err, QByteArray("error: lesson.json: is a lesson; a report requires a recording, pings or a session\n"));
     QVERIFY(named("o.html*").isEmpty());
 }
 

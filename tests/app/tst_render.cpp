@@ -164,7 +164,7 @@ private slots:
         QVERIFY(changed.save(path("small.png")));
         outcome = run({"replay", path("small.png")});
         QCOMPARE(outcome.exitCode, 2);
-        QVERIFY2(outcome.error.contains("another size"), outcome.error.constData());
+        QVERIFY2(outcome.error.contains("different size"), outcome.error.constData());
         changed.setText("provenance", "{\"recording\": 7}");
         QVERIFY(changed.save(path("broken.png")));
         for (const QString &name : {QString("broken.png"), QString("text.wav"), QString("none.png")}) {

@@ -424,12 +424,12 @@ void tst_Sprt::aTargetThatLeaves()
     };
     KinematicAxis rising = axis(2);
     rising.firstRate = 1;
-    QCOMPARE(refusal({rising}), QString("model.axes[0].rates: let no target stay on the axis that is in cell 1; a law that loses nothing "
-                                        "needs a move from every cell"));
+    QCOMPARE(refusal({rising}), QString("model.axes[0].rates: let no target in this cell stay on the axis: 1; a "
+                                        "lossless law needs a transition from every cell"));
     KinematicAxis jumping = axis(3);
     jumping.step = {0.0, 0.0, 0.5};
-    QVERIFY(refusal({jumping}).startsWith("model.axes[0].step: let no target stay on the axis that is in cell 1"));
-    QVERIFY(refusal({matrix({0.0, 0.0, 0.5, 0.5})}).startsWith("model.axes[0].transition: row 0 holds zeros only"));
+    QVERIFY(refusal({jumping}).startsWith("model.axes[0].step: let no target in this cell stay on the axis: 1"));
+    QVERIFY(refusal({matrix({0.0, 0.0, 0.5, 0.5})}).startsWith("model.axes[0].transition: row 0 contains only zeros"));
     rising.cyclic = true;
     QCOMPARE(refusal({rising}), QString());
 
@@ -442,8 +442,8 @@ void tst_Sprt::aTargetThatLeaves()
         runSprt(model, {}, 1, source(frames(3, 1, 1)));
         QFAIL("accepted");
     } catch (const Error &error) {
-        QCOMPARE(QString(error.what()), QString("model: has an axis of frequency that loses up to 100 % of a target's probability a stage; "
-                                                "a likelihood ratio needs a law that loses none"));
+        QCOMPARE(QString(error.what()), QString("model: has an axis of frequency that loses up to 100 % of a target's "
+                                                "probability per stage; a likelihood ratio needs a lossless law"));
     }
     model.markov.space = StateSpace({slopes.stochastic("axis")});
     runSprt(model, {}, 1, source(frames(3, 1, 1)));
@@ -649,7 +649,7 @@ void tst_Sprt::refusals()
     };
     QVERIFY(says([] { checkSprt({0.0, 1e-3, 0}, "test"); }).startsWith("test.falseAlarm = 0: must lie in"));
     QVERIFY(says([] { checkSprt({1e-3, 0.6, 0}, "test"); }).startsWith("test.miss = 0.6"));
-    QVERIFY(says([] { checkSprt({0.5, 0.5, 0}, "test"); }).contains("must stay below 1"));
+    QVERIFY(says([] { checkSprt({0.5, 0.5, 0}, "test"); }).contains("must be below 1"));
     QVERIFY(says([] { makeSequentialModel({axis(2)}, {false}, twoToOne, {0.5, 0.6}); }).contains("adds up to 1.1"));
     QVERIFY(says([] { makeSequentialModel({axis(2)}, {false}, twoToOne, {1.0}); }).contains("holds 1 probabilities; there are 2 states"));
     QVERIFY(says([] { makeSequentialModel({matrix({0.5, 0.6, 0.5, 0.5})}, {false}, twoToOne); }).contains("row 0 adds up to 1.1"));
@@ -657,7 +657,7 @@ void tst_Sprt::refusals()
                 KinematicAxis a = admissible(2);
                 a.cyclic = true;
                 makeSequentialModel({a}, {false}, twoToOne);
-            }).contains("the same cell both ways round"));
+            }).contains("the same cell in both directions"));
 }
 
 QTEST_APPLESS_MAIN(tst_Sprt)

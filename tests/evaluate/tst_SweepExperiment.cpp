@@ -91,9 +91,9 @@ private slots:
         QTest::addColumn<QString>("parameter");
         QTest::addColumn<double>("value");
         QTest::addColumn<QString>("why");
-        QTest::newRow("unknown") << "model.snt" << 1.0 << "model.snt: is no setting; the nearest is model.snr";
+        QTest::newRow("unknown") << "model.snt" << 1.0 << "model.snt: unknown setting; did you mean model.snr";
         QTest::newRow("a choice") << "detector.kind" << 1.0 << "parameter = detector.kind: must be a setting that is one number";
-        QTest::newRow("another detector's") << "pOfN.n" << 4.0 << "parameter = pOfN.n: belongs to another detector";
+        QTest::newRow("another detector's") << "pOfN.n" << 4.0 << "parameter = pOfN.n: belongs to a different detector";
         QTest::newRow("out of range") << "spectrogram.windowSeconds" << -1.0 << "spectrogram.windowSeconds = -1: must lie in 0";
         QTest::newRow("not whole") << "model.slopesPerBin" << 1.5 << "model.slopesPerBin = 1.5: must be a whole number";
     }
@@ -112,7 +112,7 @@ private slots:
         SweepExperiment large = sweep();
         large.trials = 1'000'000;
         large.values.assign(3000, 5.0);
-        QCOMPARE(whyNot(large), std::string("trials = 1000000: of each of 3000 values are more than 10 million"));
+        QCOMPARE(whyNot(large), std::string("trials = 1000000: of each of 3000 values exceeds 10 million"));
     }
 
     void jsonRoundTrip()

@@ -214,20 +214,22 @@ void tst_ModelFile::sequentialRefusals_data()
     row("law without end", R"("axes": [{"cells": 1000000000, "step": {"gaussian": 1e9}}])", "axes[0].step.gaussian: must be a standard deviation of 0");
     row("more cells than there is memory", R"("axes": [{"cells": 1000000000, "integrate": true}, {"cells": 1000000000, "integrate": true}])",
         "axes: give more than 2³¹ cells");
-    row("unknown law", R"("axes": [{"cells": 5, "step": {"laplace": 1}}])", "axes[0].step.laplace: is not known");
-    row("matrix of another size", R"("axes": [{"cells": 3, "transition": [[1, 0], [0, 1]]}])", "as many rows and columns as the axis has cells, 3");
+    row("unknown law", R"("axes": [{"cells": 5, "step": {"laplace": 1}}])", "axes[0].step.laplace: unknown");
+    row("matrix of different size", R"("axes": [{"cells": 3, "transition": [[1, 0], [0, 1]]}])", "as many rows and columns as the axis has cells, 3");
     row("ragged matrix", R"("axes": [{"cells": 2, "transition": [[1, 0], [1]]}])", "axes[0].transition: must have as many columns as rows");
     row("matrix of text", R"("axes": [{"cells": 1, "transition": [["1"]]}])", "axes[0].transition: must be a list of numbers");
-    row("matrix above 1", R"("axes": [{"cells": 1, "transition": [[1.5]]}])", "axes[0].transition: holds 1.5; a probability lies in 0 … 1");
-    row("matrix and steps", R"("axes": [{"cells": 1, "transition": [[1]], "step": [1]}])", "has a transition matrix, which says all");
-    row("cyclic matrix", R"("axes": [{"cells": 1, "transition": [[1]], "cyclic": true}])", "has a transition matrix, which says all");
-    row("initial of another size", R"("axes": [{"cells": 2}], "initial": [1])", "initial: holds 1 probabilities; there are 2 states");
+    row("matrix above 1", R"("axes": [{"cells": 1, "transition": [[1.5]]}])", "axes[0].transition: holds 1.5; a "
+                                                                              "probability must lie in 0 … 1");
+    row("matrix and steps", R"("axes": [{"cells": 1, "transition": [[1]], "step": [1]}])", "has a transition matrix, so");
+    row("cyclic matrix", R"("axes": [{"cells": 1, "transition": [[1]], "cyclic": true}])", "has a transition matrix, so");
+    row("initial of different size", R"("axes": [{"cells": 2}], "initial": [1])", "initial: holds 1 probabilities; there are 2 states");
     row("initial that is none", R"("axes": [{"cells": 2}], "initial": [0.5, 0.4])", "initial: adds up to 0.9");
     row("initial as text", R"("axes": [{"cells": 2}], "initial": "centre")", "initial: must be a list of numbers");
-    row("all leave", R"("axes": [{"cells": 5, "rates": [1, 2]}])", "axes[0].rates: let no target stay on the axis that is in cell 4");
-    row("matrix without a way on", R"("axes": [{"cells": 2, "transition": [[0, 0], [0, 1]]}])", "axes[0].transition: row 0 holds zeros only");
+    row("all leave", R"("axes": [{"cells": 5, "rates": [1, 2]}])", "axes[0].rates: let no target in this cell stay on "
+                                                                   "the axis: 4");
+    row("matrix without a way on", R"("axes": [{"cells": 2, "transition": [[0, 0], [0, 1]]}])", "axes[0].transition: row 0 contains only zeros");
     row("integrate no flag", R"("axes": [{"cells": 2, "integrate": 1}])", "axes[0].integrate: must be true or false");
-    row("scaled transitions", R"("axes": [{"cells": 2}], "scaleTransitions": true)", "has no place in a sequential test");
+    row("scaled transitions", R"("axes": [{"cells": 2}], "scaleTransitions": true)", "cannot be used in a sequential test");
 }
 
 void tst_ModelFile::sequentialRefusals()
@@ -286,15 +288,15 @@ void tst_ModelFile::modelRefusals_data()
     row("empty axes", R"({"axes": [], "likelihood": {"kind": "linear"}})", "needs \"axes\"");
     row("axes no list", R"({"axes": {"cells": 5}, "likelihood": {"kind": "linear"}})", "needs \"axes\"");
     row("no likelihood", R"({"axes": [{"cells": 5}]})", "needs \"likelihood\"");
-    row("unknown key", R"({"axes": [{"cells": 5}], "likelihood": {"kind": "linear"}, "likelyhood": 1})", "likelyhood: is not known; known are axes, likelihood");
+    row("unknown key", R"({"axes": [{"cells": 5}], "likelihood": {"kind": "linear"}, "likelyhood": 1})", "likelyhood: unknown; expected one of axes, likelihood");
 
     axis("axis no object", "5", "axes[1]: must be an object");
-    axis("no cells", "{}", "axes[1].cells: must be a whole number from 1 on");
-    axis("no whole cells", R"({"cells": 2.5})", "axes[1].cells: must be a whole number from 1 on");
-    axis("0 cells", R"({"cells": 0})", "axes[1].cells: must be a whole number from 1 on");
+    axis("no cells", "{}", "axes[1].cells: must be a whole number, at least 1");
+    axis("no whole cells", R"({"cells": 2.5})", "axes[1].cells: must be a whole number, at least 1");
+    axis("0 cells", R"({"cells": 0})", "axes[1].cells: must be a whole number, at least 1");
     axis("too many cells", R"({"cells": 1e10})", "axes[1].cells: must be a whole number");
     axis("cells as text", R"({"cells": "5"})", "axes[1].cells: must be a number");
-    axis("unknown key in an axis", R"({"cells": 5, "rate": [0]})", "axes[1].rate: is not known; known are name, cells, cyclic");
+    axis("unknown key in an axis", R"({"cells": 5, "rate": [0]})", "axes[1].rate: unknown; expected one of name, cells, cyclic");
     axis("name", R"({"cells": 5, "name": 5})", "axes[1].name: must be a text");
     axis("cyclic", R"({"cells": 5, "cyclic": 1})", "axes[1].cyclic: must be true or false");
     axis("rates with a gap", R"({"cells": 5, "rates": [-1, 1]})", "axes[1].rates: must be consecutive integers, ascending");
@@ -303,11 +305,12 @@ void tst_ModelFile::modelRefusals_data()
     axis("no rate", R"({"cells": 5, "rates": []})", "axes[1].rates: must be a list of numbers");
     axis("rates as text", R"({"cells": 5, "rates": ["1"]})", "axes[1].rates: must be a list of numbers");
     axis("law that is none", R"({"cells": 5, "rates": [0, 1], "rateChange": [0.5, 0.5]})", "axes[1].rateChange: h(0) + 2·(h(1) + h(2) + …) is 1.5; it must be 1");
-    axis("negative probability", R"({"cells": 5, "rateChange": [1.5, -0.25]})", "axes[1].rateChange: holds 1.5; a probability lies in 0 … 1");
+    axis("negative probability", R"({"cells": 5, "rateChange": [1.5, -0.25]})", "axes[1].rateChange: holds 1.5; a "
+                                                                                "probability must lie in 0 … 1");
     axis("step law that is none", R"({"cells": 5, "step": [0.5, 0.3]})", "axes[1].step: h(0) + 2·(h(1) + h(2) + …) is 1.1");
     axis("rates and steps", R"({"cells": 5, "rates": [0, 1], "step": [1]})", "axes[1]: has both rates and a step law");
     axis("rounding", R"({"cells": 5, "round": "up"})", "axes[1].round: must be one of halfDown, trunc");
-    axis("round and round", R"({"cells": 5, "cyclic": true, "rates": [5, 6], "rateChange": [1]})", "axes[1]: a step of 6 cells goes round a cyclic axis of 5");
+    axis("round and round", R"({"cells": 5, "cyclic": true, "rates": [5, 6], "rateChange": [1]})", "axes[1]: a step of 6 cells wraps around a cyclic axis of 5");
     axis("too many states", R"({"cells": 1e9})", "model.axes: give more than 2³¹ states");
     axis("overflowing states", R"({"cells": 1e9}, {"cells": 1e9}, {"cells": 1e9}, {"cells": 1e9})", "model.axes: give more than 2³¹ states");
 
@@ -318,14 +321,14 @@ void tst_ModelFile::modelRefusals_data()
     more("r0 of 0", R"("likelihood": {"kind": "rice", "r0": 0})", "likelihood.r0 = 0: must be a power ratio above 0");
     more("negative snr", R"("likelihood": {"kind": "exponential", "snr": -3})", "likelihood.snr = -3: must be a power ratio above 0");
     more("r0 as text", R"("likelihood": {"kind": "rice", "r0": "0.5"})", "likelihood.r0: must be a number");
-    more("unknown key in the likelihood", R"("likelihood": {"kind": "rice", "r0": 1, "x": 1})", "likelihood.x: is not known; known are kind, r0, snr");
+    more("unknown key in the likelihood", R"("likelihood": {"kind": "rice", "r0": 1, "x": 1})", "likelihood.x: unknown; expected one of kind, r0, snr");
     more("unknown law", R"("likelihood": {"kind": "linear"}, "reset": {"law": "never"})", "reset.law: must be one of fixed, mean, half, none");
     more("reset no object", R"("likelihood": {"kind": "linear"}, "reset": "none")", "reset: must be an object");
     more("lnK as text", R"("likelihood": {"kind": "linear"}, "reset": {"law": "fixed", "lnK": "0"})", "reset.lnK: must be a number");
-    more("unknown key in the reset", R"("likelihood": {"kind": "linear"}, "reset": {"K": 1})", "reset.K: is not known");
+    more("unknown key in the reset", R"("likelihood": {"kind": "linear"}, "reset": {"K": 1})", "reset.K: unknown");
     more("unknown semiring", R"("likelihood": {"kind": "linear"}, "semiring": "min")", "semiring: must be one of max, sum");
     more("sum with Parsons' law", R"("likelihood": {"kind": "linear"}, "semiring": "sum", "reset": {"law": "mean"})",
-         "reset.law: must be fixed or none where the semiring is sum");
+         "reset.law: must be fixed or none if the semiring is sum");
     more("initial", R"("likelihood": {"kind": "linear"}, "initial": [1, 0, 0, 0, 0])", "initial: must be \"uniform\" here");
     more("scale without snr", R"("likelihood": {"kind": "linear"}, "scaleTransitions": true)", "scaleTransitions: needs \"snr\" in the likelihood");
     more("scale no flag", R"("likelihood": {"kind": "linear"}, "scaleTransitions": 1)", "scaleTransitions: must be true or false");
@@ -343,7 +346,7 @@ void tst_ModelFile::modelRefusals()
 
 void tst_ModelFile::noModel()
 {
-    QVERIFY(contains(errorOf([&] { readModelFile(path("none.json")); }), "none.json: there is no such file"));
+    QVERIFY(contains(errorOf([&] { readModelFile(path("none.json")); }), "none.json: no such file"));
 }
 
 void tst_ModelFile::gridNamesTheAxes()
@@ -371,7 +374,7 @@ void tst_ModelFile::gridRefusals_data()
     QTest::newRow("other count") << QByteArray(R"({"axes": [{}, {"count": 4}]})") << "axes[1].count: is 4, but the frames have 3 cells there";
     QTest::newRow("step of 0") << QByteArray(R"({"axes": [{"step": 0}, {}]})") << "axes[0].step: must be above 0";
     QTest::newRow("step as text") << QByteArray(R"({"axes": [{"step": "1"}, {}]})") << "axes[0].step: must be a number";
-    QTest::newRow("unknown key") << QByteArray(R"({"axes": [{"units": "m"}, {}]})") << "axes[0].units: is not known";
+    QTest::newRow("unknown key") << QByteArray(R"({"axes": [{"units": "m"}, {}]})") << "axes[0].units: unknown";
     QTest::newRow("time stands still") << QByteArray(R"({"axes": [{}, {}], "time": {"step": 0}})") << "time.step: must be above 0";
     QTest::newRow("time no object") << QByteArray(R"({"axes": [{}, {}], "time": 3})") << "time: must be an object";
 }
@@ -411,7 +414,7 @@ void tst_ModelFile::framesRefused_data()
     QTest::newRow("no frame") << std::vector<Index>{0, 6} << 1.0f << "must have the shape (frames, cells…)";
     QTest::newRow("no cell") << std::vector<Index>{6, 0} << 1.0f << "must have the shape (frames, cells…)";
     QTest::newRow("infinite") << std::vector<Index>{2, 3} << std::numeric_limits<float>::infinity() << "holds inf at position 3";
-    QTest::newRow("negative") << std::vector<Index>{2, 3} << -0.5f << "holds -0.5 at position 3; normalised power is finite and not negative";
+    QTest::newRow("negative") << std::vector<Index>{2, 3} << -0.5f << "holds -0.5 at position 3; normalised power must be finite and not negative";
 }
 
 void tst_ModelFile::framesRefused()

@@ -159,10 +159,10 @@ void tst_NumPy::refusals_data()
     QTest::addColumn<QString>("message");
     const QByteArray data(64, '\0');
     const auto row = [](const char *name, const QByteArray &bytes, const char *message) { QTest::newRow(name) << bytes << QString::fromUtf8(message); };
-    row("empty", "", "is no NumPy file (.npy)");
-    row("text", "frame,cell,value\n0,0,1\n", "is no NumPy file (.npy)");
+    row("empty", "", "is not a NumPy file (.npy)");
+    row("text", "frame,cell,value\n0,0,1\n", "is not a NumPy file (.npy)");
     row("Fortran order", file(dictionary("<f4", "(2, 3)", "True"), data), "is in Fortran order; save it in C order");
-    row("big-endian", file(dictionary(">f4", "(2, 3)"), data), "holds '>f4'; float32 or float64, little-endian, is wanted");
+    row("big-endian", file(dictionary(">f4", "(2, 3)"), data), "holds '>f4'; expected float32 or float64, little-endian");
     row("integers", file(dictionary("<i4", "(2, 3)"), data), "holds '<i4'; float32");
     row("complex", file(dictionary("<c8", "(2, 3)"), data), "holds '<c8'; float32");
     row("objects", file(dictionary("|O", "(2, 3)"), data), "holds '|O'; float32");
@@ -180,7 +180,7 @@ void tst_NumPy::refusals_data()
     row("too many values", file(dictionary("<f4", "(65536, 65536)"), data), "holds more than 2³¹ values");
     row("overflowing product", file(dictionary("<f4", "(4294967296, 4294967296, 4)"), data), "holds more than 2³¹ values");
     row("overflowing before a 0", file(dictionary("<f4", "(1099511627776, 1099511627776, 0)"), data), "holds more than 2³¹ values");
-    row("endless header", QByteArray("\x93NUMPY\x02\x00\xff\xff\xff\xff", 12) + data, "its NumPy header is longer than any should be");
+    row("endless header", QByteArray("\x93NUMPY\x02\x00\xff\xff\xff\xff", 12) + data, "its NumPy header is too long");
 }
 
 void tst_NumPy::refusals()
@@ -217,7 +217,7 @@ void tst_NumPy::hugeShapesTakeNoMemory()
     // A file of 128 bytes that claims gigabytes is seen to be short before room is made for them.
     QFETCH(QByteArray, shape);
     for (const char *type : {"<f4", "<f8"})
-        QVERIFY(contains(refusal(file(dictionary(type, shape.data()), {})), "is cut short: its shape (" ));
+        QVERIFY(contains(refusal(file(dictionary(type, shape.data()), {})), "is truncated: its shape (" ));
 }
 
 void tst_NumPy::writtenInPieces()

@@ -225,7 +225,7 @@ void tst_annotations::hostile()
     QVERIFY(why.size() < 400);
     QVERIFY(why.find("exception") == std::string::npos);
     QVERIFY(!errorOf([&] { readAnnotations(path("nowhere"), m_info); }).empty());
-    QVERIFY(errorOf([&] { readAnnotations(path("."), m_info); }).ends_with("is a folder; annotations are a file"));
+    QVERIFY(errorOf([&] { readAnnotations(path("."), m_info); }).ends_with("is a folder; expected a file of annotations"));
     QVERIFY(read("empty", "").empty());
 }
 

@@ -168,7 +168,7 @@ void tst_writeEvents::sigmfAnnotations()
         QVERIFY(annotation["core:label"].is_string() && annotation["core:comment"].is_string());
 
     Analysis frames = twoTracks();
-    QVERIFY(contains(errorOf([&] { writeEvents(frames, path("f.sigmf-meta")); }), "need a recording"));
+    QVERIFY(contains(errorOf([&] { writeEvents(frames, path("f.sigmf-meta")); }), "require a recording"));
     QVERIFY(!QFile::exists(m_folder.filePath("f.sigmf-meta")));
 }
 
@@ -207,8 +207,8 @@ void tst_writeEvents::refusals()
 {
     for (const char *name : {"e.xml", "e", "csv"})
         QVERIFY(contains(errorOf([&] { writeEvents(twoTracks(), path(name)); }),
-                         "the kind of file is told by its extension: .csv, .json, .txt (Audacity labels) or .sigmf-meta"));
-    QVERIFY(contains(errorOf([&] { writeTracks(twoTracks(), path("t.txt")); }), "told by its extension: .csv or .json"));
+                         "the file name must end in .csv, .json, .txt (Audacity labels) or .sigmf-meta"));
+    QVERIFY(contains(errorOf([&] { writeTracks(twoTracks(), path("t.txt")); }), "must end in one of .csv or .json"));
     QVERIFY(!errorOf([&] { writeEvents(twoTracks(), path("no/folder.csv")); }).empty());
 }
 

@@ -162,7 +162,7 @@ void tst_AudioRecording::twoChannelsAsIq()
 
     writeAudio(path("three.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 3, 8000, someNoise(300));
     QVERIFY(contains(errorOf([&] { AudioRecording(path("three.wav"), true); }),
-                     "three.wav: has 3 channel(s), but I/Q needs"));
+                     "three.wav: has 3 channel(s); I/Q needs"));
 }
 
 void tst_AudioRecording::manyChannels()
@@ -288,7 +288,7 @@ void tst_AudioRecording::streamOfUnknownLength()
     writeBytes(path("stream.flac"), bytes.replace(22, 4, QByteArray(4, '\0')));
     const AudioRecording recording(path("stream.flac"), false);
     QCOMPARE(recording.info().sampleCount, Index(300001));
-    QVERIFY(contains(recording.info().notes.at(0), "does not say where the file ends"));
+    QVERIFY(contains(recording.info().notes.at(0), "gives no length or more than the file holds"));
     QVERIFY(readAll(recording) == readAll(AudioRecording(path("a.flac"), false)));
 }
 
@@ -297,7 +297,7 @@ void tst_AudioRecording::shrinkingWhileOpen()
     writeAudio(path("shrinks.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1, 16000, someNoise(100000));
     const AudioRecording recording(path("shrinks.wav"), false);
     QVERIFY(QFile::resize(QString::fromStdString(path("shrinks.wav")), 1000));
-    QVERIFY(contains(errorOf([&] { readAll(recording); }), "became shorter while it was open"));
+    QVERIFY(contains(errorOf([&] { readAll(recording); }), "was truncated while open"));
     std::vector<float> start(100);
     recording.read(0, 0, 100, start); // what is left can still be read
 }

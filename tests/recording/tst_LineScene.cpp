@@ -82,11 +82,11 @@ void tst_LineScene::refusals_data()
     row("no duration", R"({"sampleRateHz": 1})", "durationSeconds: is missing");
     row("other kind", R"({"kind": "pings", "sampleRateHz": 1, "durationSeconds": 1})", "kind: must be \"lines\"");
     row("unknown key", R"({"sampleRate": 1})",
-        "sampleRate: is not known; known are kind, noise, lines, sampleRateHz, durationSeconds, complex");
+        "sampleRate: unknown; expected one of kind, noise, lines, sampleRateHz, durationSeconds, complex");
     row("unknown key in a line", R"({"sampleRateHz": 1, "durationSeconds": 1, "lines": [{}, {"snr": 1}]})",
-        "lines[1].snr: is not known; known are snrDb");
+        "lines[1].snr: unknown; expected one of snrDb");
     row("unknown key in the noise", R"({"sampleRateHz": 1, "durationSeconds": 1, "noise": {"x": 1}})",
-        "noise.x: is not known; known are deviation");
+        "noise.x: unknown; expected one of deviation");
     row("rate 0", R"({"sampleRateHz": 0, "durationSeconds": 1})", "sampleRateHz = 0: must lie in 1e-06 … 1e+12 Hz");
     row("a text", R"({"sampleRateHz": "fast", "durationSeconds": 1})", "sampleRateHz = fast: must lie in");
     row("a list", R"({"sampleRateHz": [1], "durationSeconds": 1})", "sampleRateHz = […]: must lie in");
@@ -109,9 +109,9 @@ void tst_LineScene::refusals_data()
         R"({"sampleRateHz": 8000, "durationSeconds": 1, "complex": true, "centreHz": 1e6, "lines": [{}]})",
         "must stay within 996000 … 1004000 Hz");
     row("starts too late", R"({"sampleRateHz": 8000, "durationSeconds": 1, "lines": [{"startSeconds": 1}]})",
-        "lines[0].startSeconds = 1: must lie before the recording's end, 1 s");
+        "lines[0].startSeconds = 1: must lie before the end of the recording, 1 s");
     row("ends too late", R"({"sampleRateHz": 8000, "durationSeconds": 1, "lines": [{"durationSeconds": 2}]})",
-        "takes the line beyond the recording's end");
+        "extends the line beyond the end of the recording");
     row("wanders too fast",
         R"({"sampleRateHz": 8000, "durationSeconds": 1e6, "lines": [{"wanderHz": 1, "wanderSeconds": 1e-3}]})",
         "wanderSeconds = 0.001: is too short for a line of 1e+06 s");
@@ -152,7 +152,7 @@ void tst_LineScene::truthRefusals()
     QVERIFY(contains(said(R"({"lines": [{}]})"), "lines[0].frequencyHz: must hold at least one value"));
     QVERIFY(contains(said(R"({"lines": [{"frequencyHz": ["a"]}]})"),
                      "lines[0].frequencyHz = […]: must be a list of numbers"));
-    QVERIFY(contains(said(R"({"lines": [{"f": 1}]})"), "lines[0].f: is not known"));
+    QVERIFY(contains(said(R"({"lines": [{"f": 1}]})"), "lines[0].f: unknown"));
 }
 
 QTEST_APPLESS_MAIN(tst_LineScene)

@@ -179,7 +179,7 @@ void tst_RawRecording::twoRealChannelsAsIq()
     QCOMPARE(recording->info().channelCount, 1);
     QVERIFY((readAll(*recording) == std::vector<float>{0.5f, -0.5f}));
     options.rawChannels = 1;
-    QVERIFY(contains(errorOf([&] { openRecording(path("pairs.s16"), options); }), "I/Q needs them in pairs"));
+    QVERIFY(contains(errorOf([&] { openRecording(path("pairs.s16"), options); }), "I/Q needs an even number"));
 }
 
 void tst_RawRecording::cutInTheMiddleOfASample()
@@ -219,7 +219,7 @@ void tst_RawRecording::shrinkingWhileOpen()
     writeBytes(path("shrinks"), QByteArray(400000, '\1'));
     const RawRecording recording(path("shrinks"), {parseSampleType("ri16", ""), 8000.0, 1, 0, 0});
     QVERIFY(QFile::resize(QString::fromStdString(path("shrinks")), 1000));
-    QVERIFY(contains(errorOf([&] { readAll(recording); }), "became shorter while it was open"));
+    QVERIFY(contains(errorOf([&] { readAll(recording); }), "was truncated while open"));
 }
 
 void tst_RawRecording::refusals()
@@ -235,9 +235,9 @@ void tst_RawRecording::refusals()
     QVERIFY(contains(refusal("cf32", NAN, 1, 0), "must be above 0"));
     QVERIFY(contains(refusal("cf32", 1.0, 0, 0), "its channel count, 0, must lie in 1 … 1024"));
     QVERIFY(contains(refusal("cf32", 1.0, 2000, 0), "must lie in 1 … 1024"));
-    QVERIFY(contains(refusal("cf32", 1.0, 9, 0), "holds no whole sample: 64 bytes, of which a sample takes 72"));
+    QVERIFY(contains(refusal("cf32", 1.0, 9, 0), "contains no complete sample: 64 bytes, but one sample takes 72"));
     QVERIFY(contains(refusal("cf32", 1.0, 1, 64), "after a header of 64"));
-    QVERIFY(contains(refusal("cf32", 1.0, 1, std::numeric_limits<Index>::max()), "holds no whole sample"));
+    QVERIFY(contains(refusal("cf32", 1.0, 1, std::numeric_limits<Index>::max()), "contains no complete sample"));
     QVERIFY(contains(refusal("cf32", 1.0, 1, -1), "must not be negative"));
 }
 

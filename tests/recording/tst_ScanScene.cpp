@@ -161,7 +161,7 @@ void tst_ScanScene::refusals_data()
     QTest::addColumn<QByteArray>("json");
     QTest::addColumn<QString>("message");
     QTest::newRow("kind") << QByteArray(R"({"kind": "lines"})") << "kind: must be \"scans\"";
-    QTest::newRow("unknown") << QByteArray(R"({"rangeCell": 3})") << "rangeCell: is not known";
+    QTest::newRow("unknown") << QByteArray(R"({"rangeCell": 3})") << "rangeCell: unknown";
     QTest::newRow("no range") << QByteArray(R"({"rangeCells": 0})") << "rangeCells = 0: must lie in 1";
     QTest::newRow("too large") << QByteArray(R"({"rangeCells": 1000000, "dopplerCells": 1000})") << "at most 2²⁸ are possible";
     QTest::newRow("too long") << QByteArray(R"({"rangeCells": 100000, "stages": 1000000})") << "more than 2³¹ values in all";

@@ -137,14 +137,14 @@ void tst_SigmfRecording::badMetadata_data()
     QTest::newRow("a list") << QByteArray("[1, 2]") << "must be an object with a key \"global\"";
     QTest::newRow("global a list") << QByteArray("{\"global\": []}") << "a.sigmf-meta: global: must be an object";
     QTest::newRow("no type") << changed("core:datatype", "core:data")
-                             << "global.core:datatype: is missing; known are cf32";
+                             << "global.core:datatype: is missing; expected one of cf32";
     QTest::newRow("unknown type") << changed("ci16_le", "ci12_le")
-                                  << "global.core:datatype: ci12_le is no sample type; known are cf32";
+                                  << "global.core:datatype: ci12_le is not a sample type; expected one of cf32";
     QTest::newRow("type a number") << changed("\"ci16_le\"", "16") << "global.core:datatype: must be a text";
-    QTest::newRow("no rate") << changed("core:sample_rate", "rate") << "core:sample_rate: is missing; without it";
+    QTest::newRow("no rate") << changed("core:sample_rate", "rate") << "core:sample_rate: is missing; frequencies require it";
     QTest::newRow("rate 0") << changed("48000.5", "0") << "core:sample_rate: must be a number in 1e-09 … 1e+15";
     QTest::newRow("rate a text") << changed("48000.5", "\"x\"") << "core:sample_rate: must be a number";
-    QTest::newRow("rate too large") << changed("48000.5", "1e999") << "not valid JSON: a number in it is too large";
+    QTest::newRow("rate too large") << changed("48000.5", "1e999") << "not valid JSON: it contains a number that is too large";
     QTest::newRow("no channel") << changed("channels\": 2", "channels\": 0")
                                 << "num_channels: must be a number in 1 … 1024";
     QTest::newRow("half a channel") << changed("channels\": 2", "channels\": 1.5")
@@ -156,9 +156,9 @@ void tst_SigmfRecording::badMetadata_data()
     QTest::newRow("header negative") << changed("_bytes\": 4", "_bytes\": -4")
                                      << "captures[0].core:header_bytes: must be a number in 0";
     QTest::newRow("header beyond the file")
-        << changed("_bytes\": 4", "_bytes\": 4000") << "holds no whole sample: 20 bytes";
+        << changed("_bytes\": 4", "_bytes\": 4000") << "contains no complete sample: 20 bytes";
     QTest::newRow("a second header") << changed("}],", "}, {\"core:sample_start\": 1, \"core:header_bytes\": 9}],")
-                                     << "captures[1].core:header_bytes: bytes between captures cannot be skipped";
+                                     << "captures[1].core:header_bytes: bytes can be skipped before the first capture only";
 }
 
 void tst_SigmfRecording::badMetadata()
@@ -172,7 +172,7 @@ void tst_SigmfRecording::badMetadata()
 
 void tst_SigmfRecording::missingFiles()
 {
-    QVERIFY(contains(errorOf([&] { openRecording(path("b.sigmf-meta")); }), "b.sigmf-meta: there is no such file"));
+    QVERIFY(contains(errorOf([&] { openRecording(path("b.sigmf-meta")); }), "b.sigmf-meta: no such file"));
     QVERIFY(contains(errorOf([&] { openRecording(path("a.sigmf-data")); }), "a.sigmf-meta, is missing; without it"));
     write(fullMeta);
     QFile::remove(QString::fromStdString(path("a.sigmf-data")));

@@ -44,18 +44,18 @@ private:
 
 void tst_openRecording::refusals()
 {
-    QVERIFY(contains(refusal(path("none.wav")), "there is no such file"));
-    QVERIFY(contains(refusal(path("none.wav") + "/x"), "there is no such file"));
-    QVERIFY(contains(refusal(m_folder.path().toStdString()), "is a folder; a recording is a file"));
+    QVERIFY(contains(refusal(path("none.wav")), "no such file"));
+    QVERIFY(contains(refusal(path("none.wav") + "/x"), "no such file"));
+    QVERIFY(contains(refusal(m_folder.path().toStdString()), "is a folder; expected a recording file"));
     QVERIFY(contains(refusal("/dev/null"), "is a device or a pipe"));
     QCOMPARE(::mkfifo(path("pipe.wav").c_str(), 0600), 0);
     QVERIFY(contains(refusal(path("pipe.wav")), "is a device or a pipe"));
     writeBytes(path("empty.wav"), {});
     QVERIFY(contains(refusal(path("empty.wav")), "is empty; accepted are WAV, RF64"));
     writeBytes(path("text.txt"), "Some text, and a little more of it, so that it is longer than any header.\n");
-    QVERIFY(contains(refusal(path("text.txt")), "is not in a format that is known here; accepted are WAV, RF64"));
+    QVERIFY(contains(refusal(path("text.txt")), "has an unknown format; accepted are WAV, RF64"));
     writeBytes(path("text.wav"), "Some text");
-    QVERIFY(contains(refusal(path("text.wav")), "is not in a format that is known here"));
+    QVERIFY(contains(refusal(path("text.wav")), "has an unknown format"));
     writeBytes(path("a.sigmf"), "x");
     QVERIFY(contains(refusal(path("a.sigmf")), "is a SigMF archive; unpack it"));
 
@@ -66,8 +66,8 @@ void tst_openRecording::refusals()
         writeBytes(path("bad.wav"), QByteArray(good).replace(at, bytes.size(), bytes));
         return refusal(path("bad.wav"));
     };
-    QVERIFY(contains(patched(24, QByteArray(4, '\0')), "gives a sample rate or a channel count of 0"));
-    QVERIFY(contains(patched(22, QByteArray(2, '\0')), "damaged or cut off in its header (Channel count is zero"));
+    QVERIFY(contains(patched(24, QByteArray(4, '\0')), "the sample rate or channel count in its header is 0"));
+    QVERIFY(contains(patched(22, QByteArray(2, '\0')), "damaged or truncated in its header (Channel count is zero"));
     QVERIFY(contains(patched(22, QByteArray("\x88\x13", 2)), "(Too many channels specified"));
     writeAudio(path("none.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 1, 8000, {});
     QVERIFY(contains(refusal(path("none.wav")), "is a WAV file without samples"));
@@ -78,9 +78,9 @@ void tst_openRecording::rawFilesAskForWhatIsMissing()
     writeBytes(path("a.cs16"), QByteArray(400, '\1'));
     writeBytes(path("a.iq"), QByteArray(400, '\1'));
     QVERIFY(
-        contains(refusal(path("a.cs16")), "(ci16_le by its name); give their rate in Hz (such as --raw-rate 48000)"));
+        contains(refusal(path("a.cs16")), "(ci16_le according to its name); give their rate in Hz (such as --raw-rate 48000)"));
     QVERIFY(contains(refusal(path("a.iq")),
-                     "give their type and their rate in Hz (such as --raw-type ci16_le --raw-rate 48000)"));
+                     "give their type and rate in Hz (such as --raw-type ci16_le --raw-rate 48000)"));
     OpenOptions options;
     options.rawRateHz = 1000.0;
     QCOMPARE(openRecording(path("a.cs16"), options)->info().sampleCount, Index(100));
@@ -89,10 +89,10 @@ void tst_openRecording::rawFilesAskForWhatIsMissing()
     QCOMPARE(openRecording(path("a.iq"), options)->info().sampleCount, Index(200));
     QCOMPARE(openRecording(path("a.cs16"), options)->info().sampleType, std::string("cu8"));
     options.rawRateHz = 0.0;
-    QVERIFY(contains(refusal(path("a.iq"), options), "do not tell their rate"));
+    QVERIFY(contains(refusal(path("a.iq"), options), "have no header; give their rate"));
     options.rawType = "unknown";
     options.rawRateHz = 1.0;
-    QVERIFY(contains(refusal(path("a.iq"), options), "unknown is no sample type; known are cf32"));
+    QVERIFY(contains(refusal(path("a.iq"), options), "unknown is not a sample type; expected one of cf32"));
 }
 
 /// A chunk's length may lead behind the last byte that could be counted.
@@ -217,7 +217,7 @@ void tst_openRecording::hashes()
     writeBytes(path("none"), "");
     QCOMPARE(recordingHash(path("none")),
              std::string("e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"));
-    QVERIFY(contains(errorOf([&] { recordingHash(path("missing")); }), "there is no such file"));
+    QVERIFY(contains(errorOf([&] { recordingHash(path("missing")); }), "no such file"));
 
     // Above 64 MiB: first mebibyte, last mebibyte, length in 8 bytes, lowest first.
     constexpr qint64 mebibyte = 1 << 20;

@@ -180,11 +180,11 @@ void tst_writeRecording::refusals()
         original.mutableInfo().channelCount = channels;
         return errorOf([&] { writeRecording(original, path(name)); });
     };
-    QVERIFY(contains(refusal("a.xyz", 8000.0, 1), "a.xyz: has no extension that says what to write; known are .wav"));
-    QVERIFY(contains(refusal("a", 8000.0, 1), "known are .wav"));
+    QVERIFY(contains(refusal("a.xyz", 8000.0, 1), "a.xyz: has no known extension; expected .wav"));
+    QVERIFY(contains(refusal("a", 8000.0, 1), "expected .wav"));
     QVERIFY(contains(refusal("a.wav", 8000.5, 1),
-                     "whole sample rates up to 2147483647 Hz, not 8000.5 Hz; write a .sigmf-meta pair"));
-    QVERIFY(contains(refusal("a.wav", 1e10, 1), "whole sample rates"));
+                     "whole-number sample rate up to 2147483647 Hz, not 8000.5 Hz; write a .sigmf-meta pair"));
+    QVERIFY(contains(refusal("a.wav", 1e10, 1), "whole-number sample rate"));
     QVERIFY(contains(refusal("a.flac", 8000.0, 9), "cannot hold 9 channel(s)"));
     QVERIFY(contains(refusal("no/such/folder/a.wav", 8000.0, 1), "cannot be written: No such file or directory"));
     QVERIFY(QDir(m_folder->path()).mkdir("folder.wav"));

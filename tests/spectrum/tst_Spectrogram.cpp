@@ -385,16 +385,19 @@ void tst_Spectrogram::refusals_data()
     const auto row = [](const char *name, double window, double from, double to, double low, double high, int channel, const char *message) {
         QTest::newRow(name) << window << from << to << low << high << channel << QString::fromUtf8(message);
     };
-    row("shorter than a window", 2.0, 0, 0, 0, 0, 0, "memory: the part looked at is 1000 samples (1 s) long, shorter than one window of 2 s");
-    row("part shorter than a window", 0.5, 0.2, 0.6, 0, 0, 0, "the part looked at is 400 samples (0.4 s) long");
-    row("window of one sample", 0.001, 0, 0, 0, 0, 0, "spectrogram.windowSeconds = 0.001: holds fewer than 2 samples at 1000 Hz");
+    row("shorter than a window", 2.0, 0, 0, 0, 0, 0, "memory: the selected part is 1000 samples (1 s) long, shorter than one window of 2 s");
+    row("part shorter than a window", 0.5, 0.2, 0.6, 0, 0, 0, "the selected part is 400 samples (0.4 s) long");
+    row("window of one sample", 0.001, 0, 0, 0, 0, 0, "spectrogram.windowSeconds = 0.001: contains fewer than 2 "
+                                                      "samples at 1000 Hz");
     row("endless window", 1e6, 0, 0, 0, 0, 0, "gives a transform of more than 100 million points");
-    row("behind the end", 0.1, 1.0, 0, 0, 0, 0, "selection.fromSeconds = 1: must lie before the end of the part looked at, 1 s");
-    row("from after to", 0.1, 0.8, 0.3, 0, 0, 0, "selection.fromSeconds = 0.8: must lie before the end of the part looked at, 0.3 s");
+    row("behind the end", 0.1, 1.0, 0, 0, 0, 0, "selection.fromSeconds = 1: must lie before the end of the selection, "
+                                                "1 s");
+    row("from after to", 0.1, 0.8, 0.3, 0, 0, 0, "selection.fromSeconds = 0.8: must lie before the end of the "
+                                                 "selection, 0.3 s");
     row("band upside down", 0.1, 0, 0, 200, 100, 0, "selection.lowHz = 200: must not lie above selection.highHz");
-    row("band between bins", 0.1, 0, 0, 101, 102, 0, "holds no bin; the recording spans 0 … 500 Hz");
-    row("band above the recording", 0.1, 0, 0, 600, 700, 0, "holds no bin; the recording spans 0 … 500 Hz");
-    row("band below the recording", 0.1, 0, 0, -700, -600, 0, "holds no bin; the recording spans 0 … 500 Hz");
+    row("band between bins", 0.1, 0, 0, 101, 102, 0, "contains no bin; the recording spans 0 … 500 Hz");
+    row("band above the recording", 0.1, 0, 0, 600, 700, 0, "contains no bin; the recording spans 0 … 500 Hz");
+    row("band below the recording", 0.1, 0, 0, -700, -600, 0, "contains no bin; the recording spans 0 … 500 Hz");
     row("channel", 0.1, 0, 0, 0, 0, 1, "selection.channel = 1: the recording has 1 channel(s), counted from 0");
 }
 

@@ -50,7 +50,7 @@ void tst_noiseMean::ofExponentialNoise()
     QVERIFY2(std::abs(noiseMeanOf(made) / mean - 1.0) < 0.08, qPrintable(QString::number(noiseMeanOf(made))));
     QCOMPARE(!noiseMeanWarning(made).empty(), isTold);
     if (mean == 5.0)
-        QVERIFY(noiseMeanWarning(made).starts_with("the noise's mean is about 5, not 1") || noiseMeanWarning(made).starts_with("the noise's mean is about 5."));
+        QVERIFY(noiseMeanWarning(made).starts_with("the mean of the noise is about 5, not 1") || noiseMeanWarning(made).starts_with("the mean of the noise is about 5."));
 }
 
 void tst_noiseMean::ofNothing()

@@ -48,9 +48,9 @@ ReadOut::ReadOut(QWidget *parent) : QWidget(parent)
     layout->addStretch(1);
     m_level.box->setToolTip(tr("Power over the mean of the noise"));
     m_statistic.box->setToolTip(tr("The detector's statistic D"));
-    m_slope.box->setToolTip(tr("Slope of the best state here, or of the track that passes"));
-    m_age.box->setToolTip(tr("Age of the best path that ends here, since its last reset; known while a layer (V) or the state space (S) "
-                               "is shown"));
+    m_slope.box->setToolTip(tr("Slope of the best state in this cell, or of the track through it"));
+    m_age.box->setToolTip(tr("Time since the last reset of the best path that ends in this cell; computed while a "
+                             "layer (V) or the state space (S) is shown"));
     setAccessibleName(tr("Read-out"));
     setStartUnixSeconds({});
     clear();

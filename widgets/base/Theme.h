@@ -41,7 +41,7 @@ public:
         QColor track;
         QColor truth;
         QColor cursor;
-        QColor contour; ///< round the cells above the threshold
+        QColor contour; ///< around the cells above the threshold
         QColor error;
         QColor curves[8]; ///< distinguishable without colour vision, in this order
     };

@@ -57,7 +57,7 @@ public slots:
     void pan(double seconds, double hz);
     /// Shows these spans; one step of the history together with the zooming before and after it.
     void stretch(const faintline::Span &time, const faintline::Span &frequency);
-    /// Scrolls just so far that the box can be seen, with some room round it; zooms out if it must.
+    /// Scrolls just so far that the box can be seen, with some room around it; zooms out if it must.
     void reveal(const faintline::Viewport::Box &box);
     void showAll();
     void zoomBack();

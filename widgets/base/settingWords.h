@@ -13,7 +13,7 @@ QString settingLabel(const QString &name);
 /// "smd" → "Sequential Markov".
 QString stageLabel(const QString &prefix);
 
-/// "halfDown" → "half down".
+/// "halfDown" → "half rounds down".
 QString choiceLabel(const QString &choice);
 
 /// Whether a setting is folded away under "More".

@@ -200,15 +200,15 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
     const QString tips[] = {tr("Number, in order of detection"),
                             hasBearing() ? tr("Range at detection") : tr("Frequency at detection"),
                             tr("Bearing at detection"),
-                            tr("Where the detecting path was last reset, from the first sample"),
+                            tr("Time of the last reset of the detecting path, from the first sample"),
                             tr("Largest statistic"),
-                            tr("Mean power of the signal over that of the noise in one window and bin"),
-                            tr("Where the statistic first exceeded the threshold"),
+                            tr("Mean signal-to-noise power ratio in one window and bin"),
+                            tr("Time at which the statistic first exceeded the threshold"),
                             tr("Last frame with evidence"),
                             tr("Straight-line slope of the track"),
-                            tr("Confirmed or tentative; open where the data ended first"),
-                            tr("Accepted or rejected: Y, X, and U to take it back; part of another event's signal"),
-                            tr("What you have to say about it: E writes")};
+                            tr("Confirmed or tentative; open if the data ended before the track"),
+                            tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal"),
+                            tr("Your note on the event; E edits it")};
     if (section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::DisplayRole)

@@ -20,14 +20,13 @@ namespace faintline {
 EventTable::EventTable(QWidget *parent)
     : QWidget(parent), m_model(new EventModel(this)), m_proxy(new EventProxy(this)), m_filter(new QLineEdit),
       m_table(new QTableView), m_count(new QLabel),
-      m_empty(new QLabel(tr("Events appear here when a recording has been analysed.")))
+      m_empty(new QLabel(tr("Events appear here after a recording has been analysed.")))
 {
     m_proxy->setSourceModel(m_model);
     m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 !rejected"));
     m_filter->setToolTip(
-        tr("Words and comparisons that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, with ! "
-           "their opposites; id, t, end, dur, f, drift, stat with "
-           "<, >, =, <=, >="));
+        tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, "
+           "negated by a leading !; id, t, end, dur, f, drift, stat compared by <, >, =, <=, >="));
     m_filter->setClearButtonEnabled(true);
     m_filter->setAccessibleName(tr("Filter events"));
     connect(m_filter, &QLineEdit::textChanged, this, &EventTable::applyFilter);

@@ -100,7 +100,7 @@ SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldV
     m_reset->setText(QStringLiteral("↺"));
     m_reset->setAutoRaise(true);
     m_reset->setFixedSize(18, 20);
-    m_reset->setToolTip(tr("Back to the default"));
+    m_reset->setToolTip(tr("Reset to the default"));
     m_reset->setAccessibleName(tr("Reset %1 to its default").arg(label));
     QSizePolicy keepsPlace = m_reset->sizePolicy();
     keepsPlace.setRetainSizeWhenHidden(true);

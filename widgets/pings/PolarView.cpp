@@ -36,7 +36,7 @@ namespace {
         return {place.range * std::sin(place.bearing * degree), place.range * std::cos(place.bearing * degree)};
     }
 
-    /// The box round a sector of a ring, seen from above.
+    /// The box around a sector of a ring, seen from above.
     QRectF boundsOf(const Span &range, const Span &bearing)
     {
         const double r = range.high;

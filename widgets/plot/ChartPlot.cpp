@@ -487,8 +487,8 @@ void ChartPlot::showPlace(const std::optional<Place> &place)
     m_place = place;
     m_ring->setVisible(place.has_value());
     if (!place) {
-        m_readOut->setText(m_invitation.isEmpty() ? tr("Point at a mark to read it.")
-                                                  : tr("Point at a mark to read it, %1.").arg(m_invitation));
+        m_readOut->setText(m_invitation.isEmpty() ? tr("Point at a marker to read its value.")
+                                                  : tr("Point at a marker to read its value; %1.").arg(m_invitation));
         m_plot->replot();
         return;
     }

@@ -100,7 +100,7 @@ private:
 
     QwtPlot *m_plot;
     QwtPlotGrid *m_grid;
-    QwtPlotMarker *m_ring; ///< round the point read out
+    QwtPlotMarker *m_ring; ///< around the point read out
     CanvasSentence *m_sentence;
     QBoxLayout *m_row; ///< plot and key
     QScrollArea *m_keyArea;

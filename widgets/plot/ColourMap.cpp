@@ -12,7 +12,7 @@ namespace {
 
     // Viridis, magma, inferno: S. van der Walt and N. Smith (2015, CC0); cividis: J. Nuñez, C. Anderton, R. Renslow,
     // PLOS ONE 13(7), 2018; every 15th of their 256 colours, which is within 5 of 255 everywhere. Blue-red: C. Brewer's
-    // RdBu. Ice-fire: the same idea round a dark middle.
+    // RdBu. Ice-fire: the same idea around a dark middle.
     std::vector<ColourMap> makeMaps()
     {
         std::vector<ColourMap> maps;

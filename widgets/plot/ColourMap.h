@@ -13,7 +13,7 @@ namespace faintline {
 class ColourMap
 {
 public:
-    /// "inferno", "magma", "viridis", "cividis", "grey", "paper" (grey reversed), "blue-red" and "ice-fire" (diverging round a
+    /// "inferno", "magma", "viridis", "cividis", "grey", "paper" (grey reversed), "blue-red" and "ice-fire" (diverging around a
     /// light and a dark middle).
     static const QStringList &names();
     static const QString &defaultName();

@@ -78,17 +78,18 @@ ExceedancePlot::ExceedancePlot(QWidget *parent)
     m_line->setZ(40.0);
     m_line->attach(this);
     m_label->attach(this);
-    m_sentence->text = tr("The exceedance on noise appears here when the calibration has run.");
+    m_sentence->text = tr("The exceedance on noise appears here after the calibration.");
     m_sentence->attach(this);
     m_key->attach(this);
     setAxisScaleDraw(QwtAxis::XBottom, new NumberScaleDraw);
     setAxisScaleDraw(QwtAxis::YLeft, new PowerScaleDraw);
     setAxisScaleDraw(QwtAxis::YRight, new PowerScaleDraw);
-    setAxisTitle(QwtAxis::YRight, tr("Cells per step of ¼"));
+    setAxisTitle(QwtAxis::YRight, tr("Cells per bin of width ¼"));
     canvas()->setMouseTracking(true);
     setAccessibleName(tr("Threshold: exceedance of the statistic on noise"));
-    setToolTip(tr("Drag the line to move the threshold, or press comma and full stop for a quarter of its unit. "
-                  "Right button: units; per cell there is also the closed form, this recording, and the box measured with M."));
+    setToolTip(tr("Drag the line to move the threshold, or press comma or full stop to move it by a quarter of its "
+                  "unit. Right-click to choose the unit; per cell, the plot adds the closed form, this recording and "
+                  "the box measured with M."));
     restyle();
 }
 
@@ -289,12 +290,12 @@ void ExceedancePlot::nameCurves()
             m_key->entries.push_back({text, curve.pen()});
     };
     name(*m_simulated, tr("noise, simulated"));
-    name(*m_tail, isRate() ? tr("noise, fitted law") : tr("its exponential tail"));
+    name(*m_tail, isRate() ? tr("noise, fitted law") : tr("exponential tail"));
     name(*m_closedForm, tr("closed form"));
     name(*m_measured, tr("this recording"));
     name(*m_selection, tr("the measured box"));
     if (m_histogram->dataSize() > 0)
-        m_key->entries.push_back({tr("its cells"), QPen(m_histogram->brush().color()), true});
+        m_key->entries.push_back({tr("cells in the box"), QPen(m_histogram->brush().color()), true});
 }
 
 void ExceedancePlot::layAxes()

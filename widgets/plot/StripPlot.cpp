@@ -103,7 +103,7 @@ StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
       m_cursorLine(new QwtPlotMarker), m_level(new QwtPlotMarker), m_bandItem(new QwtPlotZoneItem), m_sentence(new CanvasSentence),
       m_key(new CurveKey(Qt::AlignRight | Qt::AlignTop))
 {
-    m_sentence->text = tr("Nothing to draw yet.");
+    m_sentence->text = tr("No data yet.");
     setAxisTitle(QwtAxis::YLeft, ordinate);
     setAxisTitle(QwtAxis::YRight, QString(QChar::Nbsp)); // takes the room of a title
     setAxisTitle(QwtAxis::XBottom, tr("Time (s)"));

@@ -35,7 +35,7 @@ ColourBar::ColourBar(QWidget *parent) : QWidget(parent), m_map(&ColourMap::named
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
     setAccessibleName(tr("Colour range"));
     setToolTip(tr(
-        "Drag the two ends to set the black and white level, the middle to move both. Double-click: automatic range."));
+        "Drag an end to set the black or white level, or the middle to move both. Double-click for the automatic range."));
     chooseScale();
 }
 

@@ -63,7 +63,7 @@ public:
 
     static std::vector<Line> linesOf(const std::vector<Track> &followed, const Axis &time, const Axis &frequency);
     static std::vector<Line> linesOf(const std::vector<TruthLine> &known);
-    /// Boxes round the events' tracks where there are any, otherwise along their straight lines; at least a bin and a
+    /// Boxes around the events' tracks where there are any, otherwise along their straight lines; at least a bin and a
     /// frame wide.
     static std::vector<Mark> marksOf(const std::vector<Event> &events, const std::vector<Line> &lines,
                                      double frameSeconds, double binHz);
@@ -71,7 +71,7 @@ public:
     /// Where a box lies on the canvas.
     static QRectF rectOf(const Viewport::Box &box, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
                          bool isTimeVertical);
-    /// The frame drawn round an event: its box with some room, never too small to be hit.
+    /// The frame drawn around an event: its box with some room, never too small to be hit.
     static QRectF frameOf(const QRectF &rect);
 
 private:

@@ -33,7 +33,7 @@ OverviewStrip::OverviewStrip(QWidget *parent) : QWidget(parent), m_map(&ColourMa
     setMouseTracking(true);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setAccessibleName(tr("Overview of the recording"));
-    setToolTip(tr("Drag the box to scroll, its sides to zoom; double-click shows all."));
+    setToolTip(tr("Drag the box to scroll or its sides to zoom. Double-click to show all."));
 }
 
 void OverviewStrip::setViewport(Viewport *viewport)
@@ -141,7 +141,7 @@ void OverviewStrip::paintEvent(QPaintEvent *)
     if (m_image.isNull() || !m_viewport || m_viewport->isEmpty()) {
         painter.setFont(Theme::font(12));
         painter.setPen(colours.faintText);
-        painter.drawText(rect, Qt::AlignCenter, tr("The whole recording will be shown here."));
+        painter.drawText(rect, Qt::AlignCenter, tr("The whole recording is shown here."));
     } else {
         painter.drawImage(rect, m_image);
         paintTicks(painter);

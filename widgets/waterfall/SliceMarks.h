@@ -13,7 +13,7 @@ namespace faintline {
 
 class WaterfallView;
 
-/// Marks on a slice through the states: a ring round the best one, diamonds on those that paths go through.
+/// Marks on a slice through the states: a ring around the best one, diamonds on those that paths go through.
 class SliceMarks : public QObject
 {
     Q_OBJECT

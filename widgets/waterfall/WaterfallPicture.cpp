@@ -34,7 +34,7 @@ WaterfallPicture::WaterfallPicture(const QString &heading, QWidget *parent)
     : ThemedPlot(parent), m_heading(heading), m_raster(new RasterItem), m_sentence(new CanvasSentence),
       m_colourMap(&ColourMap::named(ColourMap::defaultName()))
 {
-    m_sentence->text = tr("Open a recording or choose a scenario to see something here.");
+    m_sentence->text = tr("Open a recording or choose a scenario to start.");
     m_sentence->pixelSize = 14;
     m_sentence->attach(this);
     m_raster->attach(this);

@@ -383,7 +383,7 @@ std::vector<SpeedKernel> speedKernels(const std::string &name)
         names += ", " + kernel.name;
     }
     if (chosen.empty())
-        throw Error("bench " + name, "is no kernel; there are all" + names);
+        throw Error("bench " + name, "unknown kernel; choose one of all" + names);
     return chosen;
 }
 

@@ -160,7 +160,8 @@ namespace {
         const auto measureTheSame = [](const Axis &x, const Axis &y) { return x.name == y.name && x.unit == y.unit; };
         const bool areAlike = std::equal(own.begin(), own.end(), other.begin(), other.end(), measureTheSame);
         if (!areAlike)
-            throw Error("compare", "the two analyses have axes of different quantities; both must be of the same recording");
+            throw Error("compare", "the axes of the two analyses have different quantities; both must be of the same "
+                                   "recording");
     }
 
 } // namespace

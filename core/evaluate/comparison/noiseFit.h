@@ -42,7 +42,7 @@ private:
     static constexpr int stepsPerUnit = 1024;
     static constexpr int largest = 32;
 
-    std::vector<std::int64_t> m_counts; ///< per step; the last holds whatever lies above
+    std::vector<std::int64_t> m_counts; ///< per step; the last counts all values above
     std::int64_t m_count = 0;
     double m_sum = 0.0;
 };
@@ -73,7 +73,7 @@ struct MisfitPfa {
 
 /// What the bands' misfits do to a false-alarm probability per cell, band by band: the detector runs on independent cells drawn from
 /// the band's law, and on cells of the exponential law made of the same random numbers; the threshold is the one that gives `pfa` on
-/// the latter, with K found there. Beyond 3·10⁻⁵ the exceedance goes on with the slope of its last decade and a half, as the
+/// the latter, with K found there. Beyond 3·10⁻⁵ the exceedance continues with the slope of its last decade and a half, as the
 /// statistic's exponential tail does. Overlap's correlation is left out of both. Oracle: the energy detector, whose exceedance is the
 /// law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
 std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa,

@@ -142,7 +142,7 @@ Campaign merge(std::vector<Campaign> parts)
     Campaign whole = std::move(parts.front());
     for (std::size_t i = 1; i < parts.size(); ++i) {
         if (!(parts[i].experiment == whole.experiment) || parts[i].thresholds != whole.thresholds)
-            throw Error("merge: part " + std::to_string(i + 1), "belongs to another experiment than the first");
+            throw Error("merge: part " + std::to_string(i + 1), "belongs to a different experiment than the first part");
         whole.outcomes.insert(whole.outcomes.end(), parts[i].outcomes.begin(), parts[i].outcomes.end());
     }
     std::stable_sort(whole.outcomes.begin(), whole.outcomes.end(), inRunOrder);
@@ -151,7 +151,7 @@ Campaign merge(std::vector<Campaign> parts)
             throw Error("merge", "run " + std::to_string(whole.outcomes[i].run) + " is in two parts");
     for (int run = 0; run < runCount(whole.experiment); ++run)
         if (static_cast<std::size_t>(run) >= whole.outcomes.size() || whole.outcomes[static_cast<std::size_t>(run)].run != run)
-            throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(runCount(whole.experiment)) + " is in no part: a shard is missing");
+            throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(runCount(whole.experiment)) + " is missing from all parts; add the missing shard");
     return whole;
 }
 

@@ -17,7 +17,7 @@ struct Curve {
     struct Point {
         double x = 0.0;
         double y = 0.0;
-        Interval interval; ///< empty (low = high = 0) where there is none
+        Interval interval; ///< low = high = 0 if there is no interval
         std::string label{}; ///< written beside it; empty: nothing
     };
 
@@ -26,7 +26,7 @@ struct Curve {
     std::vector<Point> points;
 };
 
-/// A diagram as a value, for whoever draws it: the window, or a file.
+/// A diagram as a value, drawn by the window or written to a file.
 struct Chart {
     std::string title;
     std::string xLabel; ///< with its unit: "SNR (dB)"

@@ -75,7 +75,7 @@ namespace {
         for (const Analysis &analysis : analyses)
             chains.push_back(makeChain(analysis));
         std::vector<float> statistic(static_cast<std::size_t>(frames.grid().size()));
-        forEachFrame(frames, context, "looking for signals", [&](Index frame, std::span<float> y) {
+        forEachFrame(frames, context, "searching for signals", [&](Index frame, std::span<float> y) {
             for (const auto &chain : chains) {
                 chain->update(frame, y, statistic);
                 for (const CellBox &box : chain->inhibited())
@@ -156,10 +156,10 @@ const std::vector<Field<InjectionExperiment>> &InjectionExperiment::fields()
 {
     using S = InjectionExperiment;
     static const std::vector<Field<S>> table{
-        field(&S::iq, "iq", "Take two channels as I and Q."),
+        field(&S::iq, "iq", "Treat two channels as I and Q."),
         field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
-        field(&S::trials, "trials", "", 1.0, 1e7, "Lines to add, one at a time."),
-        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratios in a frame of a rectangular window."),
+        field(&S::trials, "trials", "", 1.0, 1e7, "Number of lines to add, one at a time."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratios in a frame with a rectangular window."),
         field(&S::durationSeconds, "durationSeconds", "s", 1e-6, 1e7, "Duration of a line."),
         field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line."),
         field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander."),
@@ -278,7 +278,7 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
     } while (!isFree() && ++attempt < attempts);
     if (attempt == attempts)
         throw fieldError("durationSeconds", formatNumber(m_experiment.durationSeconds),
-                    "leaves no place in this selection that is free of signals for so long");
+                    "must be shorter: no part of the selection is free of signals for that long");
     line.frequencyHz = info.centreHz + offsetHz;
     line.driftHzPerSecond = m_experiment.driftHzPerSecond;
     line.wanderHz = m_experiment.wanderHz;

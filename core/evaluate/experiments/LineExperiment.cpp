@@ -337,14 +337,14 @@ const std::vector<Field<LineExperiment>> &LineExperiment::fields()
     using S = LineExperiment;
     static const std::vector<Field<S>> table{
         field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
-        field(&S::runs, "runs", "", 1.0, 1e7, "Fields to simulate; each holds a line per block."),
+        field(&S::runs, "runs", "", 1.0, 1e7, "Number of fields to simulate; each contains one line per block."),
         field(&S::frames, "frames", "frames", 2.0, 1e5, "Length of a field."),
         field(&S::blockFrames, "blockFrames", "frames", 2.0, 1e5, "Length of a block."),
         field(&S::blockBins, "blockBins", "bins", 2.0, 1e5, "Width of a block."),
         field(&S::stepsPerWindow, "stepsPerWindow", "", 1.0, 16.0, "Frames per window, k_t."),
         field(&S::binsPerCell, "binsPerCell", "", 1.0, 16.0, "Bins per resolution cell, k_f."),
         field(&S::window, "window", windowShapeNames, "Shape of the window."),
-        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratios in a frame of a rectangular window."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratios in a frame with a rectangular window."),
         field(&S::durationWindows, "durationWindows", "windows", 0.5, 1e5, "Duration of a line."),
         field(&S::driftCellsPerWindow, "driftCellsPerWindow", "cells/window", -100.0, 100.0, "Steady drift of a line."),
         field(&S::wanderCells, "wanderCells", "cells", 0.0, 1000.0, "Standard deviation of a line's wander."),
@@ -394,7 +394,7 @@ std::vector<DetectorUnderTest> detectorsFromJson(const Json &json, const std::st
         const Json &entry = (*list)[i];
         checkKeys(entry, name, {"name", "settings"});
         if (!entry.contains("name") || !entry["name"].is_string())
-            throw Error(jsonName(name, "name"), "must be a text");
+            throw Error(jsonName(name, "name"), "must be a string");
         DetectorUnderTest detectorUnderTest{entry["name"].get<std::string>(), {}};
         if (entry.contains("settings"))
             detectorUnderTest.settings = settingsFromJson(entry["settings"].dump(), jsonName(name, "settings"));

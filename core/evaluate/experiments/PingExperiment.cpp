@@ -73,7 +73,7 @@ std::vector<TrackScore> runPings(const PingExperiment &experiment, const RunCont
     checkSettings(experiment.settings);
     const auto *smd = std::get_if<SmdSettings>(&experiment.settings.detector);
     if (!smd || experiment.settings.model.motion == Motion::Bank)
-        throw Error("experiment", "runs one sequential Markov detector; choose detector.kind = smd and one model");
+        throw Error("experiment", "requires the sequential Markov detector with one model; choose detector.kind = smd");
     const AnalysisPlan plan = planOf(experiment);
     const ResetRule rule = resetRule(*smd, smd->lnK);
     const auto settled = settle(experiment, plan, rule, context.part(0.0, 0.2));

@@ -20,7 +20,7 @@ struct PingExperiment {
     std::vector<Index> gateCells{3, 1};
 };
 
-/// The scores of the runs, in order: a pure function of (experiment, run), whatever the number of threads. Throws Error, Cancelled.
+/// The scores of the runs, in order: a pure function of (experiment, run), independent of the number of threads. Throws Error, Cancelled.
 std::vector<TrackScore> runPings(const PingExperiment &experiment, const RunContext &context = {});
 
 } // namespace faintline

@@ -22,7 +22,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double reachCells = 1.5;   ///< of a track round its line
+    constexpr double reachCells = 1.5;   ///< of a track around its line
     constexpr double bandMargin = 0.1;   ///< of the band at either edge, kept free of lines
     constexpr double neverDetected = -std::numeric_limits<double>::infinity();
 
@@ -115,10 +115,10 @@ const std::vector<Field<SweepExperiment>> &SweepExperiment::fields()
 {
     using S = SweepExperiment;
     static const std::vector<Field<S>> table{
-        field(&S::iq, "iq", "Take two channels as I and Q."),
+        field(&S::iq, "iq", "Treat two channels as I and Q."),
         field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of all random numbers."),
-        field(&S::trials, "trials", "", 1.0, 1e6, "Lines to try every value on."),
-        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratio in a frame of a rectangular window."),
+        field(&S::trials, "trials", "", 1.0, 1e6, "Number of lines on which every value is tried."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 60.0, "Signal-to-noise ratio in a frame with a rectangular window."),
         field(&S::durationSeconds, "durationSeconds", "s", 1e-6, 1e6, "Duration of a line."),
         field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line."),
         field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander."),
@@ -161,7 +161,7 @@ AnalysisSettings settingsAt(const SweepExperiment &experiment, std::size_t value
     checkFieldValue(field, held);
     field.set(settings, held);
     if (!field.get(settings))
-        throw fieldError("parameter", experiment.parameter, "belongs to another detector than the one chosen");
+        throw fieldError("parameter", experiment.parameter, "belongs to a different detector than the one selected");
     checkSettings(settings);
     return settings;
 }
@@ -174,7 +174,7 @@ void checkExperiment(const SweepExperiment &experiment)
     constexpr std::size_t mostRuns = 10'000'000;
     if (experiment.values.size() > mostRuns / static_cast<std::size_t>(experiment.trials))
         throw fieldError("trials", std::to_string(experiment.trials),
-                    "of each of " + std::to_string(experiment.values.size()) + " values are more than 10 million");
+                    "times " + std::to_string(experiment.values.size()) + " values exceeds 10 million");
     for (std::size_t i = 0; i < experiment.values.size(); ++i)
         settingsAt(experiment, i);
     if (!experiment.recording.empty())

@@ -20,7 +20,7 @@ namespace faintline {
 /// and not by chance. A track that lies on the line, within 1.5 resolution cells, for half of its points while the line lasts has detected
 /// it; one that never touches it is a false alarm. In a recording everything that was there before counts as one, too.
 ///
-/// Runs go round the values: run = trial · values + value, so half of the runs give half of the trials of every value.
+/// Runs cycle through the values: run = trial · values + value, so half of the runs give half of the trials of every value.
 struct SweepExperiment {
     std::string recording;        ///< path; empty: simulated white noise
     bool iq = false;              ///< two channels as I and Q

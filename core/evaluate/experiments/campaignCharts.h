@@ -15,7 +15,7 @@ namespace faintline {
 ///
 ///   Pd = Q_n(T),   P_fa(T) = n / cells of a block      n looks, one per window; as many independent cells as windows × resolution cells
 ///
-/// Of a sweep: Pd against its parameter (sweepCurve.h).
+/// For a sweep: Pd against its parameter (sweepCurve.h).
 /// Source: Billon 2005, section 5. Curves stand in the order of the detectors, so that curve i < detectors is detector i.
 Chart pdChart(const Campaign &campaign);
 

@@ -39,7 +39,7 @@ DetectorUnderTest peer(std::string_view name, double durationWindows)
             return one;
         names += (names.empty() ? "" : ", ") + one.name;
     }
-    throw Error("detector " + std::string(name), "is not known; there are " + names);
+    throw Error("detector " + std::string(name), "unknown; choose one of " + names);
 }
 
 } // namespace faintline

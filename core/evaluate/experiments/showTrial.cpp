@@ -39,7 +39,7 @@ namespace {
         settings.detector = inFrames(settings.detector, lines);
         setThreshold(settings, shownThreshold(campaign, detector));
 
-        context.checkpoint(0.3, "making the trial again");
+        context.checkpoint(0.3, "repeating the trial");
         const LineTrial trial = remakeTrial(lines, lines.snrDb[snr], place.run, place.signal);
         const Axis &time = trial.frames->time();
         const Axis &frequency = trial.frames->grid().axes.front();
@@ -92,9 +92,9 @@ ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, st
     if (const auto *lines = std::get_if<LineExperiment>(&campaign.experiment))
         return showLine(campaign, *lines, detector, snr, place, context);
     if (std::holds_alternative<SweepExperiment>(campaign.experiment))
-        throw Error("trial", "a sweep's trials cannot be shown; take its value over and inject a line");
+        throw Error("trial", "trials of a sweep cannot be shown; apply the value and inject a line instead");
     if (!trials)
-        throw Error("trial", "of an injection that was done elsewhere: run it here to look at its trials");
+        throw Error("trial", "belongs to an imported injection experiment; run the experiment here to see its trials");
     return showInjected(campaign, std::get<InjectionExperiment>(campaign.experiment), *trials, detector, snr, place,
                         context);
 }

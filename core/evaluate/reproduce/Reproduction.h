@@ -49,7 +49,7 @@ struct Reproduction {
 };
 
 struct ReproduceOptions {
-    bool quick = false; ///< about a tenth of the trials, for a look
+    bool quick = false; ///< about a tenth of the trials
     std::uint64_t seed = 1;
 };
 

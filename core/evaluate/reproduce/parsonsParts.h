@@ -20,7 +20,7 @@ std::vector<Reproducible> parsonsDetection();   ///< Figures 4 and 5
 
 constexpr int settlingPings = 200; ///< before anything is counted
 
-/// Parsons' simulated sonar without targets, so many pings of it.
+/// Parsons' simulated sonar without targets, `pings` pings long.
 inline PingScene noiseScene(std::uint64_t seed, int pings)
 {
     PingScene scene;

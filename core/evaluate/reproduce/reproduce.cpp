@@ -32,7 +32,7 @@ const Reproducible &reproducible(std::string_view name)
             return entry;
         known += (known.empty() ? "" : ", ") + entry.name;
     }
-    throw Error("reproduce " + std::string(name), "is not known; there are " + known);
+    throw Error("reproduce " + std::string(name), "unknown; choose one of " + known);
 }
 
 } // namespace faintline

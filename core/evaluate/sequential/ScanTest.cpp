@@ -50,18 +50,21 @@ const std::vector<Field<ScanTest>> &ScanTest::fields()
         const auto scene = [](auto &test) { return &test.scene; };
         std::vector<Field<S>> all = within<S>("sprt", SprtSettings::fields(), sprt);
         all.push_back(
-            field(&S::designSnrDb, "design.snrDb", "dB", -20.0, highestDesignDb, "SNR of the target that the test is designed for."));
+            field(&S::designSnrDb, "design.snrDb", "dB", -20.0, highestDesignDb, "SNR of the target for which the test "
+                                                                                 "is designed."));
         all.push_back(field(&S::averagedCells, "design.averagedCells", "", 0.0, 65536.0,
-                            "Neighbours in range whose mean stands for the noise's power; 0: it is known."));
+                            "Neighbours in range whose mean estimates the noise power; 0: the noise power is known."));
         for (Field<S> &one : within<S>("scene", ScanScene::fields(), scene))
             if (one.name != "scene.stages" && one.name != "scene.hasTarget" && one.name != "scene.secondsPerStage")
                 all.push_back(std::move(one));
-        all.push_back(field(&S::walks, "runs.walks", "", 1.0, 2000.0, "Tests of each hypothesis that are shown one by one."));
-        all.push_back(field(&S::trials, "runs.trials", "", 20.0, 100000.0, "Tests behind each point of a curve."));
-        all.push_back(field(&S::designFollows, "runs.designFollows", "Design the test anew for every SNR of the curves."));
-        all.push_back(field(&S::sectors, "survey.sectors", "", 1.0, 360.0, "Angular sectors that are looked at in turn."));
-        all.push_back(field(&S::targetSectors, "survey.targetSectors", "", 0.0, 360.0, "Sectors with a target."));
-        all.push_back(field(&S::rounds, "survey.rounds", "", 1.0, 1000.0, "Times that every sector is looked at."));
+        all.push_back(field(&S::walks, "runs.walks", "", 1.0, 2000.0, "Number of tests of each hypothesis shown "
+                                                                      "individually."));
+        all.push_back(field(&S::trials, "runs.trials", "", 20.0, 100000.0, "Number of tests per point of a curve."));
+        all.push_back(field(&S::designFollows, "runs.designFollows", "Design the test for each SNR of the curves."));
+        all.push_back(field(&S::sectors, "survey.sectors", "", 1.0, 360.0, "Number of angular sectors visited in turn."));
+        all.push_back(field(&S::targetSectors, "survey.targetSectors", "", 0.0, 360.0, "Number of sectors with a "
+                                                                                       "target."));
+        all.push_back(field(&S::rounds, "survey.rounds", "", 1.0, 1000.0, "Number of looks at each sector."));
         return all;
     }();
     return table;
@@ -86,7 +89,7 @@ void setScanTestField(ScanTest &test, const std::string &assignment)
     std::string names;
     for (const Field<ScanTest> &one : ScanTest::fields())
         names += (names.empty() ? "" : ", ") + one.name;
-    throw Error(assignment, "must be name=value; a radar's test has " + names);
+    throw Error(assignment, "must be name=value; settings of a radar test are " + names);
 }
 
 void checkScanTest(const ScanTest &test)
@@ -95,7 +98,7 @@ void checkScanTest(const ScanTest &test)
     checkSprt(test.sprt, "sprt");
     if (test.sprt.cutOffStage > mostStages)
         throw fieldError("sprt.cutOffStage", std::to_string(test.sprt.cutOffStage),
-                    "must lie in 0 … " + std::to_string(mostStages) + " where tests are simulated");
+                    "must lie in 0 … " + std::to_string(mostStages) + " if tests are simulated");
     ScanScene scene = test.scene;
     scene.stages = 1;
     checkScene(scene);

@@ -67,7 +67,7 @@ std::vector<float> rangeDopplerDb(const ScanTest &test, const ScanRun &run, Inde
 /// One test of `model`, which is scanModel of the test. Throws Error, Cancelled.
 SprtResult walkScan(const ScanTest &test, const SequentialModel &model, const ScanRun &run, const RunContext &context = {});
 
-/// Whether a sector holds a target: those nearest to equal distances round the horizon, sector 0 not among the first.
+/// Whether a sector holds a target: those nearest to equal distances around the horizon, sector 0 not among the first.
 bool holdsTarget(const ScanTest &test, Index sector);
 
 /// Rounds of looks into all sectors, each look with a target or without by its sector, in scans of its own. `fixedSize`: stages

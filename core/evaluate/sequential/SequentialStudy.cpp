@@ -84,9 +84,10 @@ namespace {
         checkSprt(study.sprt, "sprt");
         study.model.check("model");
         if (study.model.observedEvery != 1)
-            throw Error("model.observedEvery", "must be 1 where sequential tests are simulated: their frames do not overlap");
+            throw Error("model.observedEvery", "must be 1 if sequential tests are simulated, because their frames do "
+                                               "not overlap");
         if (study.model.markov.likelihood.kind() != LikelihoodKind::Exponential)
-            throw Error("model.likelihood", "must be exponential where sequential tests are simulated");
+            throw Error("model.likelihood", "must be exponential if sequential tests are simulated");
         if (study.actualSnr && !(*study.actualSnr > 0.0 && *study.actualSnr < 1e12))
             throw fieldError("actualSnr", formatNumber(*study.actualSnr), "must be a power ratio above 0");
         if (study.trials < 1)

@@ -29,7 +29,7 @@ ScanPoint measureScanPoint(const ScanTest &test, double snrDb, const ScanPoint *
 Chart stagesChart(std::vector<ScanPoint> points);
 Chart variationChart(std::vector<ScanPoint> points);
 
-/// Stages on a line against what is known of the trajectory, as Figure 2 of Grossi and Lops 2006: designed for the true SNR, never cut
+/// Stages on a line against knowledge of the trajectory, as Figure 2 of Grossi and Lops 2006: designed for the true SNR, never cut
 /// off, noise power known.
 struct PriorPoint {
     double deviation = 0.0;   ///< σ of a step, cells; 0 known, ∞ nothing known

@@ -104,7 +104,7 @@ namespace {
         {
             const double panels = std::ceil((high - low) / c - 1e-9);
             if (!(panels <= 256.0))
-                throw Error("SNR", "is too low for the exact solution; Wald's approximation is good there");
+                throw Error("SNR", "is too low for the exact solution; use Wald's approximation");
             for (double edge = low; std::ssize(m_edges) < static_cast<Index>(panels); edge += c)
                 m_edges.push_back(edge);
             m_edges.push_back(high);
@@ -208,7 +208,7 @@ Divergences mixtureDivergences(double snr, int cells)
 {
     checkSnr(snr);
     if (snr > 1000.0)
-        throw fieldError("SNR", formatNumber(snr), "is too high for the quadrature, which goes up to 1000");
+        throw fieldError("SNR", formatNumber(snr), "is too high for the quadrature; at most 1000 is possible");
     if (cells < 1)
         throw Error("cells", "must be at least 1");
     const auto M = static_cast<double>(cells);

@@ -128,7 +128,7 @@ void tst_cliDetect::threadsChangeNoByte()
     QVERIFY(content("D2.npy") == content("D.npy"));
 
     // On the way: the summary where results go, progress where it does not get between them.
-    QVERIFY2(two.out.startsWith("119 frames of 501 cells, 0.25 s a frame\n"), two.out.data());
+    QVERIFY2(two.out.startsWith("119 frames of 501 cells, 0.25 s per frame\n"), two.out.data());
     QVERIFY2(two.out.contains("\n1 event(s)\n"), two.out.data());
     double last = 0.0;
     for (const QByteArray &line : two.err.trimmed().split('\n')) {

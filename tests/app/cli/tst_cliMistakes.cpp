@@ -36,20 +36,21 @@ void tst_cliMistakes::mistakes_data()
         QTest::newRow(name) << arguments << QString::fromUtf8(message);
     };
     row("nothing asked", {}, "command line: A subcommand is required");
-    row("no such command", {"dtect"}, "dtect: is no command; faintline-cli --help lists them");
-    row("no such command after an option", {"--threads", "2", "dtect", "line.wav"}, "dtect: is no command");
+    row("no such command", {"dtect"}, "dtect: unknown command; faintline-cli --help lists the commands");
+    row("no such command after an option", {"--threads", "2", "dtect", "line.wav"}, "dtect: unknown command");
     row("no such option", {"detect", "line.wav", "--summery"}, "command line: The following argument was not expected: --summery");
     row("no number", {"detect", "line.wav", "--summary", "--from", "soon"}, "command line: Could not convert: --from = soon");
     row("no threads", {"--threads", "0", "describe"}, "command line: --threads");
-    row("no such file", {"info", "none.wav"}, "none.wav: there is no such file");
+    row("no such file", {"info", "none.wav"}, "none.wav: no such file");
     row("a folder", {"info", "."}, ".: is a folder");
     row("a text", {"info", "truth.json"}, "");
-    row("unknown setting", {"describe", "smd.k"}, "smd.k: is no setting; the nearest is smd.lnK");
-    row("misspelt setting", {"detect", "line.wav", "--summary", "--set", "smd.thresold=3"}, "smd.thresold: is no setting; the nearest is ");
+    row("unknown setting", {"describe", "smd.k"}, "smd.k: unknown setting; did you mean smd.lnK");
+    row("misspelt setting", {"detect", "line.wav", "--summary", "--set", "smd.thresold=3"}, "smd.thresold: unknown "
+                                                                                            "setting; did you mean ");
     row("signal too strong for any K", {"detect", "line.wav", "--summary", "--set", "model.snr=50"},
-        "model.snr = 50: leaves no ln K for which half of the states continue on noise: at 20 nat ");
+        "model.snr = 50: permits no ln K at which half of the states continue on noise: at 20 nat ");
     row("nothing but silence", {"detect", "silence.raw", "--raw-type", "rf32_le", "--raw-rate", "100", "--summary"},
-        "silence.raw: holds nothing that can be used: all of the 1000 samples looked at are 0 or below 1e-45");
+        "silence.raw: has no usable samples: all of the 1000 samples read are 0 or below 1e-45");
     row("no assignment", {"detect", "line.wav", "--summary", "--set", "smd.lnK"}, "--set smd.lnK: must be name=value");
     row("setting out of range", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=-1"},
         "spectrogram.windowSeconds = -1: must lie in 0 … 1e+06 s");
@@ -63,26 +64,28 @@ void tst_cliMistakes::mistakes_data()
         "model.highestSlope = ");
     row("comparison without a recording", {"compare"}, "command line: FILE is required");
     row("comparison in another format", {"compare", "line.wav", "--events", "e.txt"},
-        "e.txt: the kind of file is told by its extension: .csv");
-    row("comparison with a misspelt setting", {"compare", "line.wav", "--set-b", "smd.thresold=3"}, "smd.thresold: is no setting");
+        "e.txt: the file name must end in .csv");
+    row("comparison with a misspelt setting", {"compare", "line.wav", "--set-b", "smd.thresold=3"}, "smd.thresold: unknown setting");
     row("no input", {"detect", "--summary"}, "detect: needs a recording, or --frames");
-    row("two inputs", {"detect", "line.wav", "--frames", "y.npy", "--summary"}, "detect: takes a recording or --frames, not both");
-    row("unknown kind of events", {"detect", "line.wav", "--events", "e.xml"}, "e.xml: the kind of file is told by its extension");
-    row("unknown kind of tracks", {"detect", "line.wav", "--tracks", "t.txt"}, "t.txt: the kind of file is told by its extension");
+    row("two inputs", {"detect", "line.wav", "--frames", "y.npy", "--summary"}, "detect: accepts either a recording or "
+                                                                                "--frames");
+    row("unknown kind of events", {"detect", "line.wav", "--events", "e.xml"}, "e.xml: the file name must end in");
+    row("unknown kind of tracks", {"detect", "line.wav", "--tracks", "t.txt"}, "t.txt: the file name must end in");
     row("no such folder", {"detect", "line.wav", "--statistic", "no/D.npy"}, "no/D.npy: cannot be written: No such file or directory");
     row("channel", {"detect", "line.wav", "--summary", "--channel", "1"}, "selection.channel = 1: the recording has 1 channel(s)");
     row("negative channel", {"detect", "line.wav", "--summary", "--channel", "-1"}, "command line: --channel");
-    row("one channel as I/Q", {"detect", "line.wav", "--summary", "--iq"}, "line.wav: has 1 channel(s), but I/Q needs them in pairs");
+    row("one channel as I/Q", {"detect", "line.wav", "--summary", "--iq"}, "line.wav: has 1 channel(s); I/Q needs an "
+                                                                           "even number");
     row("behind the end", {"detect", "line.wav", "--summary", "--from", "31"}, "selection.fromSeconds = 31: must lie before");
     row("before the beginning", {"detect", "line.wav", "--summary", "--from", "-1"}, "selection.fromSeconds = -1: must lie in 0");
     row("band upside down", {"detect", "line.wav", "--summary", "--low", "50", "--high", "20"}, "selection.lowHz = 50: must not lie above");
     row("band that is no number", {"detect", "line.wav", "--summary", "--low", "nan"}, "selection.lowHz = nan: must lie in");
     row("longer than the recording", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=31"},
         "shorter than one window of 31 s");
-    row("unknown preset", {"detect", "line.wav", "--summary", "--preset", "x"}, "preset x: is not known; there are lines, billon");
+    row("unknown preset", {"detect", "line.wav", "--summary", "--preset", "x"}, "preset x: unknown; choose one of lines, billon");
     row("no session", {"detect", "line.wav", "--summary", "--session", "line.wav"}, "line.wav: is not valid JSON");
     row("no scene", {"simulate", "line.wav", "--out", "x.wav"}, "line.wav: is not valid JSON");
-    row("no kind of recording", {"simulate", "scene.json", "--out", "x.xyz"}, "x.xyz: has no extension that says what to write");
+    row("no kind of recording", {"simulate", "scene.json", "--out", "x.xyz"}, "x.xyz: has no known extension");
     row("negative seed", {"simulate", "scene.json", "--out", "x.wav", "--seed", "-1"}, "command line: --seed");
     row("no model", {"statistic", "--frames", "none.npy", "--model", "m.json", "--out", "x.npy"}, "none.npy: cannot be opened");
 }
@@ -144,7 +147,7 @@ void tst_cliMistakes::interruptLeavesNothing()
     QVERIFY(process.waitForFinished(patience));
     QCOMPARE(process.exitStatus(), QProcess::NormalExit);
     QCOMPARE(process.exitCode(), 1);
-    QCOMPARE(process.readAllStandardError(), QByteArray("error: interrupted: nothing half-written is left\n"));
+    QCOMPARE(process.readAllStandardError(), QByteArray("error: interrupted: no incomplete output was left\n"));
     QCOMPARE(process.readAllStandardOutput(), QByteArray());
     QCOMPARE(QDir(folder()).entryList({"endless*", ".endless*"}, QDir::Files | QDir::Hidden), QStringList{"endless.json"});
 }

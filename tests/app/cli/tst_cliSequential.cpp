@@ -160,17 +160,17 @@ void tst_cliSequential::sequentialMistakes_data()
     const QStringList frames{"--frames", "eye3.npy"};
     const QStringList model{"--model", "eye3.json"};
     writeBytes(pathOf("likely.json"), R"({"axes": [{"cells": 31}], "likelihood": {"kind": "linear"}})");
-    QTest::newRow("nothing to look at") << model << "takes either a recording or --frames";
+    QTest::newRow("nothing to look at") << model << "accepts either a recording or --frames";
     QTest::newRow("no model") << frames << "needs --model";
     QTest::newRow("α of 0") << frames + model + QStringList{"--alpha", "0"} << "sequential.falseAlarm = 0: must lie in";
-    QTest::newRow("a coin") << frames + model + QStringList{"--alpha", "0.5", "--beta", "0.5"} << "must stay below 1";
+    QTest::newRow("a coin") << frames + model + QStringList{"--alpha", "0.5", "--beta", "0.5"} << "must be below 1";
     QTest::newRow("negative cut-off") << frames + model + QStringList{"--cutoff", "-1"} << "sequential.cutOffStage = -1";
-    QTest::newRow("nothing to average") << frames + model + QStringList{"--average", "1"} << "--average: needs an exponential likelihood";
+    QTest::newRow("nothing to average") << frames + model + QStringList{"--average", "1"} << "--average: requires an exponential likelihood";
     QTest::newRow("every frame less than once") << frames + model + QStringList{"--every", "-1"} << "--every -1: must be at least 1";
-    QTest::newRow("no ratio") << QStringList{"line.wav", "--set", "model.likelihood=linear"} << "model.likelihood: linear is no likelihood ratio";
+    QTest::newRow("no ratio") << QStringList{"line.wav", "--set", "model.likelihood=linear"} << "model.likelihood: linear is not a likelihood ratio";
     QTest::newRow("no ratio in a file") << QStringList{"line.wav", "--model", "likely.json", "--set", "spectrogram.windowSeconds=0.5", "--low", "195",
                                                        "--high", "225"}
-                                        << "likely.json: likelihood.kind: linear is no likelihood ratio";
+                                        << "likely.json: likelihood.kind: linear is not a likelihood ratio";
     QTest::newRow("other cells") << frames + QStringList{"--model", "scans.model"}
                                  << "has 2 × 2 × 20 × 4 cells, but the frames of eye3.npy have 2";
 }

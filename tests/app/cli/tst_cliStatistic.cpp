@@ -145,10 +145,10 @@ void tst_cliStatistic::mistakesInFrames_data()
     QTest::addColumn<QByteArray>("model");
     QTest::addColumn<QString>("message");
     QTest::newRow("other cells") << QByteArray(R"({"axes": [{"cells": 3}], "likelihood": {"kind": "linear"}})")
-                                 << "do not fit the frames of two.npy";
+                                 << "do not match the frames of two.npy";
     QTest::newRow("other axes") << QByteArray(R"({"axes": [{"cells": 1}, {"cells": 2}], "likelihood": {"kind": "linear"}})")
-                                << "do not fit the frames of two.npy";
-    QTest::newRow("misspelt key") << QByteArray(R"({"axis": []})") << "m.json.axis: is not known";
+                                << "do not match the frames of two.npy";
+    QTest::newRow("misspelt key") << QByteArray(R"({"axis": []})") << "m.json.axis: unknown";
     QTest::newRow("no law") << QByteArray(R"({"axes": [{"cells": 2, "rateChange": [0.9]}], "likelihood": {"kind": "linear"}})")
                             << "axes[0].rateChange: h(0)";
     QTest::newRow("r0 of 0") << QByteArray(R"({"axes": [{"cells": 2}], "likelihood": {"kind": "rice", "r0": 0}})")

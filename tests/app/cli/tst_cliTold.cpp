@@ -75,7 +75,7 @@ void tst_cliTold::describesEverySetting()
         QVERIFY2(all.contains(known.sentence.c_str()), known.name.c_str());
     QCOMPARE(run({"describe", "decide.falseAlarmsPerHour"}).out,
              QByteArray("decide.falseAlarmsPerHour, 1/h\n    1e-09 … 1e+09; default 1\n"
-                        "    False alarms per hour of recording that the threshold allows on noise.\n"));
+                        "    False alarms per hour of recording that the threshold permits on noise.\n"));
 }
 
 void tst_cliTold::simulatesTheSameAgain()
