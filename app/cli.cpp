@@ -27,7 +27,8 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
     app.add_option("--threads", common.threads, "Number of threads; results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    app.add_option("--progress", common.progress, "Progress on standard error: auto (a bar on a terminal), json (lines), none")
+    app.add_option("--progress", common.progress,
+                   "Progress on standard error: auto (a bar on a terminal), json (lines), none")
         ->check(CLI::IsMember({"auto", "json", "none"}))
         ->capture_default_str();
     for (const auto add : {faintline::cli::addInfo, faintline::cli::addDescribe, faintline::cli::addDetect,
@@ -45,7 +46,8 @@ std::string unknownCommand(const CLI::App &app, const std::vector<std::string> &
     if (rest.empty() || rest.front().starts_with("-"))
         return {};
     const std::vector<const CLI::App *> commands = app.get_subcommands([](const CLI::App *) { return true; });
-    const bool isKnown = std::any_of(commands.begin(), commands.end(), [&](const CLI::App *one) { return one->get_name() == rest.front(); });
+    const bool isKnown = std::any_of(commands.begin(), commands.end(),
+                                     [&](const CLI::App *one) { return one->get_name() == rest.front(); });
     return isKnown ? std::string() : rest.front();
 }
 

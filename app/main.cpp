@@ -1,12 +1,12 @@
 // The window, and its twin that draws pictures without a screen.
 
-#include "app/window/MainWindow.h"
+#include "app/base/filePath.h"
 #include "app/document/Recovery.h"
 #include "app/render/comparePictures.h"
-#include "app/base/filePath.h"
 #include "app/render/readPicture.h"
 #include "app/render/renderCommand.h"
 #include "app/render/replayPicture.h"
+#include "app/window/MainWindow.h"
 #include "base/oneLine.h"
 #include "base/standardStreams.h"
 #include "widgets/base/icon.h"
@@ -86,17 +86,22 @@ namespace {
         command->add_option("--frequency", options.hz, "Frequency of the cursor, Hz");
         command->add_option("--range", options.range, "Range of the cursor in pings, in the unit of the range axis");
         command->add_option("--bearing", options.bearing, "Bearing of the cursor in pings, degrees");
-        command->add_option("--layer", options.layer, "Layer of the output: statistic, rate, bearing-rate (pings "
-                                                      "only), age, reset or inhibited")
+        command
+            ->add_option("--layer", options.layer,
+                         "Layer of the output: statistic, rate, bearing-rate (pings "
+                         "only), age, reset or inhibited")
             ->capture_default_str();
-        command->add_flag("--overlay", options.isLayerOver, "Draw the layer over the statistic instead of in its place");
+        command->add_flag("--overlay", options.isLayerOver,
+                          "Draw the layer over the statistic instead of in its place");
         command->add_option("--theme", options.theme, "light, dark or contrast")
             ->check(CLI::IsMember({"light", "dark", "contrast"}))
             ->capture_default_str();
         command->add_option("--preset", options.preset, "Preset to start from");
-        command->add_option("--set", options.settings, "A setting, name=value; may be repeated")->allow_extra_args(false);
+        command->add_option("--set", options.settings, "A setting, name=value; may be repeated")
+            ->allow_extra_args(false);
         command->add_option("--preset-a", options.presetA, "Preset from which A of a comparison starts");
-        command->add_option("--set-a", options.settingsA, "A setting of A of a comparison, name=value; may be repeated")->allow_extra_args(false);
+        command->add_option("--set-a", options.settingsA, "A setting of A of a comparison, name=value; may be repeated")
+            ->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
         options.part.addTo(*command);
         command->add_option("--step", options.step, "Step shown of a lesson (.json with steps), counted from 1");
@@ -108,10 +113,12 @@ namespace {
     {
         CLI::App *command = program.add_subcommand("report", "Write one HTML page: pictures, events, reviews, "
                                                              "calibration, path breakdowns, provenance");
-        command->add_option("source", options.source, "Recording, scenario (.json) or session (.faintline)")->required();
+        command->add_option("source", options.source, "Recording, scenario (.json) or session (.faintline)")
+            ->required();
         command->add_option("--out", options.out, "The page (.html)")->required();
         command->add_option("--preset", options.preset, "Preset to start from");
-        command->add_option("--set", options.settings, "A setting, name=value; may be repeated")->allow_extra_args(false);
+        command->add_option("--set", options.settings, "A setting, name=value; may be repeated")
+            ->allow_extra_args(false);
         command->add_option("--channel", options.channel, "Channel, counted from 0");
         options.part.addTo(*command);
         addOpening(*command, options.opening);
@@ -139,10 +146,12 @@ namespace {
                                                                      "any differs");
         command->add_option("EXPECTED", options.expected, "A PNG, or a folder of them")->required();
         command->add_option("ACTUAL", options.actual, "A PNG, or a folder of them")->required();
-        command->add_option("--out", options.out, "Folder for the expected, actual and difference pictures of each "
-                                                  "mismatch, and index.html");
-        command->add_flag("--tolerate-rasters", options.toleratesRasters, "Tolerate 1e-5 of the pixels at the adjacent "
-                                                                          "colour of a colour map");
+        command->add_option("--out", options.out,
+                            "Folder for the expected, actual and difference pictures of each "
+                            "mismatch, and index.html");
+        command->add_flag("--tolerate-rasters", options.toleratesRasters,
+                          "Tolerate 1e-5 of the pixels at the adjacent "
+                          "colour of a colour map");
         return command;
     }
 
@@ -168,7 +177,8 @@ namespace {
         return file;
     }
 
-    /// What Qt has to say about the machine is no result and no error of ours. Where it gives up, so do we, but in one line.
+    /// What Qt has to say about the machine is no result and no error of ours. Where it gives up, so do we, but in one
+    /// line.
     void keepQuiet(QtMsgType type, const QMessageLogContext &, const QString &message)
     {
         if (type == QtFatalMsg)
@@ -179,12 +189,16 @@ namespace {
     void missScreen(QtMsgType type, const QMessageLogContext &, const QString &)
     {
         const auto value = [](const char *name) {
-            return qEnvironmentVariableIsSet(name) ? " is \"" + qEnvironmentVariable(name).toStdString() + "\"" : std::string(" is not set");
+            return qEnvironmentVariableIsSet(name) ? " is \"" + qEnvironmentVariable(name).toStdString() + "\""
+                                                   : std::string(" is not set");
         };
         if (type == QtFatalMsg)
-            std::_Exit(fail("screen", "no display is available for a window (DISPLAY" + value("DISPLAY") + ", WAYLAND_DISPLAY" + value("WAYLAND_DISPLAY")
-                                + ", QT_QPA_PLATFORM" + value("QT_QPA_PLATFORM") + "); 'faintline render' works "
-                                                                                   "without a display", 1));
+            std::_Exit(fail("screen",
+                            "no display is available for a window (DISPLAY" + value("DISPLAY") + ", WAYLAND_DISPLAY"
+                                + value("WAYLAND_DISPLAY") + ", QT_QPA_PLATFORM" + value("QT_QPA_PLATFORM")
+                                + "); 'faintline render' works "
+                                  "without a display",
+                            1));
     }
 
     /// What "nan" and "inf" are read as, which no range refuses.
@@ -202,7 +216,8 @@ namespace {
 
     /// Draws in a window nobody sees, of at most that size.
     template <class Options>
-    int runRender(int argc, char *argv[], const Options &options, QSize size, double scale, void (*draw)(const Options &))
+    int runRender(int argc, char *argv[], const Options &options, QSize size, double scale,
+                  void (*draw)(const Options &))
     {
         qInstallMessageHandler(keepQuiet);
         Theme::prepareEnvironment();
@@ -222,8 +237,8 @@ namespace {
         return runRender(argc, argv, options, picture.size(), scaleOf(picture), replay);
     }
 
-    /// Arrays of a MiB and more go back to the system as they are let go. By itself the C library raises that limit to 32 MiB, and what
-    /// tuning makes and drops leaves holes of some hundred MiB.
+    /// Arrays of a MiB and more go back to the system as they are let go. By itself the C library raises that limit to
+    /// 32 MiB, and what tuning makes and drops leaves holes of some hundred MiB.
     void keepNoHoles()
     {
 #ifdef __GLIBC__

@@ -23,12 +23,13 @@ int main()
     }
 
     const ArrayLayout layout{.sampleRateHz = rate, .sampleCount = std::ssize(*samples)};
-    const auto recording = std::make_shared<ArrayRecording>("tone", std::shared_ptr<const float>(samples, samples->data()), layout);
+    const auto recording =
+        std::make_shared<ArrayRecording>("tone", std::shared_ptr<const float>(samples, samples->data()), layout);
     const auto analysis = analyseInChosenWindow(recording, AnalysisSettings());
 
     std::printf("threshold %.1f nat, one false alarm an hour\n", analysis->threshold);
     for (const Event &event : events(*analysis))
-        std::printf("%.1f to %.1f s at %.2f Hz, %+.3f Hz/s, %.1f dB in a window\n", event.onsetSeconds, event.endSeconds,
-                    event.position.front(), event.driftPerSecond, event.snrDb);
+        std::printf("%.1f to %.1f s at %.2f Hz, %+.3f Hz/s, %.1f dB in a window\n", event.onsetSeconds,
+                    event.endSeconds, event.position.front(), event.driftPerSecond, event.snrDb);
     return events(*analysis).empty() ? 1 : 0;
 }

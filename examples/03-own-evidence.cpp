@@ -1,4 +1,5 @@
-// Finds a path through evidence of one's own: any log-likelihood ratios on any grid, here a spot that moves over a line of 100 cells.
+// Finds a path through evidence of one's own: any log-likelihood ratios on any grid, here a spot that moves over a line
+// of 100 cells.
 #include "base/Random.h"
 #include "detect/Smd.h"
 
@@ -31,6 +32,7 @@ int main()
         detector.update(lambda, statistic);
         best = std::max_element(statistic.begin(), statistic.end()) - statistic.begin();
     }
-    std::printf("after 60 frames: %.1f nat in cell %td, the spot is in 79\n", static_cast<double>(statistic[static_cast<std::size_t>(best)]), best);
+    std::printf("after 60 frames: %.1f nat in cell %td, the spot is in 79\n",
+                static_cast<double>(statistic[static_cast<std::size_t>(best)]), best);
     return std::abs(best - 79) <= 1 ? 0 : 1;
 }

@@ -27,7 +27,7 @@ int main()
 
     std::printf("%-14s %8s %6s   %s\n", "detector", "SNR (dB)", "Pd", "95 %");
     for (const CurvePoint &point : pdCurve(campaign))
-        std::printf("%-14s %8.1f %6.2f   %.2f to %.2f\n", point.detector.c_str(), point.snrDb, point.pd, point.interval.low,
-                    point.interval.high);
+        std::printf("%-14s %8.1f %6.2f   %.2f to %.2f\n", point.detector.c_str(), point.snrDb, point.pd,
+                    point.interval.low, point.interval.high);
     return pdCurve(campaign).size() == 9 ? 0 : 1;
 }

@@ -11,7 +11,8 @@ using namespace faintline;
 
 int main()
 {
-    // What may be there: a target of 10 dB somewhere in 3 × 3 × 40 cells that moves by at most one cell a scan, its Doppler unknown.
+    // What may be there: a target of 10 dB somewhere in 3 × 3 × 40 cells that moves by at most one cell a scan, its
+    // Doppler unknown.
     const auto spatial = [](const char *name, Index cells) {
         KinematicAxis axis;
         axis.name = name;
@@ -24,8 +25,9 @@ int main()
     doppler.name = "Doppler";
     doppler.cells = 8;
     const double snr = ratioFromDb(10.0);
-    const SequentialModel model = makeSequentialModel({spatial("azimuth", 3), spatial("elevation", 3), spatial("range", 40), doppler},
-                                                      {false, false, false, true}, Likelihood(LikelihoodKind::Exponential, snr));
+    const SequentialModel model =
+        makeSequentialModel({spatial("azimuth", 3), spatial("elevation", 3), spatial("range", 40), doppler},
+                            {false, false, false, true}, Likelihood(LikelihoodKind::Exponential, snr));
     const SprtSettings sprt{1e-2, 1e-2, 30};
 
     SequentialStudy study;
@@ -41,8 +43,8 @@ int main()
         ScanScene sector = scene;
         sector.hasTarget = visit.sector == 2;
         const int run = static_cast<int>(visit.round * 6 + visit.sector);
-        return [sector, run, path = scanTrajectory(sector, run), y = std::vector<float>(3 * 3 * 40 * 8)](Index stage,
-                                                                                                         std::span<double> out) mutable {
+        return [sector, run, path = scanTrajectory(sector, run),
+                y = std::vector<float>(3 * 3 * 40 * 8)](Index stage, std::span<double> out) mutable {
             readScan(sector, path, run, stage, y);
             std::copy(y.begin(), y.end(), out.begin());
         };

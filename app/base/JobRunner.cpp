@@ -86,7 +86,8 @@ void JobRunner::work(const std::stop_token &quit)
     const auto isAsked = [this] { return bool(m_request.job); };
     bool owesMemory = false;
     for (;;) {
-        // Not while the delivery is taken: who frees what it replaces would wait for it, and it goes with the rest then.
+        // Not while the delivery is taken: who frees what it replaces would wait for it, and it goes with the rest
+        // then.
         if (owesMemory && !m_wake.wait_for(lock, quit, restAfterJob, isAsked) && !quit.stop_requested()) {
             lock.unlock();
             giveBackMemory();
@@ -145,8 +146,7 @@ void JobRunner::run(const Request &request)
     } catch (const Error &error) {
         fail(error);
     } catch (const std::bad_alloc &) {
-        fail(Error("memory", "out of memory; analyse a shorter part of the recording",
-                   Error::Kind::Failure));
+        fail(Error("memory", "out of memory; analyse a shorter part of the recording", Error::Kind::Failure));
     } catch (const std::exception &error) {
         fail(Error("internal failure", error.what(), Error::Kind::Failure));
     }

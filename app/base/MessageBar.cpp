@@ -44,7 +44,9 @@ void MessageBar::showMessage(Kind kind, const QString &where, const QString &why
                              std::function<void()> action)
 {
     m_kind = kind;
-    const auto shown = [](const QString &text) { return QString::fromStdString(oneLine(text.toStdString(), longestMessage)); };
+    const auto shown = [](const QString &text) {
+        return QString::fromStdString(oneLine(text.toStdString(), longestMessage));
+    };
     const auto fitting = [](const QString &text) { return messageText(text.toStdString()).toHtmlEscaped(); };
     m_label->setText(QStringLiteral("<b>%1:</b> %2").arg(fitting(where), fitting(why)));
     setAccessibleName(shown(where) + QStringLiteral(": ") + shown(why));

@@ -47,7 +47,8 @@ bool VisibilityWatcher::eventFilter(QObject *watched, QEvent *event)
     case QEvent::Move:
     case QEvent::Resize:
         look();
-        QMetaObject::invokeMethod(this, &VisibilityWatcher::look, Qt::QueuedConnection); // again, once everything is where it goes
+        QMetaObject::invokeMethod(this, &VisibilityWatcher::look,
+                                  Qt::QueuedConnection); // again, once everything is where it goes
         break;
     default:
         break;

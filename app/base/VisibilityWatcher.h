@@ -8,7 +8,8 @@ namespace faintline {
 
 /// Whether a panel can be seen, and when it comes into sight.
 ///
-/// Qt calls a panel behind another tab visible and keeps it somewhere outside of the window; what it would show is not to be worked out.
+/// Qt calls a panel behind another tab visible and keeps it somewhere outside of the window; what it would show is not
+/// to be worked out.
 class VisibilityWatcher : public QObject
 {
     Q_OBJECT

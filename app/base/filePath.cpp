@@ -39,7 +39,9 @@ std::string pathBytes(const QString &path)
 QString pathOf(const QUrl &url)
 {
     // QUrl::toLocalFile() has no letters for bytes that are no text.
-    return url.isLocalFile() ? pathText(QByteArray::fromPercentEncoding(url.path(QUrl::FullyEncoded).toLatin1()).toStdString()) : QString();
+    return url.isLocalFile()
+               ? pathText(QByteArray::fromPercentEncoding(url.path(QUrl::FullyEncoded).toLatin1()).toStdString())
+               : QString();
 }
 
 bool fileExists(const QString &path)
@@ -75,7 +77,8 @@ QByteArray readBeginning(const QString &path, qint64 mostBytes)
     QFile file(path);
     const std::string name = pathBytes(path);
     std::FILE *stream = isRegularFile(path) ? std::fopen(name.c_str(), "rb") : nullptr;
-    if (!(stream ? file.open(stream, QIODevice::ReadOnly, QFileDevice::AutoCloseHandle) : file.open(QIODevice::ReadOnly)))
+    if (!(stream ? file.open(stream, QIODevice::ReadOnly, QFileDevice::AutoCloseHandle)
+                 : file.open(QIODevice::ReadOnly)))
         throw Error(name, "cannot be read: " + file.errorString().toStdString());
     return file.read(std::min(mostBytes, file.size()));
 }
@@ -88,7 +91,8 @@ QString fileLabel(const QString &path)
 QString nameBeside(const QString &path, const QString &ending)
 {
     const QFileInfo info(path);
-    const QString name = QString::fromStdString(oneLine(pathBytes(info.completeBaseName()))).replace(QLatin1Char('?'), QLatin1Char('_'));
+    const QString name =
+        QString::fromStdString(oneLine(pathBytes(info.completeBaseName()))).replace(QLatin1Char('?'), QLatin1Char('_'));
     constexpr int mostLetters = 100; // a file system takes 255 bytes
     return info.path() + QLatin1Char('/') + name.left(mostLetters) + ending;
 }

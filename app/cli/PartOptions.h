@@ -10,8 +10,8 @@
 
 namespace faintline {
 
-/// The part of a recording that is looked at, as both programs' options name it: --from, --to, --low and --high. What is left out is where the
-/// recording begins or ends.
+/// The part of a recording that is looked at, as both programs' options name it: --from, --to, --low and --high. What
+/// is left out is where the recording begins or ends.
 struct PartOptions {
     std::optional<double> from; ///< s
     std::optional<double> to;   ///< s

@@ -19,8 +19,11 @@ void addBench(CLI::App &app, Common &common)
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("bench", "Measure the inner loops on this machine, as ratios to their plain "
                                                     "forms and to memory bandwidth");
-    command->add_option("NAME", options->names, "all, LIST, a kernel such as recursion-21, or a common prefix of "
-                                                "several names")->required();
+    command
+        ->add_option("NAME", options->names,
+                     "all, LIST, a kernel such as recursion-21, or a common prefix of "
+                     "several names")
+        ->required();
     command->add_option("--rounds", options->speed.rounds, "Number of rounds, over which medians are taken")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
@@ -40,8 +43,9 @@ void addBench(CLI::App &app, Common &common)
         std::vector<SpeedResult> results;
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             const auto count = static_cast<double>(chosen.size());
-            results.push_back(measureSpeed(chosen[i], options->speed,
-                                           common.context().part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)));
+            results.push_back(measureSpeed(
+                chosen[i], options->speed,
+                common.context().part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)));
             if (!options->json) {
                 std::printf("%s\n", speedText(results.back()).c_str());
                 std::fflush(stdout);

@@ -1,7 +1,7 @@
 #include "app/cli/commands.h"
 
-#include "analysis/chooseWindow.h"
 #include "analysis/Calibration.h"
+#include "analysis/chooseWindow.h"
 #include "analysis/surrogates.h"
 #include "base/json.h"
 #include "spectrum/Spectrogram.h"
@@ -37,7 +37,8 @@ void addCalibrate(CLI::App &app, Common &common)
         if (!options->analysis.file.empty() && leavesWindowToRecording(settings))
             settings = analyseInChosenWindow(options->analysis.recording(), settings, common.context())->settings;
         if (!options->analysis.file.empty())
-            spectrogram = std::make_shared<Spectrogram>(options->analysis.recording(), settings.spectrogram, settings.selection);
+            spectrogram =
+                std::make_shared<Spectrogram>(options->analysis.recording(), settings.spectrogram, settings.selection);
         const auto calibration = spectrogram ? calibrateBand(settings, spectrogram->frequency().count, common.context())
                                              : calibrate(settings, common.context());
         Json json{{"detector", std::string(detectorNames[settings.detector.index()])},
@@ -50,7 +51,8 @@ void addCalibrate(CLI::App &app, Common &common)
             pfa.push_back({{"pfaPerCell", probability}, {"thresholdNats", calibration->thresholdForPfa(probability)}});
         json["thresholds"] = pfa;
         if (spectrogram) {
-            const double cellFramesPerHour = static_cast<double>(spectrogram->frequency().count) * 3600.0 / spectrogram->time().step;
+            const double cellFramesPerHour =
+                static_cast<double>(spectrogram->frequency().count) * 3600.0 / spectrogram->time().step;
             const double nats = thresholdNats(settings.decide, *calibration, cellFramesPerHour);
             const double rate = calibration->eventRateAt(nats);
             const double half = calibration->thresholdUncertainty(rate);
@@ -59,7 +61,8 @@ void addCalibrate(CLI::App &app, Common &common)
                                  {"pfaPerCell", calibration->exceedanceAt(nats)},
                                  {"falseAlarmsPerHour", rate * cellFramesPerHour},
                                  {"falseAlarmsPerHourInterval",
-                                  {calibration->eventRateAt(nats + half) * cellFramesPerHour, calibration->eventRateAt(nats - half) * cellFramesPerHour}}};
+                                  {calibration->eventRateAt(nats + half) * cellFramesPerHour,
+                                   calibration->eventRateAt(nats - half) * cellFramesPerHour}}};
         }
         if (options->surrogates > 0) {
             if (options->analysis.file.empty())
@@ -84,16 +87,20 @@ void addCalibrate(CLI::App &app, Common &common)
         }
         std::printf("detector           %s\n", json["detector"].get<std::string>().c_str());
         if (std::holds_alternative<SmdSettings>(settings.detector))
-            std::printf("ln K               %.4f (K = %.4f), %.1f %% of the states continued on noise\n", calibration->lnK, std::exp(calibration->lnK),
-                        100.0 * calibration->continuedFraction);
+            std::printf("ln K               %.4f (K = %.4f), %.1f %% of the states continued on noise\n",
+                        calibration->lnK, std::exp(calibration->lnK), 100.0 * calibration->continuedFraction);
         const std::string unit(statisticUnit(settings.detector));
         for (const Json &entry : pfa)
-            std::printf("Pfa per cell %.0e  threshold %.3f %s\n", entry["pfaPerCell"].get<double>(), entry["thresholdNats"].get<double>(), unit.c_str());
+            std::printf("Pfa per cell %.0e  threshold %.3f %s\n", entry["pfaPerCell"].get<double>(),
+                        entry["thresholdNats"].get<double>(), unit.c_str());
         if (const auto found = json.find("recording"); found != json.end())
-            std::printf("on this recording  threshold %.3f %s (95 %%: %.3f … %.3f), Pfa per cell %.2e, %.3g false alarms per hour (95 %%: %.3g … %.3g)\n",
-                        (*found)["thresholdNats"].get<double>(), unit.c_str(), (*found)["intervalNats"][0].get<double>(), (*found)["intervalNats"][1].get<double>(),
+            std::printf("on this recording  threshold %.3f %s (95 %%: %.3f … %.3f), Pfa per cell %.2e, %.3g false "
+                        "alarms per hour (95 %%: %.3g … %.3g)\n",
+                        (*found)["thresholdNats"].get<double>(), unit.c_str(),
+                        (*found)["intervalNats"][0].get<double>(), (*found)["intervalNats"][1].get<double>(),
                         (*found)["pfaPerCell"].get<double>(), (*found)["falseAlarmsPerHour"].get<double>(),
-                        (*found)["falseAlarmsPerHourInterval"][0].get<double>(), (*found)["falseAlarmsPerHourInterval"][1].get<double>());
+                        (*found)["falseAlarmsPerHourInterval"][0].get<double>(),
+                        (*found)["falseAlarmsPerHourInterval"][1].get<double>());
         if (const auto found = json.find("surrogates"); found != json.end()) {
             const Json &s = *found;
             std::printf("surrogates         %d of %.3g h in all, counted at %.3g per hour: %d events of %.3g "

@@ -17,7 +17,7 @@
 namespace CLI {
 class App;
 class Option;
-}
+} // namespace CLI
 
 namespace faintline::cli {
 
@@ -28,7 +28,8 @@ struct Common {
     std::string progress = "auto";
     std::vector<std::string> arguments; ///< of this run, for the provenance of what it writes
     bool keepsProvenance = true;
-    /// What every path of a file to be read, and of one to be written, goes through before it is used; as they are where empty.
+    /// What every path of a file to be read, and of one to be written, goes through before it is used; as they are
+    /// where empty.
     std::function<std::string(const std::string &path)> read, written;
 
     /// Shows progress on standard error as asked for.
@@ -48,8 +49,8 @@ struct AnalysisOptions {
     void addTo(CLI::App &command, Common &common);
     AnalysisSettings settings() const;
     RecordingPointer recording() const;
-    /// The frames of a file that is no recording: simulated pings, a stack (FILE.npy), power over time and frequency; null of others. Slopes in the
-    /// settings become bins a frame.
+    /// The frames of a file that is no recording: simulated pings, a stack (FILE.npy), power over time and frequency;
+    /// null of others. Slopes in the settings become bins a frame.
     NormalisedFramesPointer frames(AnalysisSettings &settings, const RunContext &context) const;
     std::vector<std::string> inputs() const; ///< the files that it all comes from; a SigMF recording is two
 };
@@ -79,12 +80,15 @@ std::shared_ptr<const SimulatedPings> openPings(const std::string &path);
 /// Opens a recording file, or simulates one from a scene's JSON file.
 RecordingPointer openAny(const std::string &path, const OpenOptions &options);
 
-/// Options that name a file to be read, and one to be written. A file that a command makes has to be named by the second: only then a
-/// replay, which runs what a stranger may have written, sends it elsewhere.
-CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path, const std::string &description);
-CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path, const std::string &description);
+/// Options that name a file to be read, and one to be written. A file that a command makes has to be named by the
+/// second: only then a replay, which runs what a stranger may have written, sends it elsewhere.
+CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path,
+                      const std::string &description);
+CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path,
+                       const std::string &description);
 
-/// Throws where one of these files cannot be written, before anything is computed that would be lost. Empty names are none.
+/// Throws where one of these files cannot be written, before anything is computed that would be lost. Empty names are
+/// none.
 void checkOutputs(const std::vector<std::string> &paths);
 
 /// What `make` finds wrong in a file is said with the file's name before it.

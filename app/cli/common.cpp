@@ -30,32 +30,43 @@ RunContext Common::context() const
             return;
         last = percent;
         if (lines)
-            std::fprintf(stderr, "{\"progress\": %.2f, \"doing\": \"%.*s\"}\n", fraction, static_cast<int>(what.size()), what.data());
+            std::fprintf(stderr, "{\"progress\": %.2f, \"doing\": \"%.*s\"}\n", fraction, static_cast<int>(what.size()),
+                         what.data());
         else
-            std::fprintf(stderr, "\r\033[K%3d %%  %.*s%s", percent, static_cast<int>(what.size()), what.data(), percent >= 100 ? "\n" : "");
+            std::fprintf(stderr, "\r\033[K%3d %%  %.*s%s", percent, static_cast<int>(what.size()), what.data(),
+                         percent >= 100 ? "\n" : "");
         std::fflush(stderr);
     };
     return context;
 }
 
-CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path, const std::string &description)
+CLI::Option *addInput(CLI::App &command, Common &common, const std::string &name, std::string &path,
+                      const std::string &description)
 {
-    const auto read = [&common](const std::string &asked) { return common.read && !asked.empty() ? common.read(asked) : asked; };
+    const auto read = [&common](const std::string &asked) {
+        return common.read && !asked.empty() ? common.read(asked) : asked;
+    };
     return command.add_option(name, path, description)->transform(read);
 }
 
-CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path, const std::string &description)
+CLI::Option *addOutput(CLI::App &command, Common &common, const std::string &name, std::string &path,
+                       const std::string &description)
 {
-    const auto written = [&common](const std::string &asked) { return common.written && !asked.empty() ? common.written(asked) : asked; };
+    const auto written = [&common](const std::string &asked) {
+        return common.written && !asked.empty() ? common.written(asked) : asked;
+    };
     return command.add_option(name, path, description)->transform(written);
 }
 
 void AnalysisOptions::addTo(CLI::App &command, Common &common)
 {
-    addInput(command, common, "FILE", file, "Recording (WAV, FLAC, SigMF …), or a scene to simulate (.json)")->required();
+    addInput(command, common, "FILE", file, "Recording (WAV, FLAC, SigMF …), or a scene to simulate (.json)")
+        ->required();
     addInput(command, common, "--session", session, "Session or settings file to start from");
     command.add_option("--preset", preset, "Named settings to start from (see 'describe')");
-    command.add_option("--set", assignments, "A setting, name=value; may be repeated")->take_all()->allow_extra_args(false);
+    command.add_option("--set", assignments, "A setting, name=value; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false);
     command.add_option("--channel", channel, "Channel, counted from 0")->check(CLI::Range(0, 1023));
     part.addTo(command);
     command.add_flag("--iq", open.iq, "Treat two channels as I and Q");
@@ -102,7 +113,8 @@ NormalisedFramesPointer AnalysisOptions::frames(AnalysisSettings &settings, cons
     if (const auto pings = openPings(file))
         return pings;
     const bool isRaw = !open.rawType.empty();
-    const NormalisedFramesPointer frames = isRaw ? nullptr : openFrames(file, {settings.selection, settings.noise}, context);
+    const NormalisedFramesPointer frames =
+        isRaw ? nullptr : openFrames(file, {settings.selection, settings.noise}, context);
     if (frames)
         settings = withSlopesInBins(settings, *frames);
     return frames;
@@ -127,15 +139,16 @@ std::shared_ptr<const SimulatedPings> openPings(const std::string &path)
     if (!path.ends_with(".json"))
         return nullptr;
     const Json json = readJsonFile(path);
-    return isPingScene(json) ? inFile(path, [&] { return std::make_shared<SimulatedPings>(pingSceneFromJson(json)); }) : nullptr;
+    return isPingScene(json) ? inFile(path, [&] { return std::make_shared<SimulatedPings>(pingSceneFromJson(json)); })
+                             : nullptr;
 }
 
 RecordingPointer openAny(const std::string &path, const OpenOptions &options)
 {
     if (options.rawType.empty() && holdsFrames(path))
-        throw Error(path, "holds frames, time and frequency already, and no samples; 'detect', 'explain', 'compare' and 'info' take it");
-    if (path.ends_with(".json"))
-    {
+        throw Error(path, "holds frames, time and frequency already, and no samples; 'detect', 'explain', 'compare' "
+                          "and 'info' take it");
+    if (path.ends_with(".json")) {
         const Json json = readJsonFile(path);
         if (isPingScene(json))
             throw Error(path, "is a scene of sonar pings, not a recording; use it with 'detect', 'simulate' or 'info'");

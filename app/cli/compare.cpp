@@ -9,8 +9,8 @@
 #include "base/oneLine.h"
 #include "evaluate/comparison/compareAnalyses.h"
 #include "evaluate/comparison/differencePicture.h"
-#include "evaluate/experiments/measureCost.h"
 #include "evaluate/comparison/settingDifferences.h"
+#include "evaluate/experiments/measureCost.h"
 #include "exchange/writeComparison.h"
 
 #include <CLI/CLI.hpp>
@@ -33,7 +33,8 @@ namespace {
         bool cost = false;
     };
 
-    AnalysisSettings settingsOf(AnalysisOptions options, const std::string &preset, const std::vector<std::string> &assignments)
+    AnalysisSettings settingsOf(AnalysisOptions options, const std::string &preset,
+                                const std::vector<std::string> &assignments)
     {
         if (!preset.empty())
             options.preset = preset;
@@ -50,8 +51,8 @@ namespace {
     {
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
         const std::string_view unit = detectorUnits[analysis.settings.detector.index()];
-        std::printf("%s: %zu event(s), threshold %.2f %.*s (%.3g false alarms per hour on noise)\n", name, analysis.tracks.size(),
-                    analysis.threshold, static_cast<int>(unit.size()), unit.data(), perHour);
+        std::printf("%s: %zu event(s), threshold %.2f %.*s (%.3g false alarms per hour on noise)\n", name,
+                    analysis.tracks.size(), analysis.threshold, static_cast<int>(unit.size()), unit.data(), perHour);
     }
 
     void printDifferences(const AnalysisSettings &a, const AnalysisSettings &b)
@@ -59,24 +60,29 @@ namespace {
         const std::vector<SettingDifference> differences = settingDifferences(a, b);
         std::printf("%s\n", differences.empty() ? "their settings are the same" : "A and B differ in");
         for (const SettingDifference &difference : differences)
-            std::printf("  %s%s%s: %s in A, %s in B\n", difference.field.name.c_str(), difference.field.unit.empty() ? "" : ", ",
-                        difference.field.unit.c_str(), oneLine(orNone(difference.a)).c_str(), oneLine(orNone(difference.b)).c_str());
+            std::printf("  %s%s%s: %s in A, %s in B\n", difference.field.name.c_str(),
+                        difference.field.unit.empty() ? "" : ", ", difference.field.unit.c_str(),
+                        oneLine(orNone(difference.a)).c_str(), oneLine(orNone(difference.b)).c_str());
     }
 
     void printEvents(const Comparison &comparison, const Grid &grid)
     {
         using In = ComparedEvent::In;
-        std::printf("in both: %td, only in A: %td, only in B: %td\n", comparison.count(In::Both), comparison.count(In::A),
-                    comparison.count(In::B));
+        std::printf("in both: %td, only in A: %td, only in B: %td\n", comparison.count(In::Both),
+                    comparison.count(In::A), comparison.count(In::B));
         for (const ComparedEvent &compared : comparison.events) {
             const Event &event = compared.event();
-            std::printf("%-4s  %.6g … %.6g s, at", compared.in() == In::A ? "A" : compared.in() == In::B ? "B" : "both", event.onsetSeconds,
-                        event.endSeconds);
+            std::printf("%-4s  %.6g … %.6g s, at",
+                        compared.in() == In::A   ? "A"
+                        : compared.in() == In::B ? "B"
+                                                 : "both",
+                        event.onsetSeconds, event.endSeconds);
             for (std::size_t axis = 0; axis < event.position.size(); ++axis)
                 std::printf(" %.8g %s", event.position[axis], oneLine(grid.axes[axis].unit).c_str());
             for (const auto &[name, side] : {std::pair{"A", &compared.a}, std::pair{"B", &compared.b}})
                 if (*side)
-                    std::printf("; %s: event %d, detected at %.6g s, %.1f", name, (*side)->id, (*side)->detectSeconds, (*side)->statistic);
+                    std::printf("; %s: event %d, detected at %.6g s, %.1f", name, (*side)->id, (*side)->detectSeconds,
+                                (*side)->statistic);
             std::printf("\n");
         }
     }
@@ -86,7 +92,8 @@ namespace {
         if (!options.events.empty())
             checkComparisonPath(options.events);
         checkOutputs({options.events, options.difference});
-        for (const auto &[name, value] : {std::pair{"--cells", options.tolerance.cells}, std::pair{"--frames", options.tolerance.frames}})
+        for (const auto &[name, value] :
+             {std::pair{"--cells", options.tolerance.cells}, std::pair{"--frames", options.tolerance.frames}})
             if (std::isnan(value)) // which lies in every range
                 throw Error(name, "must be a number");
         AnalysisSettings settingsA = settingsOf(options.common, options.presetA, options.setA);
@@ -97,7 +104,8 @@ namespace {
             settingsB = withSlopesInBins(settingsB, *frames);
         const RecordingPointer recording = frames ? nullptr : options.common.recording();
         const auto analysed = [&](const AnalysisSettings &settings, const RunContext &part, const Analysis *previous) {
-            return frames ? analyse(frames, settings, part, previous) : analyseInChosenWindow(recording, settings, part, previous);
+            return frames ? analyse(frames, settings, part, previous)
+                          : analyseInChosenWindow(recording, settings, part, previous);
         };
         const auto a = analysed(settingsA, context.part(0.0, 0.5), nullptr);
         const auto b = analysed(settingsB, context.part(0.5, 1.0), a.get());
@@ -121,7 +129,8 @@ namespace {
         printDifferences(settingsA, settingsB);
         printEvents(comparison, b->grid());
         if (options.cost)
-            std::printf("processor time per hour of recording: A %.3g s, B %.3g s\n", measureCost(*a, quiet), measureCost(*b, quiet));
+            std::printf("processor time per hour of recording: A %.3g s, B %.3g s\n", measureCost(*a, quiet),
+                        measureCost(*b, quiet));
     }
 
 } // namespace
@@ -134,19 +143,27 @@ void addCompare(CLI::App &app, Common &common)
     options->common.addTo(*command, common);
     command->add_option("--preset-a", options->presetA, "Preset from which A starts, in place of --preset");
     command->add_option("--preset-b", options->presetB, "Preset from which B starts, in place of --preset");
-    command->add_option("--set-a", options->setA, "A setting of A only, name=value; may be repeated")->take_all()->allow_extra_args(false);
-    command->add_option("--set-b", options->setB, "A setting of B only, name=value; may be repeated")->take_all()->allow_extra_args(false);
-    command->add_option("--cells", options->tolerance.cells, "Largest distance between two paths of one signal, in "
-                                                             "steps of the coarser grid")
+    command->add_option("--set-a", options->setA, "A setting of A only, name=value; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false);
+    command->add_option("--set-b", options->setB, "A setting of B only, name=value; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false);
+    command
+        ->add_option("--cells", options->tolerance.cells,
+                     "Largest distance between two paths of one signal, in "
+                     "steps of the coarser grid")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    command->add_option("--frames", options->tolerance.frames, "Largest distance in time, in frames of the coarser grid")
+    command
+        ->add_option("--frames", options->tolerance.frames, "Largest distance in time, in frames of the coarser grid")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    addOutput(*command, common, "--events", options->events, "Write the events of both, .csv: column 'in' is A, B or both");
+    addOutput(*command, common, "--events", options->events,
+              "Write the events of both, .csv: column 'in' is A, B or both");
     addOutput(*command, common, "--difference", options->difference,
-                        "Write the difference layer, .npy: margin of B above its threshold minus that of A, nat, "
-                        "rounded to a quarter");
+              "Write the difference layer, .npy: margin of B above its threshold minus that of A, nat, "
+              "rounded to a quarter");
     command->add_flag("--cost", options->cost, "Print the cost of each, in seconds on this machine");
     command->callback([options, &common] { compare(*options, common); });
 }

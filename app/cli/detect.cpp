@@ -1,21 +1,21 @@
 #include "app/cli/commands.h"
 #include "app/cli/provenance.h"
 
-#include "analysis/falseAlarmWords.h"
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
 #include "analysis/explain.h"
+#include "analysis/falseAlarmWords.h"
 #include "analysis/judgeByBoxes.h"
 #include "analysis/noiseLaw.h"
 #include "analysis/regulation.h"
+#include "base/AtomicFile.h"
 #include "base/json.h"
 #include "base/oneLine.h"
-#include "exchange/ModelFile.h"
-#include "exchange/NumPy.h"
-#include "base/AtomicFile.h"
 #include "detect/SumDetector.h"
 #include "detect/statisticDecimals.h"
 #include "evaluate/comparison/trackScore.h"
+#include "exchange/ModelFile.h"
+#include "exchange/NumPy.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeEvents.h"
 #include "exchange/writeReviewed.h"
@@ -50,9 +50,8 @@ namespace {
     Analysis conventionally(const Analysis &analysis)
     {
         if (analysis.grid().axes.size() < 2)
-            throw Error(
-                "--conventional",
-                "requires frames on several axes, such as sonar pings; for lines choose detector.kind = energy or pOfN");
+            throw Error("--conventional", "requires frames on several axes, such as sonar pings; for lines choose "
+                                          "detector.kind = energy or pOfN");
         Analysis other = analysis;
         other.tracks = analysis.conventional;
         return other;
@@ -62,32 +61,37 @@ namespace {
     {
         const Axis &time = analysis.time();
         const std::vector<Event> found = events(analysis);
-        std::printf("%td frames of %td cells, %s s per frame\n", time.count, analysis.grid().size(), formatNumber(time.step).c_str());
+        std::printf("%td frames of %td cells, %s s per frame\n", time.count, analysis.grid().size(),
+                    formatNumber(time.step).c_str());
         if (analysis.choice)
             std::printf("%s\n", windowChoiceWords(*analysis.choice).c_str());
         const DetectorSettings &detector = analysis.settings.detector;
         const std::string unit(statisticUnit(detector));
         std::printf("ln K %.4f (%.1f %% of noise states continued%s), threshold %.2f %s", analysis.calibration->lnK,
-                    100.0 * analysis.calibration->continuedFraction, isScoreOfPaths(detector) ? "" : ", of the detector that guides the tracks",
-                    analysis.threshold, unit.c_str());
+                    100.0 * analysis.calibration->continuedFraction,
+                    isScoreOfPaths(detector) ? "" : ", of the detector that guides the tracks", analysis.threshold,
+                    unit.c_str());
         const double perHour = analysis.calibration->eventRateAt(analysis.threshold) * analysis.cellFramesPerHour;
         std::printf(": %.3g false alarms per hour on noise, %s\n", perHour,
                     falseAlarmWords(perHour, analysis.calibration->rateUncertaintyAt(analysis.threshold)).c_str());
         if (const std::vector<Index> dragged = draggedFrames(analysis); !dragged.empty())
             std::printf("warning: ln K left its noise band %.3f … %.3f in %zu frame(s), the first at %.6g s; strong "
                         "signals lower it\n",
-                        analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(), time.value(static_cast<double>(dragged.front())));
+                        analysis.lnKBand.low(), analysis.lnKBand.high(), dragged.size(),
+                        time.value(static_cast<double>(dragged.front())));
         if (const auto law = checkNoiseLaw(analysis); law && !law->isFollowed())
             std::printf("warning: %s\n", law->warning().c_str());
         std::printf("%zu event(s)\n", found.size());
         for (const Event &e : found) {
-            std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds, e.detectSeconds);
+            std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds,
+                        e.detectSeconds);
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
                 std::printf(" %.8g %s", e.position[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
-                std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis], oneLine(analysis.grid().axes[axis].unit).c_str());
-            std::printf(", %.*f %s%s%s%s\n", statisticDecimals(detector), e.statistic, unit.c_str(), e.isConfirmed ? "" : ", not confirmed",
-                        e.isOpen ? ", present at the end" : "",
+                std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis],
+                            oneLine(analysis.grid().axes[axis].unit).c_str());
+            std::printf(", %.*f %s%s%s%s\n", statisticDecimals(detector), e.statistic, unit.c_str(),
+                        e.isConfirmed ? "" : ", not confirmed", e.isOpen ? ", present at the end" : "",
                         analysis.isBank() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
         }
     }
@@ -106,14 +110,16 @@ namespace {
             std::printf("detected in its ping %td, %s, %d track(s), RMS error %.2f range cells and %.2f beams, "
                         "followed in %td of %td pings\n",
                         own.detectLatency,
-                        own.isConfirmed() ? ("confirmed in " + std::to_string(own.confirmLatency)).c_str() : "not confirmed",
+                        own.isConfirmed() ? ("confirmed in " + std::to_string(own.confirmLatency)).c_str()
+                                          : "not confirmed",
                         own.tracks, own.rmsCells[0], own.rmsCells[1], own.matchedPoints, own.presentPings);
         }
         std::printf("false tracks: %d, of them confirmed: %d\n", score.falseTracks, score.falseConfirmed);
     }
 
-    std::shared_ptr<const Analysis> detectInFrames(const DetectOptions &options, const RunContext &context, const StatisticSink &sink,
-                                                   const NormalisedFramesPointer &frames, AnalysisSettings settings)
+    std::shared_ptr<const Analysis> detectInFrames(const DetectOptions &options, const RunContext &context,
+                                                   const StatisticSink &sink, const NormalisedFramesPointer &frames,
+                                                   AnalysisSettings settings)
     {
         if (options.model.empty())
             return analyse(frames, settings, context, nullptr, sink);
@@ -126,13 +132,14 @@ namespace {
                     throw Error(options.model, "has an axis whose law differs from cell to cell; trackers need one law "
                                                "for the whole axis, \"rates\" or a list of \"step\" probabilities");
             if (model.space.cellCount() != frames->grid().size())
-                throw Error(options.model, "has " + std::to_string(model.space.cellCount()) + " cells, but the frames have "
+                throw Error(options.model, "has " + std::to_string(model.space.cellCount())
+                                               + " cells, but the frames have "
                                                + std::to_string(frames->grid().size()));
             auto &smd = std::get<SmdSettings>(settings.detector);
             smd.lnK = file.reset.lnK;
-            smd.reset = file.reset.law == ResetLaw::Mean ? SmdSettings::Reset::Mean
-                : file.reset.law == ResetLaw::Half       ? SmdSettings::Reset::Half
-                                                         : SmdSettings::Reset::Fixed;
+            smd.reset = file.reset.law == ResetLaw::Mean   ? SmdSettings::Reset::Mean
+                        : file.reset.law == ResetLaw::Half ? SmdSettings::Reset::Half
+                                                           : SmdSettings::Reset::Fixed;
         }
         return analyse(frames, model, settings, context, sink);
     }
@@ -149,7 +156,8 @@ namespace {
 
     void detect(DetectOptions options, const Common &common)
     {
-        if (options.events.empty() && options.tracks.empty() && options.statistic.empty() && options.conventional.empty())
+        if (options.events.empty() && options.tracks.empty() && options.statistic.empty()
+            && options.conventional.empty())
             options.summary = true; // who asks for nothing else wants to know what there is
         if (!options.annotations.empty() && options.events.empty())
             throw Error("--annotations", "requires --events");
@@ -243,7 +251,8 @@ namespace {
     {
         const StateSpace &space = analysis.modelAt(explanation.model).space;
         const std::vector<Axis> &axes = analysis.grid().axes;
-        // What is held against the threshold: the path's score, or the statistic of a detector that has no paths, in its own unit.
+        // What is held against the threshold: the path's score, or the statistic of a detector that has no paths, in
+        // its own unit.
         const bool isScore = isScoreOfPaths(analysis.settings.detector);
         const double decided = isScore ? explanation.statistic : explanation.displayed;
         const std::string unit(statisticUnit(analysis.settings.detector));
@@ -272,9 +281,13 @@ namespace {
             std::vector<double> at;
             for (std::size_t axis = 0; axis < c.size(); ++axis)
                 at.push_back(analysis.grid().axes[axis].value(static_cast<double>(c[axis])));
-            json["steps"].push_back({{"t", analysis.time().value(static_cast<double>(step.frame))}, {"position", at},
-                                     {"rates", space.ratesOfPlane(space.planeOf(step.state))}, {"llr", step.logLikelihoodRatio},
-                                     {"ln_transition", step.lnTransition}, {"lnK", step.lnK}, {"sum", step.score}});
+            json["steps"].push_back({{"t", analysis.time().value(static_cast<double>(step.frame))},
+                                     {"position", at},
+                                     {"rates", space.ratesOfPlane(space.planeOf(step.state))},
+                                     {"llr", step.logLikelihoodRatio},
+                                     {"ln_transition", step.lnTransition},
+                                     {"lnK", step.lnK},
+                                     {"sum", step.score}});
             if (std::isfinite(step.runnerUp))
                 json["steps"].back()["runner_up_margin"] = step.runnerUp;
         }
@@ -282,11 +295,14 @@ namespace {
             std::printf("%s\n", json.dump(2, ' ', true).c_str());
             return;
         }
-        std::printf("statistic %.4f %s, threshold %.4f %s: %s by %.4f %s%s\n", decided, unit.c_str(), explanation.threshold, unit.c_str(),
-                    decided > explanation.threshold ? "above" : "below", std::abs(decided - explanation.threshold), unit.c_str(),
+        std::printf("statistic %.4f %s, threshold %.4f %s: %s by %.4f %s%s\n", decided, unit.c_str(),
+                    explanation.threshold, unit.c_str(), decided > explanation.threshold ? "above" : "below",
+                    std::abs(decided - explanation.threshold), unit.c_str(),
                     explanation.isTracked ? ", followed by a tracker" : "");
         if (!isScore)
-            std::printf("a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n", explanation.statistic);
+            std::printf(
+                "a sequential Markov detector guides its tracks; the path of that detector has %.4f nat here:\n",
+                explanation.statistic);
         std::printf("the best path began %zu frame(s) ago, when it was reset\n", explanation.steps.size() - 1);
         if (axes.size() == 1)
             std::printf("%12s %14s %8s %10s %10s %10s %12s\n", "t (s)", "f", "rate", "llr", "ln P", "ln K", "sum");
@@ -300,11 +316,12 @@ namespace {
             std::printf("%12.6g", step["t"].get<double>());
             for (std::size_t axis = 0; axis < axes.size(); ++axis)
                 std::printf(" %14.8g %8d", step["position"][axis].get<double>(), step["rates"][axis].get<int>());
-            std::printf(" %10.4f %10.4f %10.4f %12.4f\n", step["llr"].get<double>(), step["ln_transition"].get<double>(),
-                        step["lnK"].get<double>(), step["sum"].get<double>());
+            std::printf(" %10.4f %10.4f %10.4f %12.4f\n", step["llr"].get<double>(),
+                        step["ln_transition"].get<double>(), step["lnK"].get<double>(), step["sum"].get<double>());
         }
         if (explanation.offset != 0.0)
-            std::printf("and %.4f nat common to all states: K of the frame and the offset of the model\n", explanation.offset);
+            std::printf("and %.4f nat common to all states: K of the frame and the offset of the model\n",
+                        explanation.offset);
     }
 
     struct StatisticOptions {
@@ -322,7 +339,8 @@ namespace {
         const ModelFile file = readModelFile(options.model);
         const StateSpace &space = file.model.space;
         for (std::size_t axis = 0; axis < std::max(space.axes().size(), frames->grid().axes.size()); ++axis)
-            if (space.axes().size() != frames->grid().axes.size() || space.axes()[axis].cells != frames->grid().axes[axis].count)
+            if (space.axes().size() != frames->grid().axes.size()
+                || space.axes()[axis].cells != frames->grid().axes[axis].count)
                 throw Error(options.model, "the cells of its axes do not match the frames of " + options.frames);
         std::vector<Index> shape{frames->time().count};
         std::vector<Index> projectedShape = shape;
@@ -354,8 +372,9 @@ namespace {
             if (projected)
                 projected->write(D);
             const PathDetector::Regulation regulation = detector->regulation();
-            log += std::to_string(frame) + "," + formatNumber(regulation.lnK) + "," + formatNumber(1.0 - regulation.continuedFraction) + ","
-                + formatNumber(static_cast<double>(*std::max_element(D.begin(), D.end()))) + "\n";
+            log += std::to_string(frame) + "," + formatNumber(regulation.lnK) + ","
+                   + formatNumber(1.0 - regulation.continuedFraction) + ","
+                   + formatNumber(static_cast<double>(*std::max_element(D.begin(), D.end()))) + "\n";
         }
         if (!options.log.empty())
             writeTextFile(options.log, log);
@@ -372,19 +391,22 @@ void addDetect(CLI::App &app, Common &common)
     CLI::App *command = app.add_subcommand("detect", "Find lines in a recording, or signals in ready-made frames");
     options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
-    addInput(*command, common, "--frames", options->frames, "Ready-made normalised frames, .npy of shape (frames, cells…), noise mean 1");
+    addInput(*command, common, "--frames", options->frames,
+             "Ready-made normalised frames, .npy of shape (frames, cells…), noise mean 1");
     addInput(*command, common, "--grid", options->grid, "JSON that describes the axes of the frames");
     addInput(*command, common, "--model", options->model, "JSON of a model for the frames");
-    addOutput(*command, common, "--events", options->events, "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
-    addInput(*command, common,
-        "--annotations", options->annotations,
+    addOutput(*command, common, "--events", options->events,
+              "Write the events: .csv, .json, .txt (Audacity) or .sigmf-meta");
+    addInput(
+        *command, common, "--annotations", options->annotations,
         "Boxes with reviews (Raven, Audacity, SigMF, CSV, JSON); events that match a box are written with its review "
         "and note");
     addOutput(*command, common, "--tracks", options->tracks, "Write the tracks: .csv or .json");
     addOutput(*command, common, "--conventional", options->conventional,
-                        "For pings, also write the events of the conventional detector (threshold per ping, then M of "
-                        "N in a gate), like --events");
-    addOutput(*command, common, "--statistic", options->statistic, "Write the statistic: .npy, float32, shape (frames, cells…)");
+              "For pings, also write the events of the conventional detector (threshold per ping, then M of "
+              "N in a gate), like --events");
+    addOutput(*command, common, "--statistic", options->statistic,
+              "Write the statistic: .npy, float32, shape (frames, cells…)");
     command->add_flag("--summary", options->summary, "Print a summary of the result; default if no output is written");
     command->callback([options, &common] { detect(*options, common); });
 }
@@ -394,7 +416,8 @@ void addStatistic(CLI::App &app, Common &common)
     const auto options = std::make_shared<StatisticOptions>();
     CLI::App *command = app.add_subcommand("statistic", "Compute ln Λ of the recursion for every frame and state, "
                                                         "without decisions");
-    addInput(*command, common, "--frames", options->frames, "Normalised frames, .npy of shape (frames, cells…)")->required();
+    addInput(*command, common, "--frames", options->frames, "Normalised frames, .npy of shape (frames, cells…)")
+        ->required();
     addInput(*command, common, "--model", options->model, "JSON of the model")->required();
     addOutput(*command, common, "--out", options->out, "Write the statistic of all states, .npy")->required();
     addOutput(*command, common, "--projected", options->projected, "Write its maximum over the rates, .npy");
@@ -421,13 +444,15 @@ void addExplain(CLI::App &app, Common &common)
     command->add_option("--frequency", options->hz, "Frequency, Hz");
     command->add_option("--range", options->range, "For pings: range, in the unit of its axis");
     command->add_option("--bearing", options->bearing, "For pings: bearing, degrees");
-    addInput(*command, common, "--grid", options->grid, "For a stack of frames (FILE.npy): JSON that describes its axes");
+    addInput(*command, common, "--grid", options->grid,
+             "For a stack of frames (FILE.npy): JSON that describes its axes");
     command->add_flag("--json", options->json, "Print as JSON");
     command->callback([options, &common] {
         const RunContext context = common.context();
         AnalysisSettings settings = options->analysis.settings();
-        const NormalisedFramesPointer frames = !options->grid.empty() ? readFrames(options->analysis.file, options->grid)
-                                                                      : options->analysis.frames(settings, context);
+        const NormalisedFramesPointer frames = !options->grid.empty()
+                                                   ? readFrames(options->analysis.file, options->grid)
+                                                   : options->analysis.frames(settings, context);
         std::vector<double> position;
         if (frames && frames->grid().axes.size() > 1) {
             if (!options->range || !options->bearing)
@@ -438,9 +463,11 @@ void addExplain(CLI::App &app, Common &common)
                 throw Error("explain", "needs --frequency; for pings, give --range and --bearing");
             position = {*options->hz};
         }
-        const auto analysis = frames ? analyse(frames, settings, context.part(0.0, 0.5))
-                                     : analyseInChosenWindow(options->analysis.recording(), settings, context.part(0.0, 0.5));
-        printExplanation(explain(*analysis, options->seconds, position, context.part(0.5, 1.0)), *analysis, options->json);
+        const auto analysis =
+            frames ? analyse(frames, settings, context.part(0.0, 0.5))
+                   : analyseInChosenWindow(options->analysis.recording(), settings, context.part(0.0, 0.5));
+        printExplanation(explain(*analysis, options->seconds, position, context.part(0.5, 1.0)), *analysis,
+                         options->json);
     });
 }
 

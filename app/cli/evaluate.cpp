@@ -1,16 +1,16 @@
 #include "app/cli/commands.h"
 
+#include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
-#include "base/AtomicFile.h"
-#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/sweepCurve.h"
-#include "recording/openRecording.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeChart.h"
+#include "recording/openRecording.h"
 
 #include <CLI/CLI.hpp>
 
@@ -31,10 +31,13 @@ namespace {
     Shard shardFrom(const std::string &text)
     {
         const std::size_t slash = text.find('/');
-        const std::optional<double> index = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(0, slash));
-        const std::optional<double> count = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(slash + 1));
+        const std::optional<double> index =
+            slash == std::string::npos ? std::nullopt : parseNumber(text.substr(0, slash));
+        const std::optional<double> count =
+            slash == std::string::npos ? std::nullopt : parseNumber(text.substr(slash + 1));
         const auto isWhole = [](double value) { return value == std::floor(value); };
-        if (!index || !count || !isWhole(*index) || !isWhole(*count) || *count < 1.0 || *count > 1e6 || *index < 0.0 || *index > *count)
+        if (!index || !count || !isWhole(*index) || !isWhole(*count) || *count < 1.0 || *count > 1e6 || *index < 0.0
+            || *index > *count)
             throw Error("--shard " + text, "must be I/N with 0 ≤ I ≤ N (0 and N name the same shard)");
         return {static_cast<int>(*index), static_cast<int>(*count)};
     }
@@ -49,20 +52,25 @@ namespace {
 
     void printSweep(const Campaign &campaign)
     {
-        std::printf("%-28s %8s   %-17s %8s   %12s   %-21s %10s\n", std::get<SweepExperiment>(campaign.experiment).parameter.c_str(), "Pd",
-                    "95 % interval", "trials", "false alarms/h", "95 % interval", "latency (s)");
+        std::printf("%-28s %8s   %-17s %8s   %12s   %-21s %10s\n",
+                    std::get<SweepExperiment>(campaign.experiment).parameter.c_str(), "Pd", "95 % interval", "trials",
+                    "false alarms/h", "95 % interval", "latency (s)");
         for (const SweepPoint &point : sweepCurve(campaign))
-            std::printf("%-28s %8.4f   %.4f … %.4f   %8lld   %14.4g   %9.4g … %-9.4g %11s\n", formatNumber(point.value).c_str(), point.pd,
-                        point.pdInterval.low, point.pdInterval.high, static_cast<long long>(point.trials), point.falseAlarmsPerHour,
-                        point.falseAlarmInterval.low, point.falseAlarmInterval.high,
-                        point.detections > 0 ? formatNumber(std::round(100.0 * point.latencySeconds) / 100.0).c_str() : "never");
+            std::printf("%-28s %8.4f   %.4f … %.4f   %8lld   %14.4g   %9.4g … %-9.4g %11s\n",
+                        formatNumber(point.value).c_str(), point.pd, point.pdInterval.low, point.pdInterval.high,
+                        static_cast<long long>(point.trials), point.falseAlarmsPerHour, point.falseAlarmInterval.low,
+                        point.falseAlarmInterval.high,
+                        point.detections > 0 ? formatNumber(std::round(100.0 * point.latencySeconds) / 100.0).c_str()
+                                             : "never");
     }
 
     void printCosts(const SweepExperiment &sweep, const RunContext &context)
     {
         OpenOptions options;
         options.iq = sweep.iq;
-        const SweepTrials trials(sweep, sweep.recording.empty() ? nullptr : openRecording(fileNameFromText(sweep.recording), options), context);
+        const SweepTrials trials(
+            sweep, sweep.recording.empty() ? nullptr : openRecording(fileNameFromText(sweep.recording), options),
+            context);
         const std::vector<double> seconds = trials.costs(context);
         std::printf("processor time per hour of recording\n");
         for (std::size_t i = 0; i < seconds.size(); ++i)
@@ -75,8 +83,9 @@ namespace {
             return printSweep(campaign);
         std::printf("%-28s %8s %8s   %-17s %8s\n", "detector", "SNR (dB)", "Pd", "95 % interval", "trials");
         for (const CurvePoint &point : pdCurve(campaign))
-            std::printf("%-28s %8s %8.4f   %.4f … %.4f   %8lld\n", oneLine(point.detector).c_str(), formatNumber(point.snrDb).c_str(), point.pd,
-                        point.interval.low, point.interval.high, static_cast<long long>(point.trials));
+            std::printf("%-28s %8s %8.4f   %.4f … %.4f   %8lld\n", oneLine(point.detector).c_str(),
+                        formatNumber(point.snrDb).c_str(), point.pd, point.interval.low, point.interval.high,
+                        static_cast<long long>(point.trials));
     }
 
     void draw(const Campaign &campaign, const std::string &path)
@@ -100,9 +109,10 @@ void addEvaluate(CLI::App &app, Common &common)
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand(
         "evaluate", "Estimate the detection probability of an experiment by simulation; an interrupted run is resumed");
-    command->add_option("EXPERIMENT", options->files,
-                        "Experiment, JSON, of kind lines, injection or sweep (values of one setting tried on the same "
-                        "lines: Pd, false alarms, latency), or: merge SHARD…")
+    command
+        ->add_option("EXPERIMENT", options->files,
+                     "Experiment, JSON, of kind lines, injection or sweep (values of one setting tried on the same "
+                     "lines: Pd, false alarms, latency), or: merge SHARD…")
         ->required();
     addOutput(*command, common, "--out", options->out, "Curve to write, .csv; with --shard, the runs of the shard");
     addOutput(*command, common, "--chart", options->chart, "Chart of Pd against SNR to write, .svg");

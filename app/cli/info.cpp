@@ -37,7 +37,8 @@ namespace {
         std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
         std::printf("sample rate   %s Hz\n", formatNumber(info.sampleRateHz).c_str());
         std::printf("channels      %d%s\n", info.channelCount, info.isComplex ? ", I/Q" : "");
-        std::printf("length        %td samples, %s s\n", info.sampleCount, formatNumber(info.durationSeconds()).c_str());
+        std::printf("length        %td samples, %s s\n", info.sampleCount,
+                    formatNumber(info.durationSeconds()).c_str());
         if (info.isComplex)
             std::printf("centre        %s Hz\n", formatNumber(info.centreHz).c_str());
         if (info.startUnixSeconds)
@@ -70,8 +71,9 @@ namespace {
         std::printf("file          %s\n", oneLine(info.path).c_str());
         std::printf("container     %s, %s\n", oneLine(info.container).c_str(), oneLine(info.sampleType).c_str());
         std::printf("frames        %td, one every %s s\n", info.time.count, formatNumber(info.time.step).c_str());
-        std::printf("frequencies   %td channels of %s Hz, %s … %s Hz\n", info.frequency.count, formatNumber(info.frequency.step).c_str(),
-                    formatNumber(info.frequency.first).c_str(), formatNumber(info.frequency.last()).c_str());
+        std::printf("frequencies   %td channels of %s Hz, %s … %s Hz\n", info.frequency.count,
+                    formatNumber(info.frequency.step).c_str(), formatNumber(info.frequency.first).c_str(),
+                    formatNumber(info.frequency.last()).c_str());
         if (info.channelCount > 1)
             std::printf("polarisations %d\n", info.channelCount);
         if (info.startUnixSeconds)
@@ -94,13 +96,15 @@ namespace {
                     bearing.cyclic ? ", full circle" : "");
         std::printf("looks         %d\n", scene.looks);
         if (scene.reverberation)
-            std::printf("reverberation %s dB over the noise in the first range cell\n", formatNumber(scene.reverberation->levelDb).c_str());
+            std::printf("reverberation %s dB over the noise in the first range cell\n",
+                        formatNumber(scene.reverberation->levelDb).c_str());
         for (std::size_t i = 0; i < scene.targets.size(); ++i) {
             const PingTarget &target = scene.targets[i];
             const TruthTarget &truth = pings.truth().targets[i];
             std::printf("target %zu      %s dB, %s, pings %d … %td, from %.6g m, %.4g° to %.6g m, %.4g°\n", i + 1,
-                        formatNumber(target.snrDb).c_str(), std::string(echoNames[static_cast<std::size_t>(target.echo)]).c_str(),
-                        truth.firstPing, truth.firstPing + std::ssize(truth.cell) - 1, truth.rangeMetres.front(),
+                        formatNumber(target.snrDb).c_str(),
+                        std::string(echoNames[static_cast<std::size_t>(target.echo)]).c_str(), truth.firstPing,
+                        truth.firstPing + std::ssize(truth.cell) - 1, truth.rangeMetres.front(),
                         truth.bearingDegrees.front(), truth.rangeMetres.back(), truth.bearingDegrees.back());
         }
     }
@@ -175,8 +179,9 @@ void addDescribe(CLI::App &app, Common &)
             if (!field.name.starts_with(*name))
                 continue;
             any = true;
-            std::printf("%s%s%s\n    %s; default %s\n    %s\n", field.name.c_str(), field.unit.empty() ? "" : ", ", field.unit.c_str(),
-                        rangeOf(field).c_str(), formatFieldValue(defaultValue(field)).c_str(), field.sentence.c_str());
+            std::printf("%s%s%s\n    %s; default %s\n    %s\n", field.name.c_str(), field.unit.empty() ? "" : ", ",
+                        field.unit.c_str(), rangeOf(field).c_str(), formatFieldValue(defaultValue(field)).c_str(),
+                        field.sentence.c_str());
         }
         if (!any)
             settingField(*name); // says which is the nearest

@@ -41,14 +41,18 @@ Provenance readProvenance(const std::string &path)
 {
     const Json json = readJsonFile(path);
     try {
-        Provenance provenance{json.at("faintline"), nameFrom(json.at("folder")), namesFrom(json.at("arguments")), {},
+        Provenance provenance{json.at("faintline"),
+                              nameFrom(json.at("folder")),
+                              namesFrom(json.at("arguments")),
+                              {},
                               namesFrom(json.at("outputs"))};
         for (const Json &input : json.at("inputs"))
             provenance.inputs.emplace_back(nameFrom(input.at("file")), input.at("hash"));
         // What was not written by one of these might do anything, or call itself.
         constexpr std::string_view commands[]{"detect", "compare", "simulate", "inject"};
         provenance.arguments = fromCommandOn(provenance.arguments);
-        const bool isKnown = !provenance.arguments.empty()
+        const bool isKnown =
+            !provenance.arguments.empty()
             && std::find(std::begin(commands), std::end(commands), provenance.arguments.front()) != std::end(commands);
         constexpr std::size_t most = 1000;
         if (provenance.arguments.size() > most || provenance.outputs.size() > most)

@@ -7,7 +7,8 @@
 
 namespace faintline::cli {
 
-/// What stands beside a result: the command line that wrote it, the folder it ran in, its version, what it read and wrote.
+/// What stands beside a result: the command line that wrote it, the folder it ran in, its version, what it read and
+/// wrote.
 struct Provenance {
     std::string version;
     std::filesystem::path folder;

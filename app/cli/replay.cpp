@@ -66,12 +66,13 @@ namespace {
         fs::path m_path;
     };
 
-    /// Where replay may read: in the folder in which the result lies, and in those that the user allows besides. Whoever wrote the
-    /// provenance may name any file of this machine.
+    /// Where replay may read: in the folder in which the result lies, and in those that the user allows besides.
+    /// Whoever wrote the provenance may name any file of this machine.
     class ReadableFolders
     {
     public:
-        ReadableFolders(const fs::path &result, const std::vector<std::string> &allowed) : m_result(result.filename().string())
+        ReadableFolders(const fs::path &result, const std::vector<std::string> &allowed)
+            : m_result(result.filename().string())
         {
             m_folders.push_back(fs::canonical(result.parent_path()));
             for (const std::string &folder : allowed) {
@@ -90,8 +91,9 @@ namespace {
                 return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
             };
             if (std::none_of(m_folders.begin(), m_folders.end(), holds))
-                throw Error(path, "lies outside the folder of " + m_result + ", which requires it; permit replay to "
-                                                                             "read it with --allow FOLDER");
+                throw Error(path, "lies outside the folder of " + m_result
+                                      + ", which requires it; permit replay to "
+                                        "read it with --allow FOLDER");
         }
 
     private:
@@ -137,8 +139,8 @@ namespace {
             std::printf("made with version %s, this is %s\n", oneLine(version, 40).c_str(), FAINTLINE_VERSION);
     }
 
-    void replayWindowExport(const Json &json, const fs::path &kept, const std::string &recording, const ReadableFolders &readable,
-                            const Common &common)
+    void replayWindowExport(const Json &json, const fs::path &kept, const std::string &recording,
+                            const ReadableFolders &readable, const Common &common)
     {
         tellVersion(json.value("version", std::string()));
         const TemporaryFolder folder;
@@ -219,20 +221,21 @@ namespace {
         }
     }
 
-    void replay(const std::string &result, const std::string &recording, const std::vector<std::string> &allowed, const Common &common)
+    void replay(const std::string &result, const std::string &recording, const std::vector<std::string> &allowed,
+                const Common &common)
     {
         const fs::path path = fs::absolute(result.ends_with(suffix) ? result : result + suffix).lexically_normal();
         const fs::path asked = path.string().substr(0, path.string().size() - suffix.size());
         if (!fs::exists(path) && isPicture(result))
-            throw Error(result,
-                        "is a picture; use 'faintline replay' for a PNG that 'faintline render' wrote");
+            throw Error(result, "is a picture; use 'faintline replay' for a PNG that 'faintline render' wrote");
         if (!fs::exists(path))
             throw Error(result, "has no provenance: no " + path.filename().string() + " was found beside it");
         const ReadableFolders readable(asked, allowed);
         if (const Json json = readJsonFile(path.string()); isOfWindow(json))
             return replayWindowExport(json, asked, recording, readable, common);
         if (!recording.empty())
-            throw Error("--recording", "applies to tables exported from the window; " + result + " was written by a command, whose provenance names the recording");
+            throw Error("--recording", "applies to tables exported from the window; " + result
+                                           + " was written by a command, whose provenance names the recording");
         const Provenance provenance = readProvenance(path.string());
         tellVersion(provenance.version);
         std::vector<std::string> arguments = provenance.arguments;
@@ -265,10 +268,12 @@ namespace {
 
 } // namespace
 
-void writeProvenance(const Common &common, const std::vector<std::string> &inputs, const std::vector<std::string> &outputs)
+void writeProvenance(const Common &common, const std::vector<std::string> &inputs,
+                     const std::vector<std::string> &outputs)
 {
     const auto isLost = [](const std::string &input) { return !input.empty() && !fs::is_regular_file(input); };
-    if (!common.keepsProvenance || std::any_of(inputs.begin(), inputs.end(), isLost)) // what came through a pipe is not there again
+    if (!common.keepsProvenance
+        || std::any_of(inputs.begin(), inputs.end(), isLost)) // what came through a pipe is not there again
         return;
     Json json = {{"faintline", FAINTLINE_VERSION},
                  {"folder", textFromFileName(fs::current_path().string())},
@@ -297,10 +302,13 @@ void addReplay(CLI::App &app, Common &common)
                      "A file written by detect, compare, simulate or inject, or a table exported from the window, with "
                      "its .provenance.json beside it")
         ->required();
-    command->add_option("--recording", *recording, "For a table exported from the window: the recording, if it is not "
-                                                   "beside the table");
-    command->add_option("--allow", *allowed, "Folder that may be read in addition to the one that contains RESULT; may "
-                                             "be repeated")
+    command->add_option("--recording", *recording,
+                        "For a table exported from the window: the recording, if it is not "
+                        "beside the table");
+    command
+        ->add_option("--allow", *allowed,
+                     "Folder that may be read in addition to the one that contains RESULT; may "
+                     "be repeated")
         ->take_all()
         ->allow_extra_args(false);
     command->callback([result, recording, allowed, &common] { replay(*result, *recording, *allowed, common); });

@@ -22,7 +22,10 @@ void addReproduce(CLI::App &app, Common &common)
     const auto options = std::make_shared<Options>();
     CLI::App *command = app.add_subcommand("reproduce", "Reproduce tables and figures of a publication: paper, result, "
                                                         "interval, gap");
-    command->add_option("NAME", options->names, "LIST, a paper (billon, parsons, grossi), or one table or figure such as billon:table1")->required();
+    command
+        ->add_option("NAME", options->names,
+                     "LIST, a paper (billon, parsons, grossi), or one table or figure such as billon:table1")
+        ->required();
     command->add_flag("--quick", options->reproduce.quick, "Run a tenth of the trials");
     command->add_option("--seed", options->reproduce.seed, "Seed of the simulations")->capture_default_str();
     command->add_option("--out", options->folder, "Folder for JSON, CSV and pictures");

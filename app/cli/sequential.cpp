@@ -103,7 +103,8 @@ namespace {
             throw Error("--every " + std::to_string(options.every), "must be at least 1");
         if (options.every > 0)
             stages.model.observedEvery = options.every;
-        const SprtResult result = runSprt(stages.model, options.sprt, stages.count, stages.source, context.part(0.3, 1.0));
+        const SprtResult result =
+            runSprt(stages.model, options.sprt, stages.count, stages.source, context.part(0.3, 1.0));
         context.checkpoint(1.0, "done");
         writeTextFile(options.out, toJson(result, options.sprt, stages.model.observedEvery).dump(2) + "\n");
     }
@@ -118,20 +119,28 @@ void addSequential(CLI::App &app, Common &common)
                                          "it; \"no signal\" is final and does not cover signals that start later");
     options->analysis.addTo(*command, common);
     command->get_option("FILE")->required(false);
-    addInput(*command, common, "--frames", options->frames, "Ready-made normalised frames, .npy of shape (stages, cells…), noise mean 1");
-    addInput(*command, common, "--model", options->model, "JSON of the model; by default the line model of the settings");
-    command->add_option("--alpha", options->sprt.falseAlarm, "Specified probability of accepting a signal on noise")->capture_default_str();
-    command->add_option("--beta", options->sprt.miss, "Specified probability of accepting noise with a signal")->capture_default_str();
-    command->add_option("--cutoff", options->sprt.cutOffStage, "Stage at which a decision is forced; 0: never")->capture_default_str();
-    command->add_option("--average", options->averagedCells,
-                        "Number of cells around each cell, along the model's last axis, whose mean estimates the noise "
-                        "power; 0: noise has mean 1")
+    addInput(*command, common, "--frames", options->frames,
+             "Ready-made normalised frames, .npy of shape (stages, cells…), noise mean 1");
+    addInput(*command, common, "--model", options->model,
+             "JSON of the model; by default the line model of the settings");
+    command->add_option("--alpha", options->sprt.falseAlarm, "Specified probability of accepting a signal on noise")
         ->capture_default_str();
-    command->add_option("--every", options->every,
-                        "Use every n-th frame, because stages must be independent and overlapping windows share "
-                        "samples; 0: the number of steps per window for a recording, 1 for ready-made frames")
+    command->add_option("--beta", options->sprt.miss, "Specified probability of accepting noise with a signal")
         ->capture_default_str();
-    addOutput(*command, common, "--out", options->out, "Write decision, ln Λ of every stage and trajectory, .json")->required();
+    command->add_option("--cutoff", options->sprt.cutOffStage, "Stage at which a decision is forced; 0: never")
+        ->capture_default_str();
+    command
+        ->add_option("--average", options->averagedCells,
+                     "Number of cells around each cell, along the model's last axis, whose mean estimates the noise "
+                     "power; 0: noise has mean 1")
+        ->capture_default_str();
+    command
+        ->add_option("--every", options->every,
+                     "Use every n-th frame, because stages must be independent and overlapping windows share "
+                     "samples; 0: the number of steps per window for a recording, 1 for ready-made frames")
+        ->capture_default_str();
+    addOutput(*command, common, "--out", options->out, "Write decision, ln Λ of every stage and trajectory, .json")
+        ->required();
     command->callback([options, &common] { sequential(*options, common); });
 }
 

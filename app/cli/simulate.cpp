@@ -18,7 +18,8 @@ namespace faintline::cli {
 
 namespace {
 
-    void simulateScans(ScanScene scene, int seed, const std::string &out, const std::string &truth, const RunContext &context)
+    void simulateScans(ScanScene scene, int seed, const std::string &out, const std::string &truth,
+                       const RunContext &context)
     {
         if (!out.ends_with(".npy"))
             throw Error(out, "must end in .npy: scans are frames, not samples");
@@ -42,7 +43,8 @@ namespace {
     }
 
     /// Frames of shape (pings, ranges, beams), and the grid they lie on beside them: NAME.npy, NAME.grid.json.
-    void simulatePings(PingScene scene, int seed, const std::string &out, const std::string &truth, const RunContext &context)
+    void simulatePings(PingScene scene, int seed, const std::string &out, const std::string &truth,
+                       const RunContext &context)
     {
         if (!out.ends_with(".npy"))
             throw Error(out, "must end in .npy: pings are written as frames");
@@ -74,18 +76,21 @@ namespace {
     {
         const Json json = readJsonFile(options.scene);
         if (json.is_object() && json.value("kind", Json()) == "scans") {
-            simulateScans(inFile(options.scene, [&] { return scanSceneFromJson(json); }), options.seed, options.out, options.truth, common.context());
+            simulateScans(inFile(options.scene, [&] { return scanSceneFromJson(json); }), options.seed, options.out,
+                          options.truth, common.context());
             return;
         }
         if (isPingScene(json)) {
-            simulatePings(inFile(options.scene, [&] { return pingSceneFromJson(json); }), options.seed, options.out, options.truth, common.context());
+            simulatePings(inFile(options.scene, [&] { return pingSceneFromJson(json); }), options.seed, options.out,
+                          options.truth, common.context());
             return;
         }
         LineScene scene = inFile(options.scene, [&] { return lineSceneFromJson(json); });
         if (options.seed >= 0)
             scene.seed = options.seed;
         const SimulatedRecording recording(scene);
-        writeRecording(recording, options.out, options.type == "int16" ? WrittenType::Int16 : WrittenType::Float32, common.context());
+        writeRecording(recording, options.out, options.type == "int16" ? WrittenType::Int16 : WrittenType::Float32,
+                       common.context());
         if (!options.truth.empty())
             writeTextFile(options.truth, toJson(recording.truth()).dump(2) + "\n");
     }
@@ -99,11 +104,15 @@ void addSimulate(CLI::App &app, Common &common)
         app.add_subcommand("simulate", "Simulate a recording of known lines in noise, or pings with known targets, and "
                                        "write its truth");
     addInput(*command, common, "SCENARIO", options->scene, "Scene, JSON")->required();
-    addOutput(*command, common, "--out", options->out, "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; .npy for "
-                                                       "sonar pings or radar scans")->required();
+    addOutput(*command, common, "--out", options->out,
+              "Recording to write: .wav, .flac, .w64 …, .sigmf-meta; .npy for "
+              "sonar pings or radar scans")
+        ->required();
     addOutput(*command, common, "--truth", options->truth, "Write the truth, .json");
     command->add_option("--seed", options->seed, "Seed in place of the scene's")->check(CLI::Range(0, 2147483647));
-    command->add_option("--type", options->type, "Sample type")->check(CLI::IsMember({"float32", "int16"}))->capture_default_str();
+    command->add_option("--type", options->type, "Sample type")
+        ->check(CLI::IsMember({"float32", "int16"}))
+        ->capture_default_str();
     command->callback([options, &common] {
         checkOutputs({options->out, options->truth});
         CommitTogether files;

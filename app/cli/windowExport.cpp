@@ -33,7 +33,8 @@ namespace {
     };
 
     /// The file that the provenance tells of by name and hash.
-    std::string find(const Json &source, const std::string &result, const std::string &recording, const MayRead &mayRead)
+    std::string find(const Json &source, const std::string &result, const std::string &recording,
+                     const MayRead &mayRead)
     {
         const std::string name = fs::path(fileNameFromText(source.at("path").get<std::string>())).filename().string();
         const std::string path = recording.empty() ? (fs::absolute(result).parent_path() / name).string() : recording;
@@ -57,7 +58,8 @@ namespace {
         }
         checkInjections(lines, base->info(), where);
         for (std::size_t i = 0; i < lines.size(); ++i)
-            base = std::make_shared<InjectedRecording>(base, std::vector{lines[i]}, wholeNumber(injections[i], where, "channel", 0),
+            base = std::make_shared<InjectedRecording>(base, std::vector{lines[i]},
+                                                       wholeNumber(injections[i], where, "channel", 0),
                                                        wholeNumber(injections[i], where, "seed", std::uint64_t(1)));
         return base;
     }
@@ -68,7 +70,9 @@ namespace {
             return {nullptr, std::make_shared<SimulatedPings>(pingSceneFromJson(source["scenario"]))};
         const Json injections = source.value("injected", Json::array());
         if (source.contains("scenario"))
-            return {withInjections(std::make_shared<SimulatedRecording>(lineSceneFromJson(source["scenario"])), injections), nullptr};
+            return {
+                withInjections(std::make_shared<SimulatedRecording>(lineSceneFromJson(source["scenario"])), injections),
+                nullptr};
         const std::string path = find(source, result, recording, mayRead);
         if (const NormalisedFramesPointer frames = openFrames(path))
             return {nullptr, frames};
@@ -81,20 +85,24 @@ namespace {
         return {withInjections(openRecording(path, options), injections), nullptr};
     }
 
-    void remakeEvents(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,
-                      const MayRead &mayRead, const RunContext &context)
+    void remakeEvents(const Json &provenance, const std::string &result, const std::string &recording,
+                      const std::string &out, const MayRead &mayRead, const RunContext &context)
     {
         checkReviewedPath(out);
         const Opened opened = open(provenance.at("recording"), result, recording, mayRead);
         const AnalysisSettings settings = settingsFromJson(provenance.at("settings").dump(), "settings");
-        const auto analysis = opened.frames ? analyse(opened.frames, settings, context)
-                                            : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context);
-        const Annotations annotations =
-            provenance.contains("annotations") ? annotationsFromJson(provenance["annotations"], "annotations") : Annotations();
+        const auto analysis =
+            opened.frames ? analyse(opened.frames, settings, context)
+                          : analyseInChosenWindow(opened.recording,
+                                                  withSlopesInBins(settings, opened.recording->info()), context);
+        const Annotations annotations = provenance.contains("annotations")
+                                            ? annotationsFromJson(provenance["annotations"], "annotations")
+                                            : Annotations();
         std::vector<Event> shown = events(*analysis);
         if (provenance.contains("shownThreshold")) // it was being dragged
-            std::erase_if(shown,
-                          [least = provenance["shownThreshold"].get<double>()](const Event &event) { return event.statistic < least; });
+            std::erase_if(shown, [least = provenance["shownThreshold"].get<double>()](const Event &event) {
+                return event.statistic < least;
+            });
         writeReviewed(*analysis, shown, annotations, out);
     }
 
@@ -128,15 +136,17 @@ namespace {
 
 bool isOfWindow(const Json &provenance)
 {
-    return provenance.is_object() && !provenance.contains("arguments") && provenance.contains("version") && provenance["version"].is_string();
+    return provenance.is_object() && !provenance.contains("arguments") && provenance.contains("version")
+           && provenance["version"].is_string();
 }
 
-void remakeWindowExport(const Json &provenance, const std::string &result, const std::string &recording, const std::string &out,
-                        const MayRead &mayRead, const RunContext &context)
+void remakeWindowExport(const Json &provenance, const std::string &result, const std::string &recording,
+                        const std::string &out, const MayRead &mayRead, const RunContext &context)
 {
     try {
         if (provenance.contains("sequential"))
-            throw Error(result, "is a chart of a sequential test; use 'faintline replay' if the test was on radar scans");
+            throw Error(result,
+                        "is a chart of a sequential test; use 'faintline replay' if the test was on radar scans");
         if (provenance.contains("experiment"))
             return remakeCurve(provenance, out, mayRead, context);
         if (provenance.contains("recording"))

@@ -73,7 +73,8 @@ void AnalysisController::open(const QString &path, const OpenOptions &options, c
 }
 
 /// With what is already annotated, where a recording is read anew.
-void AnalysisController::open(const QString &path, const OpenOptions &options, const Adjust &adjust, const Annotations &annotations)
+void AnalysisController::open(const QString &path, const OpenOptions &options, const Adjust &adjust,
+                              const Annotations &annotations)
 {
     m_isOpening = true;
     m_runner.start([this, path, options, adjust, annotations](const RunContext &context) -> JobRunner::Delivery {
@@ -89,8 +90,9 @@ void AnalysisController::open(const QString &path, const OpenOptions &options, c
 
 void AnalysisController::reopen(const OpenOptions &options)
 {
-    open(m_document.source().path, options,
-         [now = m_document.settings()](AnalysisSettings &settings) { settings = now; }, m_document.annotations());
+    open(
+        m_document.source().path, options,
+        [now = m_document.settings()](AnalysisSettings &settings) { settings = now; }, m_document.annotations());
 }
 
 void AnalysisController::adopt(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis)
@@ -107,9 +109,11 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
 {
     AnalysisSettings after = m_document.settings();
     settingField(field.toStdString()).set(after, value);
-    if (const SlopeUnit unit = after.model.slopeUnit; unit != m_document.settings().model.slopeUnit && m_document.recording()) {
+    if (const SlopeUnit unit = after.model.slopeUnit;
+        unit != m_document.settings().model.slopeUnit && m_document.recording()) {
         after.model = m_document.settings().model; // the same slopes in the other unit
-        after.model = withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after.spectrogram, m_document.recording()->info()));
+        after.model =
+            withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after.spectrogram, m_document.recording()->info()));
     }
     m_document.edit(after, text, field);
 }
@@ -117,8 +121,9 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
 void AnalysisController::editNumber(const QString &field, double value)
 {
     const bool isWhole = settingField(field.toStdString()).kind == FieldKind::Integer;
-    edit(field, isWhole ? FieldValue(static_cast<int>(std::lround(value))) : FieldValue(value), tr("Apply a value of "
-                                                                                                   "the sweep"));
+    edit(field, isWhole ? FieldValue(static_cast<int>(std::lround(value))) : FieldValue(value),
+         tr("Apply a value of "
+            "the sweep"));
 }
 
 void AnalysisController::setSettings(const AnalysisSettings &settings, const QString &text)
@@ -131,12 +136,13 @@ void AnalysisController::inject(const LineSettings &line)
     if (!m_document.recording() || m_isOpening)
         return;
     const OpenedSource opened = m_document.openedSource();
-    m_runner.start([this, opened, line, settings = m_document.settings()](const RunContext &context) -> JobRunner::Delivery {
-        const Source::Injection injection{scaledInjection(line, opened.recording, settings, context), settings.selection.channel,
-                                          opened.source.injections.size() + 1};
-        OpenedSource injected = withInjection(opened, injection);
-        return [this, injected = std::move(injected)] { m_document.replaceOpened(injected, tr("Inject a line")); };
-    });
+    m_runner.start(
+        [this, opened, line, settings = m_document.settings()](const RunContext &context) -> JobRunner::Delivery {
+            const Source::Injection injection{scaledInjection(line, opened.recording, settings, context),
+                                              settings.selection.channel, opened.source.injections.size() + 1};
+            OpenedSource injected = withInjection(opened, injection);
+            return [this, injected = std::move(injected)] { m_document.replaceOpened(injected, tr("Inject a line")); };
+        });
 }
 
 void AnalysisController::setThresholdUnit(DecideSettings::By by)
@@ -159,23 +165,29 @@ void AnalysisController::startAnalysis()
     m_firstEstimate.reset();
     // Of pings one is looked at: that of the cursor.
     const auto &cursor = m_document.viewport().cursor();
-    const Span visible = m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
-    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.analysedSettings(), previous = m_document.analysis(), visible,
-                    kept = m_kept, showsFirstEstimates = m_showsFirstEstimates](const RunContext &context) -> JobRunner::Delivery {
+    const Span visible =
+        m_document.hasPings() && cursor ? Span{cursor->seconds, cursor->seconds} : m_document.viewport().time();
+    m_runner.start([this, opened = m_document.openedSource(), settings = m_document.analysedSettings(),
+                    previous = m_document.analysis(), visible, kept = m_kept,
+                    showsFirstEstimates = m_showsFirstEstimates](const RunContext &context) -> JobRunner::Delivery {
         if (const bool isSame =
-                previous && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
+                previous
+                && (opened.recording ? previous->recording == opened.recording : previous->frames == opened.frames);
             isSame && isWorthAPreview(*previous, inWindowOf(*previous, settings))) {
             const AnalysisSettings previewed = inWindowOf(*previous, settings);
             const Axis &time = previous->time();
-            const FrameRange range = previewRange(*previous->frames, time.nearest(visible.low), time.nearest(visible.high));
+            const FrameRange range =
+                previewRange(*previous->frames, time.nearest(visible.low), time.nearest(visible.high));
             // What is calibrated already is there as soon as a preview of that much would be.
             if (!range.isEmpty() && (range.isKeepable || !knownCalibration(previewed))) {
                 const bool isKept = kept && kept->holds(previous->frames, range.readFirst, range.end);
                 std::shared_ptr<const KeptFrames> frames;
                 if (range.isKeepable)
                     frames = isKept ? kept
-                                    : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst, context.part(0.0, 0.01));
-                const StatisticPreview preview = previewStatistic(*previous, previewed, range, frames.get(), context.part(0.01, 0.02));
+                                    : keepFrames(previous->frames, range.readFirst, range.end - range.readFirst,
+                                                 context.part(0.0, 0.01));
+                const StatisticPreview preview =
+                    previewStatistic(*previous, previewed, range, frames.get(), context.part(0.01, 0.02));
                 m_runner.deliver([this, settings, preview, frames] { showPreview(settings, preview, frames); });
             }
         }
@@ -274,11 +286,13 @@ AnalysisController::Opening AnalysisController::openNow(const QString &path, con
     if (!isSessionPath(path)) {
         OpenedSource opened = openSource(sourceOf(path, options));
         const AnalysisSettings settings = firstSettings(opened);
-        const QString warning = opened.source.isStack() ? QString::fromStdString(noiseMeanWarning(*opened.frames)) : QString();
+        const QString warning =
+            opened.source.isStack() ? QString::fromStdString(noiseMeanWarning(*opened.frames)) : QString();
         return {std::move(opened), settings, {}, {}, warning};
     }
     const Session session = readSession(path);
-    return {openSource(session.source), session.settings, session.view, path, recordingMismatch(session), session.annotations};
+    return {openSource(session.source), session.settings,   session.view, path,
+            recordingMismatch(session), session.annotations};
 }
 
 void AnalysisController::deliver(const Opening &opening)
@@ -299,7 +313,8 @@ void AnalysisController::end()
     m_document.setProvisional(nullptr); // of settings that could not be analysed
     emit busyChanged(false);
     restoreView();
-    if (const auto first = std::exchange(m_firstEstimate, {}); first && !m_document.analysis()->calibration->isFirstEstimate)
+    if (const auto first = std::exchange(m_firstEstimate, {});
+        first && !m_document.analysis()->calibration->isFirstEstimate)
         emit refined(*first);
     emit settled();
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/previewStatistic.h"
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 #include "app/document/Session.h"
 
 #include <QObject>
@@ -15,10 +15,11 @@ namespace faintline {
 /// Keeps the document's analysis up with its settings: opens, runs the chain, and previews thresholds.
 ///
 /// Whatever computes runs in the job runner, and the newest wish wins. A dragged threshold is shown at once on the
-/// results there are (`previewThreshold`); let go (`commitThreshold`), it becomes a setting and the chain runs again.
-/// A changed detector or model is seen at once as well: its statistic of the visible frames comes first, provisionally, beside the
-/// threshold there was; calibration, decisions and the rest of the recording follow.
-/// Settings that a recording was never calibrated for get a first estimate of their threshold, and the analysis again once it is refined.
+/// results there are (`previewThreshold`); let go (`commitThreshold`), it becomes a setting and the chain runs again. A
+/// changed detector or model is seen at once as well: its statistic of the visible frames comes first, provisionally,
+/// beside the threshold there was; calibration, decisions and the rest of the recording follow. Settings that a
+/// recording was never calibrated for get a first estimate of their threshold, and the analysis again once it is
+/// refined.
 class AnalysisController : public QObject
 {
     Q_OBJECT
@@ -86,13 +87,14 @@ private:
     void startAnalysis();
     void showFirstEstimate(std::shared_ptr<const Analysis> analysis, std::vector<Event> found);
     void restoreView();
-    void showPreview(const AnalysisSettings &settings, const StatisticPreview &preview, std::shared_ptr<const KeptFrames> kept);
+    void showPreview(const AnalysisSettings &settings, const StatisticPreview &preview,
+                     std::shared_ptr<const KeptFrames> kept);
     void dropPartialPreview();
     void end();
 
     Document &m_document;
     std::optional<ViewState> m_pendingView;
-    std::optional<double> m_firstEstimate; ///< threshold of the analysis that is being refined
+    std::optional<double> m_firstEstimate;    ///< threshold of the analysis that is being refined
     std::shared_ptr<const KeptFrames> m_kept; ///< of the last preview
     bool m_isOpening = false;
     bool m_showsFirstEstimates = true;

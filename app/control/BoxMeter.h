@@ -8,8 +8,8 @@ namespace faintline {
 
 class Document;
 
-/// Says what the measured box holds that its picture does not tell: the area SNR (core/analysis/boxLevels.h), from the frames themselves,
-/// in the background.
+/// Says what the measured box holds that its picture does not tell: the area SNR (core/analysis/boxLevels.h), from the
+/// frames themselves, in the background.
 class BoxMeter : public QObject
 {
     Q_OBJECT

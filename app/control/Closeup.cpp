@@ -10,7 +10,8 @@ namespace faintline {
 namespace {
 
     constexpr int pauseMs = 80;
-    constexpr std::size_t byteBudget = memoryShares::closeup; ///< of each of the two: more frames than a screen has rows
+    constexpr std::size_t byteBudget =
+        memoryShares::closeup; ///< of each of the two: more frames than a screen has rows
 
 } // namespace
 
@@ -50,7 +51,9 @@ FrameStretch Closeup::wanted() const
     if (stretch.isEmpty() || m_analysis != analysis || !m_stretch.contains(frames))
         return stretch;
     const Index cells = analysis->grid().size();
-    const auto mergedIn = [cells](const FrameStretch &one) { return framesPerRowWithin(byteBudget, one.end - one.begin, cells); };
+    const auto mergedIn = [cells](const FrameStretch &one) {
+        return framesPerRowWithin(byteBudget, one.end - one.begin, cells);
+    };
     const Index there = mergedIn(m_stretch);
     const bool isFineEnough = there <= mergedIn(stretch) || static_cast<double>(there) <= m_input.framesPerPixel();
     return isFineEnough ? m_stretch : stretch;
@@ -88,16 +91,17 @@ void Closeup::compute()
     for (WaterfallView *view : {&m_input, &m_output})
         if (view->shownPicture() == view->picture())
             view->setCloseup(nullptr); // one that is out of sight takes no memory beside the next
-    m_runner.start([this, analysis = m_analysis, stretch = m_stretch](const RunContext &context) -> JobRunner::Delivery {
-        m_runner.deliver([this, input = inputCloseup(*analysis, stretch, byteBudget, context)] {
-            m_inputStretch = input;
-            show();
+    m_runner.start(
+        [this, analysis = m_analysis, stretch = m_stretch](const RunContext &context) -> JobRunner::Delivery {
+            m_runner.deliver([this, input = inputCloseup(*analysis, stretch, byteBudget, context)] {
+                m_inputStretch = input;
+                show();
+            });
+            return [this, statistic = statisticCloseup(*analysis, stretch, byteBudget, context)] {
+                m_statisticStretch = statistic;
+                show();
+            };
         });
-        return [this, statistic = statisticCloseup(*analysis, stretch, byteBudget, context)] {
-            m_statisticStretch = statistic;
-            show();
-        };
-    });
 }
 
 void Closeup::show()

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/closeup.h"
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 
 #include <QTimer>
 
@@ -10,10 +10,11 @@ namespace faintline {
 
 class WaterfallView;
 
-/// Who zooms into a long recording, whose pictures hold rows of many frames, sees single frames: what is visible is gone through again
-/// on a worker, the input first, and shown in the place of the merged rows as soon as it is there.
+/// Who zooms into a long recording, whose pictures hold rows of many frames, sees single frames: what is visible is
+/// gone through again on a worker, the input first, and shown in the place of the merged rows as soon as it is there.
 ///
-/// The newest view wins; one that moves on ends the work for the one before. Nothing is done where rows are frames already.
+/// The newest view wins; one that moves on ends the work for the one before. Nothing is done where rows are frames
+/// already.
 class Closeup : public QObject
 {
     Q_OBJECT

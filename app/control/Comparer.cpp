@@ -78,7 +78,8 @@ void Comparer::compare()
     if (m_result && m_result->a == m_kept && m_result->b == b)
         return;
     m_runner.start([this, a = m_kept, b](const RunContext &context) -> JobRunner::Delivery {
-        Result result{a, b, compareAnalyses(*a, *b), differencePicture(*a, *b, context), settingDifferences(a->settings, b->settings)};
+        Result result{a, b, compareAnalyses(*a, *b), differencePicture(*a, *b, context),
+                      settingDifferences(a->settings, b->settings)};
         return [this, result = std::move(result)] {
             m_result = result;
             emit changed();
@@ -91,13 +92,14 @@ void Comparer::measure()
 {
     if (!m_isMeasuringCost)
         return;
-    m_meter.start([this, a = m_result->a, b = m_result->b, known = m_cost](const RunContext &context) -> JobRunner::Delivery {
-        const Cost cost{known ? known->a : measureCost(*a, context), measureCost(*b, context)};
-        return [this, cost] {
-            m_cost = cost;
-            emit costChanged();
-        };
-    });
+    m_meter.start(
+        [this, a = m_result->a, b = m_result->b, known = m_cost](const RunContext &context) -> JobRunner::Delivery {
+            const Cost cost{known ? known->a : measureCost(*a, context), measureCost(*b, context)};
+            return [this, cost] {
+                m_cost = cost;
+                emit costChanged();
+            };
+        });
 }
 
 } // namespace faintline

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 #include "evaluate/comparison/compareAnalyses.h"
 #include "evaluate/comparison/settingDifferences.h"
 #include "spectrum/PeakPyramid.h"
@@ -16,8 +16,9 @@ namespace faintline {
 
 /// Holds an analysis A against the document's own, B: kept once, compared again whenever B changes.
 ///
-/// A stays what it was, settings and results. Where something else has been opened since, A's results are of what was open before; they
-/// are computed again only when asked for. It compares while it is told to (`setActive`): while somebody looks.
+/// A stays what it was, settings and results. Where something else has been opened since, A's results are of what was
+/// open before; they are computed again only when asked for. It compares while it is told to (`setActive`): while
+/// somebody looks.
 class Comparer : public QObject
 {
     Q_OBJECT

@@ -6,10 +6,10 @@
 #include "base/oneLine.h"
 #include "exchange/readAnnotations.h"
 #include "exchange/writeReviewed.h"
+#include "widgets/base/labelText.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/WaterfallView.h"
-#include "widgets/base/labelText.h"
 
 #include <QAction>
 #include <QFileDialog>
@@ -24,21 +24,29 @@
 namespace faintline {
 
 EventReviews::EventReviews(Document &document, EventTable &table, std::vector<WaterfallView *> views, QWidget *window)
-    : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window), m_provenance(document)
+    : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window),
+      m_provenance(document)
 {
     m_eventActions << add(tr("&Accept"), Qt::Key_Y, tr("This is a signal"), &EventReviews::accept)
                    << add(tr("Re&ject"), Qt::Key_X, tr("Not a signal; show it dimmed"), &EventReviews::reject)
                    << add(tr("&Undecided"), Qt::Key_U, tr("Clear the accept or reject mark"), &EventReviews::takeBack)
                    << add(tr("&Note…"), Qt::Key_E, tr("Edit the note on the event"), &EventReviews::editNote)
-                   << add(tr("&Merge"), Qt::Key_G, tr("Treat the selected events as one signal; select several with "
-                                                      "Ctrl or Shift and click"), &EventReviews::merge)
-                   << add(tr("&Separate"), QKeySequence(Qt::SHIFT | Qt::Key_G), tr("Treat merged events as several "
-                                                                                   "signals again"), &EventReviews::separate);
+                   << add(tr("&Merge"), Qt::Key_G,
+                          tr("Treat the selected events as one signal; select several with "
+                             "Ctrl or Shift and click"),
+                          &EventReviews::merge)
+                   << add(tr("&Separate"), QKeySequence(Qt::SHIFT | Qt::Key_G),
+                          tr("Treat merged events as several "
+                             "signals again"),
+                          &EventReviews::separate);
     m_actions << nullptr;
-    m_addBox = add(tr("Add annotation of the &box…"), Qt::Key_B, tr("Label the measured box (M)"), &EventReviews::askForLabel);
+    m_addBox =
+        add(tr("Add annotation of the &box…"), Qt::Key_B, tr("Label the measured box (M)"), &EventReviews::askForLabel);
     m_actions << nullptr;
-    add(tr("&Import annotations…"), {}, tr("Raven selection tables, Audacity labels, SigMF, CSV, JSON"), &EventReviews::askForImport);
-    add(tr("E&xport events and annotations…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E), tr("CSV, JSON, Raven, Audacity, SigMF"), &EventReviews::askForExport);
+    add(tr("&Import annotations…"), {}, tr("Raven selection tables, Audacity labels, SigMF, CSV, JSON"),
+        &EventReviews::askForImport);
+    add(tr("E&xport events and annotations…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E),
+        tr("CSV, JSON, Raven, Audacity, SigMF"), &EventReviews::askForExport);
 
     for (QAction *action : m_eventActions)
         m_table.table()->addAction(action);
@@ -59,13 +67,15 @@ void EventReviews::addMaps(std::vector<PingMap *> maps)
 {
     m_maps = std::move(maps);
     for (PingMap *map : m_maps)
-        connect(map->plane(), &WaterfallView::contextMenuRequested, this, [this, map](QMenu *menu, double range, double bearing) {
-            if (const int track = map->trackAt({range, bearing}))
-                fillContextMenu(*menu, track);
-        });
+        connect(map->plane(), &WaterfallView::contextMenuRequested, this,
+                [this, map](QMenu *menu, double range, double bearing) {
+                    if (const int track = map->trackAt({range, bearing}))
+                        fillContextMenu(*menu, track);
+                });
 }
 
-QAction *EventReviews::add(const QString &text, const QKeySequence &key, const QString &tip, void (EventReviews::*act)())
+QAction *EventReviews::add(const QString &text, const QKeySequence &key, const QString &tip,
+                           void (EventReviews::*act)())
 {
     auto *action = new QAction(text, this);
     action->setShortcut(key);
@@ -98,9 +108,12 @@ void EventReviews::judge(Verdict verdict)
     const std::vector<int> ids = chosen();
     if (ids.empty())
         return;
-    const QString text = verdict == Verdict::Accepted ? tr("Accept") : verdict == Verdict::Rejected ? tr("Reject") : tr("Unmark");
-    setReviews(withVerdict(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids, verdict),
-               ids.size() == 1 ? tr("%1 event %2").arg(text).arg(ids.front()) : tr("%1 %2 events").arg(text).arg(ids.size()));
+    const QString text = verdict == Verdict::Accepted   ? tr("Accept")
+                         : verdict == Verdict::Rejected ? tr("Reject")
+                                                        : tr("Unmark");
+    setReviews(
+        withVerdict(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids, verdict),
+        ids.size() == 1 ? tr("%1 event %2").arg(text).arg(ids.front()) : tr("%1 %2 events").arg(text).arg(ids.size()));
 }
 
 void EventReviews::merge()
@@ -113,14 +126,16 @@ void EventReviews::merge()
 void EventReviews::separate()
 {
     if (const std::vector<int> ids = chosen(); !ids.empty())
-        setReviews(separated(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids), tr("Separate events"));
+        setReviews(separated(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), ids),
+                   tr("Separate events"));
 }
 
 void EventReviews::setNote(int id, const QString &note)
 {
     const std::vector<Event> events = m_document.shownEvents();
     if (std::any_of(events.begin(), events.end(), [id](const Event &event) { return event.id == id; }))
-        setReviews(withNote(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), id, oneLine(note.toStdString())),
+        setReviews(withNote(m_document.annotations().reviews, *m_document.analysis(), m_document.shownEvents(), id,
+                            oneLine(note.toStdString())),
                    tr("Note on event %1").arg(id));
 }
 
@@ -130,11 +145,13 @@ void EventReviews::editNote()
     if (id == 0 || !m_document.analysis())
         return;
     QString before;
-    for (const EventReview &one : eventReviews(*m_document.analysis(), m_document.shownEvents(), m_document.annotations().reviews))
+    for (const EventReview &one :
+         eventReviews(*m_document.analysis(), m_document.shownEvents(), m_document.annotations().reviews))
         if (one.event == id)
             before = QString::fromStdString(oneLine(one.note));
     bool isGiven = false;
-    const QString note = QInputDialog::getText(m_window, tr("Note on event %1").arg(id), tr("Note:"), QLineEdit::Normal, before, &isGiven);
+    const QString note = QInputDialog::getText(m_window, tr("Note on event %1").arg(id), tr("Note:"), QLineEdit::Normal,
+                                               before, &isGiven);
     if (isGiven && m_document.analysis())
         setNote(id, note);
 }
@@ -145,7 +162,13 @@ void EventReviews::annotateSelection(const QString &label)
     if (!box || m_document.hasPings())
         return;
     Annotations after = m_document.annotations();
-    after.boxes.push_back({box->time.low, box->time.high, box->frequency.low, box->frequency.high, oneLine(label.toStdString()), {}, Verdict::None});
+    after.boxes.push_back({box->time.low,
+                           box->time.high,
+                           box->frequency.low,
+                           box->frequency.high,
+                           oneLine(label.toStdString()),
+                           {},
+                           Verdict::None});
     m_document.annotate(std::move(after), tr("Add annotation"));
     m_document.viewport().clearSelection();
 }
@@ -153,7 +176,8 @@ void EventReviews::annotateSelection(const QString &label)
 void EventReviews::askForLabel()
 {
     bool isGiven = false;
-    const QString label = QInputDialog::getText(m_window, tr("Add annotation"), tr("Label of the box:"), QLineEdit::Normal, {}, &isGiven);
+    const QString label =
+        QInputDialog::getText(m_window, tr("Add annotation"), tr("Label of the box:"), QLineEdit::Normal, {}, &isGiven);
     if (isGiven)
         annotateSelection(label);
 }
@@ -167,10 +191,12 @@ void EventReviews::fillContextMenu(QMenu &menu, double seconds, double hz)
     const std::vector<Annotation> &boxes = m_document.annotations().boxes;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const Annotation &box = boxes[i];
-        const bool isIn = seconds >= box.startSeconds && seconds <= box.endSeconds && (!box.lowHz || (hz >= *box.lowHz && hz <= *box.highHz));
+        const bool isIn = seconds >= box.startSeconds && seconds <= box.endSeconds
+                          && (!box.lowHz || (hz >= *box.lowHz && hz <= *box.highHz));
         if (!isIn)
             continue;
-        const QString name = box.label.empty() ? tr("annotation") : tr("“%1”").arg(buttonText(QString::fromStdString(box.label), 40));
+        const QString name =
+            box.label.empty() ? tr("annotation") : tr("“%1”").arg(buttonText(QString::fromStdString(box.label), 40));
         menu.addAction(tr("Remove %1").arg(name), this, [this, i, name] {
             Annotations after = m_document.annotations();
             after.boxes.erase(after.boxes.begin() + static_cast<std::ptrdiff_t>(i));
@@ -228,8 +254,9 @@ void EventReviews::exportTo(const QString &path)
 
 void EventReviews::askForImport()
 {
-    const QString path = QFileDialog::getOpenFileName(m_window, tr("Import annotations"), QFileInfo(m_document.source().path).path(),
-                                                      tr("Annotations (*.txt *.sigmf-meta *.csv *.json);;All files (*)"));
+    const QString path =
+        QFileDialog::getOpenFileName(m_window, tr("Import annotations"), QFileInfo(m_document.source().path).path(),
+                                     tr("Annotations (*.txt *.sigmf-meta *.csv *.json);;All files (*)"));
     if (path.isEmpty())
         return;
     try {
@@ -242,8 +269,10 @@ void EventReviews::askForImport()
 void EventReviews::askForExport()
 {
     const QString path = QFileDialog::getSaveFileName(
-        m_window, tr("Export events and annotations"), nameBeside(m_document.source().path, QStringLiteral("-events.csv")),
-        tr("Table (*.csv);;JSON (*.json);;Raven selection table (*.selections.txt);;Audacity labels (*.txt);;SigMF annotations (*.sigmf-meta)"));
+        m_window, tr("Export events and annotations"),
+        nameBeside(m_document.source().path, QStringLiteral("-events.csv")),
+        tr("Table (*.csv);;JSON (*.json);;Raven selection table (*.selections.txt);;Audacity labels (*.txt);;SigMF "
+           "annotations (*.sigmf-meta)"));
     if (path.isEmpty())
         return;
     try {
@@ -278,7 +307,8 @@ void EventReviews::enable()
     for (QAction *action : m_eventActions)
         action->setEnabled(!ids.empty());
     m_eventActions[4]->setEnabled(ids.size() > 1); // merging
-    m_addBox->setEnabled(m_document.viewport().selection().has_value() && !m_document.isEmpty() && !m_document.hasPings());
+    m_addBox->setEnabled(m_document.viewport().selection().has_value() && !m_document.isEmpty()
+                         && !m_document.hasPings());
     for (qsizetype i = m_actions.size() - 2; i < m_actions.size(); ++i) // import and export
         m_actions[i]->setEnabled(m_document.analysis() != nullptr);
 }

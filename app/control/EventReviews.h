@@ -19,8 +19,9 @@ class WaterfallView;
 
 /// What a person says about events, and boxes of their own: the actions, and where it is shown.
 ///
-/// Events are judged where they are selected, in the table, and tracks of pings by a right click on them. Nothing is ever deleted by judging: a
-/// rejected event stays in the table and is drawn faint. Each action is one undoable step of the document.
+/// Events are judged where they are selected, in the table, and tracks of pings by a right click on them. Nothing is
+/// ever deleted by judging: a rejected event stays in the table and is drawn faint. Each action is one undoable step of
+/// the document.
 class EventReviews : public QObject
 {
     Q_OBJECT

@@ -16,8 +16,8 @@ namespace faintline {
 
 /// The experiments of this window: what waits, runs, and has been done, one at a time on a worker.
 ///
-/// A campaign grows while it runs: every finished run is added as it comes, and `changed` says so a few times a second. Cancelled ones
-/// keep the runs they have. Results depend on the experiment alone, as everywhere.
+/// A campaign grows while it runs: every finished run is added as it comes, and `changed` says so a few times a second.
+/// Cancelled ones keep the runs they have. Results depend on the experiment alone, as everywhere.
 class Experiments : public QObject
 {
     Q_OBJECT

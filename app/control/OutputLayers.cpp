@@ -1,13 +1,13 @@
 #include "app/control/OutputLayers.h"
 
 #include "analysis/chain.h"
-#include "widgets/waterfall/LayerItem.h"
+#include "widgets/base/Theme.h"
+#include "widgets/base/quantities.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarLayerItem.h"
 #include "widgets/pings/PolarView.h"
-#include "widgets/base/Theme.h"
+#include "widgets/waterfall/LayerItem.h"
 #include "widgets/waterfall/WaterfallView.h"
-#include "widgets/base/quantities.h"
 
 #include <qwt_plot_canvas.h>
 
@@ -99,7 +99,8 @@ bool OutputLayers::eventFilter(QObject *watched, QEvent *event)
 {
     if (event->type() == QEvent::PaletteChange && (watched == &m_output || (m_map && watched == m_map->plane())))
         show();
-    if (event->type() == QEvent::Resize && !qobject_cast<WaterfallView *>(watched) && m_layer != OutputLayer::Statistic) // of a canvas
+    if (event->type() == QEvent::Resize && !qobject_cast<WaterfallView *>(watched)
+        && m_layer != OutputLayer::Statistic) // of a canvas
         follow();
     return QObject::eventFilter(watched, event);
 }
@@ -184,7 +185,8 @@ std::optional<OutputLayers::Place> OutputLayers::cursor() const
     const std::vector<Axis> &axes = analysis.grid().axes;
     if (m_document.hasPings()) {
         const PingViewports::Place &place = m_pings->place();
-        return Place{analysis.time().nearest(place.seconds), axes[0].nearest(place.range) * axes[1].count + axes[1].nearest(place.bearing)};
+        return Place{analysis.time().nearest(place.seconds),
+                     axes[0].nearest(place.range) * axes[1].count + axes[1].nearest(place.bearing)};
     }
     const auto &at = m_document.viewport().cursor();
     return at ? std::optional(Place{analysis.time().nearest(at->seconds), axes[0].nearest(at->hz)}) : std::nullopt;
@@ -201,7 +203,8 @@ LayerWindow OutputLayers::windowOfPing() const
     const auto [firstRange, endRange] = span(axes[0], viewport.time());
     // On a cyclic axis the ends of a view all round are neighbours.
     const bool isAllRound = viewport.frequency().width() > axes[1].step * static_cast<double>(axes[1].count - 1);
-    const auto [firstBeam, endBeam] = isAllRound ? std::pair(Index(0), axes[1].count) : span(axes[1], viewport.frequency());
+    const auto [firstBeam, endBeam] =
+        isAllRound ? std::pair(Index(0), axes[1].count) : span(axes[1], viewport.frequency());
     LayerWindow window{firstRange, endRange, firstBeam, endBeam, axes[0].count, axes[1].count};
     if (m_map->isPolar()) {
         const PolarView &polar = *m_map->polar();
@@ -241,16 +244,19 @@ void OutputLayers::compute()
     const bool wantsPicture = m_layer != OutputLayer::Statistic;
     const bool isOfPing = m_document.hasPings();
     const LayerWindow wanted = isOfPing ? windowOfPing() : window();
-    m_runner.start([this, analysis, cursor = cursor(), wantsPicture, isOfPing, wanted](const RunContext &context) -> JobRunner::Delivery {
+    m_runner.start([this, analysis, cursor = cursor(), wantsPicture, isOfPing,
+                    wanted](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<LayerReplay>(
                 analysis, memoryShares::orSome(memoryShares::layerReplay, 4 * bytesOfStates(*analysis)));
         Result result{analysis, {}, {}, cursor};
         if (wantsPicture)
-            result.picture = std::make_shared<const LayerPicture>(isOfPing ? layerPictureOf(*m_replay, cursor->frame, wanted, context)
-                                                                           : layerPicture(*m_replay, wanted, context));
+            result.picture = std::make_shared<const LayerPicture>(
+                isOfPing ? layerPictureOf(*m_replay, cursor->frame, wanted, context)
+                         : layerPicture(*m_replay, wanted, context));
         if (cursor)
-            result.atCursor = readCell(*analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell);
+            result.atCursor = readCell(
+                *analysis, m_replay->at(cursor->frame, context, {cursor->cell, cursor->cell + 1}), cursor->cell);
         return [this, result] {
             if (m_document.analysis() != result.analysis)
                 return;
@@ -309,7 +315,8 @@ void OutputLayers::show()
     item.setTimeVertical(view.orientation() != WaterfallView::Orientation::LeftToRight);
     const Theme::Colours &colours = Theme::colours(view);
     item.setColours(colours.text, colours.canvas);
-    const bool isKnown = analysis && m_result.analysis == analysis && m_result.picture && m_layer != OutputLayer::Statistic;
+    const bool isKnown =
+        analysis && m_result.analysis == analysis && m_result.picture && m_layer != OutputLayer::Statistic;
     if (!isKnown || (isOfPing && m_result.cursor->frame != cursor()->frame)) {
         item.setPicture(nullptr, {}, {});
         return replot();
@@ -326,13 +333,15 @@ void OutputLayers::show()
         break;
     case OutputLayer::Age: {
         const std::vector<float> &ages = m_result.picture->age;
-        const double longest = std::max(static_cast<double>(*std::max_element(ages.begin(), ages.end())), analysis->time().step);
+        const double longest =
+            std::max(static_cast<double>(*std::max_element(ages.begin(), ages.end())), analysis->time().step);
         constexpr double manySeconds = 7200.0;
         const bool isLong = longest > manySeconds;
         if (isOfPing)
             item.setLayer(m_layer, {0.0, longest}, tr("Path age since reset (pings)"), analysis->time().step);
         else
-            item.setLayer(m_layer, {0.0, longest}, isLong ? tr("Path age since reset (h)") : tr("Path age since reset (s)"),
+            item.setLayer(m_layer, {0.0, longest},
+                          isLong ? tr("Path age since reset (h)") : tr("Path age since reset (s)"),
                           isLong ? 3600.0 : 1.0);
         break;
     }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/outputLayers.h"
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 #include "widgets/pings/PingViewports.h"
 
 #include <QTimer>
@@ -16,11 +16,12 @@ class LayerItem;
 class PingMap;
 class WaterfallView;
 
-/// What else the detector says of its output than the statistic: winning rate, path age, resets, inhibited cells, in the statistic's
-/// place or over it; and the best state at the cursor. Of lines on their waterfall, of pings on the map of the one that is shown.
+/// What else the detector says of its output than the statistic: winning rate, path age, resets, inhibited cells, in
+/// the statistic's place or over it; and the best state at the cursor. Of lines on their waterfall, of pings on the map
+/// of the one that is shown.
 ///
-/// Computed for what can be seen, on a worker, by going through the run again (LayerReplay); the newest view wins. Nothing is computed
-/// while no layer is on and nobody watches the cursor.
+/// Computed for what can be seen, on a worker, by going through the run again (LayerReplay); the newest view wins.
+/// Nothing is computed while no layer is on and nobody watches the cursor.
 class OutputLayers : public QObject
 {
     Q_OBJECT
@@ -94,7 +95,7 @@ private:
     bool m_isOverlay = false;
     bool m_isWatching = false;
     Result m_result;
-    QTimer m_pause; ///< a view on its way is not computed
+    QTimer m_pause;                        ///< a view on its way is not computed
     std::shared_ptr<LayerReplay> m_replay; ///< touched by jobs only, one at a time
     JobRunner m_runner;                    ///< last, so that its jobs end first
 };

@@ -96,10 +96,11 @@ void SequentialTests::start(const Selection &selection, const SprtSettings &sprt
     m_runner.start([this, selection, sprt](const RunContext &context) -> JobRunner::Delivery {
         const Axis frequency = partOf(selection.frames->grid().axes[0], selection.firstCell, selection.cellCount);
         const SequentialModel model = lineSequentialModel(selection.model, {{frequency}}, *selection.frames);
-        const auto inspection = std::make_shared<const Inspection>(
-            Inspection{inspectStages(model, sprt, selection.frameCount,
-                                     stagesOf(selection.frames, selection.firstFrame, selection.firstCell, selection.cellCount), context),
-                       {}});
+        const auto inspection = std::make_shared<const Inspection>(Inspection{
+            inspectStages(model, sprt, selection.frameCount,
+                          stagesOf(selection.frames, selection.firstFrame, selection.firstCell, selection.cellCount),
+                          context),
+            {}});
         return [this, inspection] {
             m_walks = {{ScanRun{}, inspection->test.result}};
             m_selected = 0;
@@ -138,7 +139,8 @@ void SequentialTests::runScans(const ScanTest &test, const RunContext &context)
     for (int first = 0; first < test.walks; first += walksAtOnce) {
         const double from = 0.15 * first / test.walks;
         const int count = std::min(walksAtOnce, test.walks - first);
-        deliver([this, walks = walk(test, model, first, count, context.part(from, from + 0.15 * count / test.walks))]() mutable {
+        deliver([this, walks = walk(test, model, first, count,
+                                    context.part(from, from + 0.15 * count / test.walks))]() mutable {
             addWalks(std::move(walks));
         });
     }
@@ -165,7 +167,8 @@ void SequentialTests::measureCurves(const ScanTest &test, const RunContext &cont
     double done = 0.0;
     std::optional<ScanPoint> before;
     for (const double snrDb : snrs) {
-        before = measureScanPoint(test, snrDb, before ? &*before : nullptr, context.part(done / count, (done + 1.0) / count));
+        before = measureScanPoint(test, snrDb, before ? &*before : nullptr,
+                                  context.part(done / count, (done + 1.0) / count));
         done += 1.0;
         deliver([this, point = *before] {
             m_points.push_back(point);
@@ -175,7 +178,8 @@ void SequentialTests::measureCurves(const ScanTest &test, const RunContext &cont
     const PriorCurve empty = startPriorCurve(test);
     deliver([this, empty] { m_prior = empty; });
     for (const double deviation : deviations) {
-        deliver([this, point = measurePriorPoint(test, empty, deviation, context.part(done / count, (done + 1.0) / count))] {
+        deliver([this,
+                 point = measurePriorPoint(test, empty, deviation, context.part(done / count, (done + 1.0) / count))] {
             m_prior->points.push_back(point);
             emit curvesChanged();
         });
@@ -223,7 +227,8 @@ void SequentialTests::inspect()
     const ScanRun run = m_walks[static_cast<std::size_t>(m_selected)].first;
     m_inspector.start([this, test = m_test, run](const RunContext &context) -> JobRunner::Delivery {
         const auto inspection = std::make_shared<const Inspection>(
-            Inspection{inspectStages(scanModel(test.scene, test.designSnrDb), test.sprt, stageLimit(test), scanStages(test, run), context),
+            Inspection{inspectStages(scanModel(test.scene, test.designSnrDb), test.sprt, stageLimit(test),
+                                     scanStages(test, run), context),
                        truthOf(test, run)});
         return [this, inspection] {
             m_inspection = inspection;

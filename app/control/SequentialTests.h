@@ -19,9 +19,9 @@ namespace faintline {
 
 /// The sequential tests of this window: a radar's on simulated scans, or one on a recording's frames.
 ///
-/// Results come while the tests run, part by part, always in the same order and always the same: walks of both hypotheses, the survey of
-/// the sectors, curves against SNR and prior, the test of fixed size. One run is selected; what it thought and the scan at the stage that
-/// is looked at are computed when asked for.
+/// Results come while the tests run, part by part, always in the same order and always the same: walks of both
+/// hypotheses, the survey of the sectors, curves against SNR and prior, the test of fixed size. One run is selected;
+/// what it thought and the scan at the stage that is looked at are computed when asked for.
 class SequentialTests : public QObject
 {
     Q_OBJECT
@@ -77,7 +77,10 @@ public:
 
     int selected() const { return m_selected; } ///< index of a walk; -1: none
     Index stage() const { return m_stage; }     ///< 1 … stages of the selected run
-    const std::shared_ptr<const Inspection> &inspection() const { return m_inspection; } ///< of the selected run; null until it is there
+    const std::shared_ptr<const Inspection> &inspection() const
+    {
+        return m_inspection;
+    } ///< of the selected run; null until it is there
     const std::optional<Scan> &scan() const { return m_scan; }
 
 public slots:
@@ -123,7 +126,7 @@ private:
     Index m_stage = 1;
     std::shared_ptr<const Inspection> m_inspection;
     std::optional<Scan> m_scan;
-    int m_generation = 0; ///< of this object's thread; grows with every start
+    int m_generation = 0;    ///< of this object's thread; grows with every start
     int m_jobGeneration = 0; ///< of the worker: the one it computes for
 
     JobRunner m_runner; ///< last, so that their jobs end first

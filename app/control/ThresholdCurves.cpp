@@ -32,7 +32,8 @@ ThresholdCurves::ThresholdCurves(Document &document, ExceedancePlot &plot, QObje
 void ThresholdCurves::showClosedForm()
 {
     const Analysis &analysis = *m_document.analysis();
-    m_plot.setClosedForm(analysis.recording ? polygonOf(closedFormExceedance(analysis.settings, *analysis.calibration)) : QPolygonF());
+    m_plot.setClosedForm(analysis.recording ? polygonOf(closedFormExceedance(analysis.settings, *analysis.calibration))
+                                            : QPolygonF());
 }
 
 void ThresholdCurves::showSelection()
@@ -43,9 +44,12 @@ void ThresholdCurves::showSelection()
         return m_plot.setSelectionExceedance({});
     const Axis &time = analysis->time();
     const Axis &frequency = analysis->grid().axes.front();
-    const auto first = [](const Axis &axis, double value) { return static_cast<Index>(std::ceil(axis.position(value))); };
-    m_plot.setSelectionExceedance(polygonOf(boxExceedance(*analysis->statistic, first(time, box->time.low), first(time, box->time.high),
-                                                          first(frequency, box->frequency.low), first(frequency, box->frequency.high))));
+    const auto first = [](const Axis &axis, double value) {
+        return static_cast<Index>(std::ceil(axis.position(value)));
+    };
+    m_plot.setSelectionExceedance(
+        polygonOf(boxExceedance(*analysis->statistic, first(time, box->time.low), first(time, box->time.high),
+                                first(frequency, box->frequency.low), first(frequency, box->frequency.high))));
 }
 
 } // namespace faintline

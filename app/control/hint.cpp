@@ -1,7 +1,7 @@
 #include "app/control/hint.h"
 
-#include "app/document/Document.h"
 #include "app/control/thresholdWords.h"
+#include "app/document/Document.h"
 
 #include <QCoreApplication>
 
@@ -22,10 +22,10 @@ QString hint(const Document &document, bool isBusy)
     if (document.analysis()->calibration->isFirstEstimate)
         return firstEstimateSentence(*document.analysis(), isBusy);
     if (document.hasPings() && !document.shownEvents().empty())
-        return tr("J and L step through the pings, Space plays them, P shows them from above, N goes to the next track.");
-    if (document.shownEvents().empty())
         return tr(
-            "Nothing exceeds the threshold. To lower it, drag its line to the left or press , (comma).");
+            "J and L step through the pings, Space plays them, P shows them from above, N goes to the next track.");
+    if (document.shownEvents().empty())
+        return tr("Nothing exceeds the threshold. To lower it, drag its line to the left or press , (comma).");
     return tr("Drag the threshold line to update contour and events. N goes to the next event, ? shows all keys.");
 }
 

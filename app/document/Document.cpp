@@ -58,7 +58,8 @@ Document::Document(QObject *parent) : QObject(parent)
     connect(&m_undoStack, &QUndoStack::cleanChanged, this, &Document::sessionChanged);
 }
 
-void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath, Annotations annotations)
+void Document::setOpened(OpenedSource opened, const AnalysisSettings &settings, const QString &sessionPath,
+                         Annotations annotations)
 {
     m_opened = std::move(opened);
     m_settings = settings;
@@ -129,7 +130,7 @@ AnalysisSettings Document::usedSettings() const
 bool Document::isCurrent() const
 {
     return m_analysis && m_analysis->answers(analysedSettings()) && m_analysis->recording == m_opened.recording
-        && (!m_opened.frames || m_analysis->frames == m_opened.frames);
+           && (!m_opened.frames || m_analysis->frames == m_opened.frames);
 }
 
 void Document::setShownThreshold(double nats)

@@ -15,9 +15,9 @@ namespace faintline {
 
 /// What is open: the one mutable object of the program, everything else is values and views.
 ///
-/// It holds the recording or the frames, where they came from, the settings with their undo stack, what is looked at, and the latest
-/// analysis, which may lag behind the settings while a new one is computed. The *shown threshold* is the analysis's, or
-/// the one under the user's finger while it is dragged.
+/// It holds the recording or the frames, where they came from, the settings with their undo stack, what is looked at,
+/// and the latest analysis, which may lag behind the settings while a new one is computed. The *shown threshold* is the
+/// analysis's, or the one under the user's finger while it is dragged.
 class Document : public QObject
 {
     Q_OBJECT
@@ -31,7 +31,7 @@ public:
 
     bool isEmpty() const { return !m_opened.recording && !m_opened.frames; }
     const Source &source() const { return m_opened.source; }
-    const RecordingPointer &recording() const { return m_opened.recording; } ///< null where ready-made frames are open
+    const RecordingPointer &recording() const { return m_opened.recording; }  ///< null where ready-made frames are open
     const NormalisedFramesPointer &frames() const { return m_opened.frames; } ///< null where a recording is open
     /// Frames on range and bearing, to be looked at ping by ping.
     bool hasPings() const { return m_opened.frames && m_opened.frames->grid().axes.size() == 2; }
@@ -77,7 +77,8 @@ public:
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; }
     bool isCurrent() const;
 
-    /// What the changed settings make of the visible frames, until their analysis is there; null where there is no such thing.
+    /// What the changed settings make of the visible frames, until their analysis is there; null where there is no such
+    /// thing.
     void setProvisional(std::shared_ptr<const PeakPyramid> statistic);
     const std::shared_ptr<const PeakPyramid> &provisional() const { return m_provisional; }
 
@@ -91,7 +92,8 @@ public:
 signals:
     void opened();
     void settingsChanged();
-    void picturesGrew(const faintline::PicturesSoFar &pictures); ///< of a long recording, while its first analysis is still under way
+    void picturesGrew(
+        const faintline::PicturesSoFar &pictures); ///< of a long recording, while its first analysis is still under way
     void annotationsChanged();
     void analysisChanged();
     void provisionalChanged();

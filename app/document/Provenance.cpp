@@ -1,7 +1,7 @@
 #include "app/document/Provenance.h"
 
-#include "app/document/Session.h"
 #include "app/base/filePath.h"
+#include "app/document/Session.h"
 #include "base/AtomicFile.h"
 #include "recording/openRecording.h"
 
@@ -11,11 +11,13 @@
 
 namespace faintline {
 
-std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations, std::string hash)
+std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations,
+                         std::string hash)
 {
     if (!source.isSimulated() && hash.empty())
         hash = recordingHash(pathBytes(source.path));
-    Json json = parseJson(sessionText({source, hash, settings, {}, annotations}, QFileInfo(source.path).path()), "session");
+    Json json =
+        parseJson(sessionText({source, hash, settings, {}, annotations}, QFileInfo(source.path).path()), "session");
     json.erase("view");
     json["version"] = FAINTLINE_VERSION;
     return json.dump(2) + "\n";
@@ -32,8 +34,8 @@ Provenance::Provenance(const Document &document, QObject *parent) : QObject(pare
 void Provenance::with(std::function<void(const std::string &json)> use)
 {
     const auto &analysis = m_document.analysis(); // what is seen is the analysis's, which may lag behind
-    m_requests.push_back(
-        {m_document.source(), analysis ? analysis->settings : m_document.settings(), m_document.annotations(), std::move(use)});
+    m_requests.push_back({m_document.source(), analysis ? analysis->settings : m_document.settings(),
+                          m_document.annotations(), std::move(use)});
     if (!m_runner.isRunning())
         answer();
 }

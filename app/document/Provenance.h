@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 
 #include <functional>
 #include <string>
@@ -9,9 +9,11 @@
 
 namespace faintline {
 
-/// What is in front of one as JSON: version, recording with its hash (a scenario is written out), settings, annotations. A session file in
-/// itself, but that the recording's folder stays out: it is told by name and hash. Reads the whole recording for the hash where none is given.
-std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations, std::string hash = {});
+/// What is in front of one as JSON: version, recording with its hash (a scenario is written out), settings,
+/// annotations. A session file in itself, but that the recording's folder stays out: it is told by name and hash. Reads
+/// the whole recording for the hash where none is given.
+std::string provenanceOf(const Source &source, const AnalysisSettings &settings, const Annotations &annotations,
+                         std::string hash = {});
 
 /// Hands out the provenance of a document. The hash takes a while, so it is taken on a worker, once.
 class Provenance : public QObject
@@ -21,7 +23,8 @@ class Provenance : public QObject
 public:
     explicit Provenance(const Document &document, QObject *parent = nullptr);
 
-    /// Calls `use` with the provenance of what is open now, at once where the hash is known, in the order of the requests.
+    /// Calls `use` with the provenance of what is open now, at once where the hash is known, in the order of the
+    /// requests.
     void with(std::function<void(const std::string &json)> use);
 
 signals:

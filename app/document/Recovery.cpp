@@ -40,7 +40,8 @@ Recovery::~Recovery()
 
 QString Recovery::programFolder()
 {
-    return QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation) + QStringLiteral("/faintline/recovery");
+    return QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation)
+           + QStringLiteral("/faintline/recovery");
 }
 
 QStringList Recovery::leftBehind(const QString &folder)

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 #include "app/document/Session.h"
 
 #include <QLockFile>
@@ -15,8 +15,9 @@ namespace faintline {
 
 /// Keeps unsaved work on disk while it is unsaved, so that whatever ends the program does not end the work.
 ///
-/// A second after an edit the session goes into a file of its own in the folder, beside a lock that this process holds; saving, undoing
-/// back to what was saved, or a regular end removes both. A file whose lock nobody holds was left behind by a program that died.
+/// A second after an edit the session goes into a file of its own in the folder, beside a lock that this process holds;
+/// saving, undoing back to what was saved, or a regular end removes both. A file whose lock nobody holds was left
+/// behind by a program that died.
 class Recovery : public QObject
 {
     Q_OBJECT

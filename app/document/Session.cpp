@@ -68,10 +68,9 @@ namespace {
 
     Source sourceFromJson(const Json &json, const QDir &folder)
     {
-        checkKeys(
-            json, "recording",
-            {"name", "scenario", "path", "sha256", "iq", "rawType", "rawRateHz", "rawChannels", "rawHeaderBytes",
-             "injected"});
+        checkKeys(json, "recording",
+                  {"name", "scenario", "path", "sha256", "iq", "rawType", "rawRateHz", "rawChannels", "rawHeaderBytes",
+                   "injected"});
         Source source;
         if (json.contains("injected"))
             for (const Json &one : json["injected"])
@@ -107,7 +106,8 @@ namespace {
 
     ViewState viewFromJson(const Json &json)
     {
-        checkKeys(json, "view", {"seconds", "hz", "cursor", "orientation", "colourMap", "bearing", "cursorBearing", "polar"});
+        checkKeys(json, "view",
+                  {"seconds", "hz", "cursor", "orientation", "colourMap", "bearing", "cursorBearing", "polar"});
         ViewState view;
         if (json.contains("seconds") && json.contains("hz"))
             view.visible = {spanFromJson(json["seconds"]), spanFromJson(json["hz"])};

@@ -19,7 +19,7 @@ struct ViewState {
     QString colourMap;
 
     // Of a sonar's pings, where the frequency above is the range.
-    std::optional<Span> bearing{};          ///< visible
+    std::optional<Span> bearing{}; ///< visible
     std::optional<double> cursorBearing{};
     bool isPolar = false;
 };

@@ -54,9 +54,11 @@ bool SessionSaver::mayLose(const QString &what, std::function<void()> next)
 {
     QMessageBox::StandardButton answer = QMessageBox::Discard;
     if (m_isAsking && m_document.isModified()) {
-        const QString question = tr("Save the settings for %1 as a session before %2?").arg(m_document.source().name(), what);
-        answer = QMessageBox::question(m_window, tr("Unsaved settings"), asHtml(question),
-                                       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+        const QString question =
+            tr("Save the settings for %1 as a session before %2?").arg(m_document.source().name(), what);
+        answer =
+            QMessageBox::question(m_window, tr("Unsaved settings"), asHtml(question),
+                                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
     }
     if (answer == QMessageBox::Save) {
         m_afterSaving = std::move(next);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 #include "app/document/Session.h"
 
 #include <functional>
@@ -25,8 +25,8 @@ public:
     void save();
     void saveAs();
 
-    /// Whether unsaved work may be lost to what comes next, "opening something else". Not if the person keeps it; if it is to be saved first,
-    /// `next` is called when it is.
+    /// Whether unsaved work may be lost to what comes next, "opening something else". Not if the person keeps it; if it
+    /// is to be saved first, `next` is called when it is.
     bool mayLose(const QString &what, std::function<void()> next);
 
 signals:

@@ -36,8 +36,8 @@ namespace {
         auto frames = openFrames(pathBytes(path));
         if (frames->grid().axes.size() > 2)
             throw Error(pathBytes(path), "has frames on " + std::to_string(frames->grid().axes.size())
-                                                + " axes; at most two can be shown (faintline-cli sequential accepts "
-                                                  "more)");
+                                             + " axes; at most two can be shown (faintline-cli sequential accepts "
+                                               "more)");
         return frames;
     }
 
@@ -112,19 +112,20 @@ AnalysisSettings firstSettings(const OpenedSource &opened)
     return isPings ? preset("sonar").settings : AnalysisSettings();
 }
 
-std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context,
-                                        const Analysis *previous, const PictureSink &pictures, CalibrationDepth depth)
+std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
+                                        const RunContext &context, const Analysis *previous,
+                                        const PictureSink &pictures, CalibrationDepth depth)
 {
     return opened.frames ? analyse(opened.frames, withSlopesInBins(settings, *opened.frames), context, previous)
-                         : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()), context,
-                                                 previous, pictures, depth);
+                         : analyseInChosenWindow(opened.recording, withSlopesInBins(settings, opened.recording->info()),
+                                                 context, previous, pictures, depth);
 }
 
 OpenedSource withInjection(const OpenedSource &opened, const Source::Injection &injection)
 {
     OpenedSource result = opened;
-    const auto recording =
-        std::make_shared<InjectedRecording>(opened.recording, std::vector{injection.line}, injection.channel, injection.seed);
+    const auto recording = std::make_shared<InjectedRecording>(opened.recording, std::vector{injection.line},
+                                                               injection.channel, injection.seed);
     const Truth added = recording->truth();
     result.recording = recording;
     result.source.injections.push_back(injection);

@@ -20,9 +20,9 @@ namespace faintline {
 
 /// Where samples or frames come from: a file and how to read it, or a scene to simulate.
 struct Source {
-    QString path;                   ///< of the recording, the stack of frames (.npy) or the scenario
-    OpenOptions options;            ///< of a recording
-    std::optional<LineScene> scene; ///< set: simulated
+    QString path;                     ///< of the recording, the stack of frames (.npy) or the scenario
+    OpenOptions options;              ///< of a recording
+    std::optional<LineScene> scene;   ///< set: simulated
     std::optional<PingScene> pings{}; ///< set: a sonar's pings, simulated
 
     /// Lines added to it, one after the other, each with a seed of its own.
@@ -49,7 +49,8 @@ struct OpenedSource {
     PingTruth pingTruth{}; ///< of simulated pings
 };
 
-/// The source a path stands for: a scenario where it names a JSON file, frames where a NumPy file, otherwise a recording. Throws Error.
+/// The source a path stands for: a scenario where it names a JSON file, frames where a NumPy file, otherwise a
+/// recording. Throws Error.
 Source sourceOf(const QString &path, const OpenOptions &options = {});
 
 /// Opens or simulates. Throws Error.
@@ -59,8 +60,9 @@ OpenedSource openSource(const Source &source);
 AnalysisSettings firstSettings(const OpenedSource &opened);
 
 /// The pipeline on whatever was opened.
-std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings, const RunContext &context = {},
-                                        const Analysis *previous = nullptr, const PictureSink &pictures = {},
+std::shared_ptr<const Analysis> analyse(const OpenedSource &opened, const AnalysisSettings &settings,
+                                        const RunContext &context = {}, const Analysis *previous = nullptr,
+                                        const PictureSink &pictures = {},
                                         CalibrationDepth depth = CalibrationDepth::Refined);
 
 /// What is open with one more line in it. Throws Error.

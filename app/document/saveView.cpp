@@ -1,7 +1,7 @@
 #include "app/document/saveView.h"
 
-#include "app/document/Provenance.h"
 #include "app/base/filePath.h"
+#include "app/document/Provenance.h"
 #include "base/AtomicFile.h"
 #include "base/fileName.h"
 
@@ -59,7 +59,8 @@ namespace {
         writer.setPageMargins({});
         writer.setTitle(view.accessibleName());
         if (!provenance.isEmpty())
-            writer.addFileAttachment(QStringLiteral("provenance.json"), provenance.toUtf8(), QStringLiteral("application/json"));
+            writer.addFileAttachment(QStringLiteral("provenance.json"), provenance.toUtf8(),
+                                     QStringLiteral("application/json"));
         QPainter painter(&writer);
         view.render(&painter);
         painter.end();
@@ -89,7 +90,8 @@ void saveView(QWidget &view, const std::string &csv, const QString &path, const 
 
 QString saveViewFilter()
 {
-    return QCoreApplication::translate("saveView", "Picture (*.png);;Drawing (*.svg);;Document (*.pdf);;Numbers (*.csv)");
+    return QCoreApplication::translate("saveView",
+                                       "Picture (*.png);;Drawing (*.svg);;Document (*.pdf);;Numbers (*.csv)");
 }
 
 } // namespace faintline

@@ -13,7 +13,8 @@ const std::vector<Scenario> &scenarios()
             "reveals it."),
          QStringLiteral(":/scenarios/faint-drifting-line.json"), true},
         {tr("Sonar targets that cross"),
-         tr("Sixty pings of an active sonar, range against time: five targets of 7 and 8 dB, two of which cross. None stands out in a single ping."),
+         tr("Sixty pings of an active sonar, range against time: five targets of 7 and 8 dB, two of which cross. None "
+            "stands out in a single ping."),
          QStringLiteral(":/scenarios/sonar-crossing-targets.json"), true},
         {tr("A wandering line that fades"),
          tr("The line wanders by 70 Hz and fades for seconds. It is detected again each time it returns."),

@@ -9,8 +9,8 @@ namespace faintline {
 /// A recording that is simulated: something to look at before one has a file of one's own.
 struct Scenario {
     QString title;
-    QString sentence; ///< what is to be seen
-    QString path;     ///< of its JSON among the program's resources
+    QString sentence;       ///< what is to be seen
+    QString path;           ///< of its JSON among the program's resources
     bool isWelcome = false; ///< whether the welcome page shows it at work
 };
 

@@ -9,8 +9,8 @@ class QLabel;
 
 namespace faintline {
 
-/// The equation beside the view that computes it: a small sheet over a corner of the view, with its symbols and its source. It stays while
-/// one goes on; Escape, its button or the key that brought it take it away.
+/// The equation beside the view that computes it: a small sheet over a corner of the view, with its symbols and its
+/// source. It stays while one goes on; Escape, its button or the key that brought it take it away.
 class EquationSheet : public QFrame
 {
     Q_OBJECT

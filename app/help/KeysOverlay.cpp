@@ -30,7 +30,8 @@ namespace {
         return height;
     }
 
-    void paintColumn(QPainter &painter, const std::vector<KeySection> &sections, QPoint at, const Theme::Colours &colours)
+    void paintColumn(QPainter &painter, const std::vector<KeySection> &sections, QPoint at,
+                     const Theme::Colours &colours)
     {
         for (const KeySection &section : sections) {
             painter.setFont(Theme::boldFont(14));
@@ -41,8 +42,7 @@ namespace {
             for (const KeySection::Entry &entry : section.entries) {
                 painter.setFont(Theme::boldFont());
                 painter.setPen(colours.text);
-                painter.drawText(QRect(at, QSize(keyWidth, rowHeight)), Qt::AlignLeft | Qt::AlignVCenter,
-                                 entry.keys);
+                painter.drawText(QRect(at, QSize(keyWidth, rowHeight)), Qt::AlignLeft | Qt::AlignVCenter, entry.keys);
                 painter.setFont(Theme::font());
                 painter.drawText(QRect(at.x() + keyWidth, at.y(), columnWidth - keyWidth, rowHeight),
                                  Qt::AlignLeft | Qt::AlignVCenter, entry.does);
@@ -97,7 +97,8 @@ void KeysOverlay::paintEvent(QPaintEvent *)
                                {QString(), {own.entries.begin() + rows, own.entries.end()}}};
     const int ownHeight = own.entries.empty() ? 0 : heightOf({halves[0]}) + gap;
     const auto general = generalKeys(m_view);
-    const QSize size(2 * columnWidth + 3 * margin, ownHeight + std::max(heightOf(general[0]), heightOf(general[1])) + 2 * margin);
+    const QSize size(2 * columnWidth + 3 * margin,
+                     ownHeight + std::max(heightOf(general[0]), heightOf(general[1])) + 2 * margin);
     const QRect sheet(QPoint((width() - size.width()) / 2, std::max(0, (height() - size.height()) / 2)), size);
 
     QPainter painter(this);

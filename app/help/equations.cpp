@@ -16,9 +16,8 @@ namespace {
         return {u(view), u(title), u(equation), u(symbols), u(source)};
     }
 
-    const char *const smdEquation =
-        "u(n, t) = λ(n, t) + max( ln K + maxₘ [ ln P(n|m) + u(m, t−1) ], 0 )\n"
-        "D(t, f) = max over the slopes at f of u";
+    const char *const smdEquation = "u(n, t) = λ(n, t) + max( ln K + maxₘ [ ln P(n|m) + u(m, t−1) ], 0 )\n"
+                                    "D(t, f) = max over the slopes at f of u";
 
 } // namespace
 
@@ -36,8 +35,7 @@ const std::vector<Equation> &equations()
              "T, k_f  the box's frames, bins per cell\n"
              "N  mean y beside the box; the result is a line's SNR in one window",
              "Billon 2005, section 4; the background as in docs/theory.md"),
-        make("output:smd", "The statistic of the sequential Markov detector",
-             smdEquation,
+        make("output:smd", "The statistic of the sequential Markov detector", smdEquation,
              "n, m  states: bin and slope\n"
              "λ = ln p₁(y)/p₀(y)  evidence of the state's cell, nat\n"
              "P(n|m) = h(|b − a|)  from slope a to slope b\n"
@@ -57,9 +55,7 @@ const std::vector<Equation> &equations()
              "y  power over noise\n"
              "n  frames of the duration set",
              "Billon 2005, section 5"),
-        make("output:energy", "The statistic of single-frame energy",
-             "D(t, f) = y(t, f)",
-             "y  power over noise",
+        make("output:energy", "The statistic of single-frame energy", "D(t, f) = y(t, f)", "y  power over noise",
              "one frame, no memory"),
         make("output:blockViterbi", "The statistic of fixed-window Viterbi",
              "u(n, t₀) = λ(n, t₀)\n"
@@ -74,10 +70,8 @@ const std::vector<Equation> &equations()
              "A  sum over all paths, not the best alone\n"
              "λ, P, K  as for the sequential Markov detector",
              "the sum-product form of Billon 2005, section 3"),
-        make("profile", "The statistic along time",
-             "D(t, f) at the cursor's f",
-             "D  as in the picture above, with the threshold",
-             "the picture of the statistic"),
+        make("profile", "The statistic along time", "D(t, f) at the cursor's f",
+             "D  as in the picture above, with the threshold", "the picture of the statistic"),
         make("regulation", "ln K and resets",
              "reset in t:  ln K + maxₘ [ ln P(n|m) + u(m, t−1) ] < 0\n"
              "calibrated:  K so that half of the states continue on noise\n"
@@ -91,23 +85,19 @@ const std::vector<Equation> &equations()
              "rate  events per cell and frame from the whole chain on simulated noise\n"
              "u  where events were counted, θ  fitted slope, 1/nat",
              "docs/theory.md, False alarms; Lindley's recursion for the tail"),
-        make("why", "Path breakdown",
-             "u = Σ over the path's steps of  λ + ln P + ln K",
+        make("why", "Path breakdown", "u = Σ over the path's steps of  λ + ln P + ln K",
              "from the latest reset on, in which u = λ\n"
              "margin = D − threshold",
              "Billon 2005, section 3"),
         make("events", "Events and tracks",
              "event: D(t, f) > T, clustered over neighbouring cells\n"
              "track: the same recursion without reset, on a small window",
-             "T  threshold",
-             "Parsons 2008, 2.3 and Figure 1; docs/theory.md, From statistic to tracks"),
+             "T  threshold", "Parsons 2008, 2.3 and Figure 1; docs/theory.md, From statistic to tracks"),
         make("noise", "Calibration",
              "ln K by bisection, so that half of the states continue\n"
              "ln rate(T) = ln rate(u) − θ·(T − u)",
-             "on simulated noise with the same window, overlap, model and detector",
-             "Billon 2005, section 3"),
-        make("noisefit", "Noise against its law",
-             "P(y > t) = e^(−t),  mean 1",
+             "on simulated noise with the same window, overlap, model and detector", "Billon 2005, section 3"),
+        make("noisefit", "Noise against its law", "P(y > t) = e^(−t),  mean 1",
              "y  power over noise background\n"
              "distance: the largest gap of the two laws (Kolmogorov, Smirnov)",
              "p₀ of Billon 2005, section 4"),
@@ -137,19 +127,14 @@ const std::vector<Equation> &equations()
              "δu, δv  changes of the rates from ping to ping\n"
              "y  echo over noise, mean 1",
              "Parsons 2008, eq. 8 and 10"),
-        make("histories", "Range and bearing against time",
-             "max over the other axis of D(t, range, bearing)",
-             "D  best of all rates, as in the maps",
-             "Parsons 2008"),
+        make("histories", "Range and bearing against time", "max over the other axis of D(t, range, bearing)",
+             "D  best of all rates, as in the maps", "Parsons 2008"),
         make("slice", "A slice through the states",
              "u(n, t) over two axes of n,\n"
              "the other axes at the cursor, or the maximum over them",
-             "n  position and rate along every axis of the frames",
-             "Billon 2005, section 3; Parsons 2008, eq. 8"),
-        make("latency", "Latency",
-             "pings from a target's appearance to its detection",
-             "counted over simulated runs of the scene",
-             "trackScore in core/evaluate"),
+             "n  position and rate along every axis of the frames", "Billon 2005, section 3; Parsons 2008, eq. 8"),
+        make("latency", "Latency", "pings from a target's appearance to its detection",
+             "counted over simulated runs of the scene", "trackScore in core/evaluate"),
         make("hand", "A line drawn by hand",
              "Σ λ(y(t, f(t)))  over its frames\n"
              "SNR per frame = mean y − 1",
@@ -163,36 +148,24 @@ const std::vector<Equation> &equations()
              "n  cell of the target\n"
              "α, β  permitted probabilities of false alarm and miss",
              "Grossi and Lops 2006, Algorithm 3.1, eq. 4 and 9"),
-        make("stopping", "Stopping stages",
-             "ν = first k with Λ_k ≥ γ₁ or Λ_k ≤ γ₀",
-             "bars: tests of either hypothesis that stopped at stage ν",
-             "Grossi and Lops 2006, eq. 4"),
-        make("posterior", "Posterior of the target's cell",
-             "P(n | received data) = F_k(n) / Λ_k",
-             "F_k, Λ_k  as in the test's walk",
-             "Grossi and Lops 2006, Algorithm 3.1"),
-        make("scan", "Received power",
-             "10·lg y,  largest over azimuth and elevation",
-             "y  power over noise, range × Doppler",
-             "Grossi and Lops 2006, section 4"),
+        make("stopping", "Stopping stages", "ν = first k with Λ_k ≥ γ₁ or Λ_k ≤ γ₀",
+             "bars: tests of either hypothesis that stopped at stage ν", "Grossi and Lops 2006, eq. 4"),
+        make("posterior", "Posterior of the target's cell", "P(n | received data) = F_k(n) / Λ_k",
+             "F_k, Λ_k  as in the test's walk", "Grossi and Lops 2006, Algorithm 3.1"),
+        make("scan", "Received power", "10·lg y,  largest over azimuth and elevation",
+             "y  power over noise, range × Doppler", "Grossi and Lops 2006, section 4"),
         make("asn", "Stages against SNR",
              "(8a)  H1:  [ β ln γ₀ + (1−β) ln γ₁ ] / D₁\n"
              "(8b)  H0:  [ (1−α) ln γ₀ + α ln γ₁ ] / (−D₀)",
              "D₁, D₀  divergences of one stage, for a known and for an unknown trajectory\n"
              "overshoot is neglected",
              "Grossi and Lops 2006, eq. 8"),
-        make("prior", "Stages against the prior",
-             "as against SNR, for a target whose steps have deviation σ",
-             "σ = 0  trajectory known, σ = ∞  trajectory unknown",
-             "Grossi and Lops 2006, Figure 2"),
-        make("sectors", "A survey of sectors",
-             "saved = 1 − stages taken / stages of tests of fixed size",
-             "the fixed test has the same α and β",
-             "Grossi and Lops 2006, section 4"),
-        make("sequential", "The sequential test",
-             "Λ ≥ γ₁ = (1−β)/α: a target;  Λ ≤ γ₀ = β/(1−α): none",
-             "Λ  likelihood ratio of a target anywhere against noise",
-             "Grossi and Lops 2006, eq. 4 and 9"),
+        make("prior", "Stages against the prior", "as against SNR, for a target whose steps have deviation σ",
+             "σ = 0  trajectory known, σ = ∞  trajectory unknown", "Grossi and Lops 2006, Figure 2"),
+        make("sectors", "A survey of sectors", "saved = 1 − stages taken / stages of tests of fixed size",
+             "the fixed test has the same α and β", "Grossi and Lops 2006, section 4"),
+        make("sequential", "The sequential test", "Λ ≥ γ₁ = (1−β)/α: a target;  Λ ≤ γ₀ = β/(1−α): none",
+             "Λ  likelihood ratio of a target anywhere against noise", "Grossi and Lops 2006, eq. 4 and 9"),
     };
     return all;
 }

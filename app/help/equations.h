@@ -8,7 +8,7 @@ namespace faintline {
 
 /// What a view computes: its equation, what the symbols stand for, and where it is from.
 struct Equation {
-    QString view;  ///< as in WindowViews::names, or "profile" and "regulation"
+    QString view; ///< as in WindowViews::names, or "profile" and "regulation"
     QString title;
     QString equation; ///< lines of Unicode
     QString symbols;  ///< one a line

@@ -1,8 +1,8 @@
 #include "app/lessons/Lesson.h"
 
-#include "app/views/WindowViews.h"
 #include "app/base/filePath.h"
 #include "app/lessons/lessonMeasures.h"
+#include "app/views/WindowViews.h"
 #include "base/Error.h"
 #include "base/json.h"
 #include "widgets/base/labelText.h"

@@ -54,7 +54,8 @@ struct LessonStep {
 ///           "ask": {"question": "…", "choices": ["…", "…"], "answer": 1, "why": "…"},
 ///           "do": "…", "until": {"threshold": [null, 12]}, "then": "…", "thenFacts": {"events": [2, null]} } ] }
 ///
-/// A condition names measures: a number, a pair of bounds of which one may be null, or a word. Paths are relative to the lesson's own.
+/// A condition names measures: a number, a pair of bounds of which one may be null, or a word. Paths are relative to
+/// the lesson's own.
 struct Lesson {
     QString path;
     QString title;

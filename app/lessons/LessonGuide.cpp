@@ -1,15 +1,15 @@
 #include "app/lessons/LessonGuide.h"
 
-#include "app/lessons/LessonPanel.h"
 #include "app/base/MessageBar.h"
-#include "app/workspace/PingBench.h"
+#include "app/control/scanScenario.h"
+#include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
+#include "app/lessons/lessonMeasures.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "app/lessons/lessonMeasures.h"
-#include "app/control/scanScenario.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/forms/SettingsForm.h"
 #include "widgets/plot/StripPlot.h"
@@ -43,8 +43,8 @@ namespace {
 } // namespace
 
 LessonGuide::LessonGuide(QMainWindow &window, WindowParts &parts)
-    : QObject(&window), m_window(window), m_parts(parts), m_dock(new QDockWidget(tr("Lesson"), &window)), m_panel(new LessonPanel),
-      m_frame(new PointerFrame(&window))
+    : QObject(&window), m_window(window), m_parts(parts), m_dock(new QDockWidget(tr("Lesson"), &window)),
+      m_panel(new LessonPanel), m_frame(new PointerFrame(&window))
 {
     m_dock->setObjectName(QStringLiteral("lessonDock"));
     m_dock->setWidget(m_panel);
@@ -112,13 +112,15 @@ void LessonGuide::set()
         m_opened = path;
         setScans(path);
     } else if (m_opened != path || document.source().path != path) {
-        m_parts.openNow(path, {}, [steps = stepsNow()](AnalysisSettings &settings) { settings = settingsAfter(steps, settings); });
+        m_parts.openNow(
+            path, {}, [steps = stepsNow()](AnalysisSettings &settings) { settings = settingsAfter(steps, settings); });
         m_opened = path;
         if (!m_parts.controller().isBusy()) // the user would rather keep what is open, or it cannot be opened
             leave();
     } else {
         const bool wasSaved = !document.isModified();
-        document.edit(settingsAfter(stepsNow(), firstSettings(document.openedSource())), tr("Lesson: %1").arg(now().title));
+        document.edit(settingsAfter(stepsNow(), firstSettings(document.openedSource())),
+                      tr("Lesson: %1").arg(now().title));
         if (wasSaved)
             document.undoStack().setClean(); // what a lesson changes is nothing to save
     }
@@ -133,7 +135,7 @@ void LessonGuide::setScans(const QString &path)
             m_parts.openScans(test);
     } catch (const Error &error) {
         m_parts.messages().showMessage(MessageBar::Kind::Error, QString::fromStdString(error.where()),
-                                        QString::fromStdString(error.why()));
+                                       QString::fromStdString(error.why()));
         leave();
     }
 }
@@ -246,7 +248,8 @@ void LessonGuide::present(bool isPresenting)
         for (const QString &name : now().show)
             reveal(widgetNamed(name));
         reveal(widgetNamed(now().point));
-        if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock")); below && below->isVisible())
+        if (auto *below = m_window.findChild<QDockWidget *>(QStringLiteral("pipelineDock"));
+            below && below->isVisible())
             m_window.resizeDocks({m_dock, below}, {5, 1}, Qt::Vertical);
         m_frame->follow();
     }

@@ -15,10 +15,12 @@ class LessonPanel;
 class WindowParts;
 class PointerFrame;
 
-/// Leads through a lesson: opens what a step needs, sets its settings as one undoable step, brings its views to the front, frames what is
-/// spoken of, and watches until the learner has done the task. It acts through what a user could do as well.
+/// Leads through a lesson: opens what a step needs, sets its settings as one undoable step, brings its views to the
+/// front, frames what is spoken of, and watches until the learner has done the task. It acts through what a user could
+/// do as well.
 ///
-/// Every step begins with the settings the lesson has up to it, whatever the learner tried before; so what it says is true.
+/// Every step begins with the settings the lesson has up to it, whatever the learner tried before; so what it says is
+/// true.
 class LessonGuide : public QObject
 {
     Q_OBJECT

@@ -41,8 +41,9 @@ namespace {
 } // namespace
 
 LessonPanel::LessonPanel(QWidget *parent)
-    : QWidget(parent), m_title(plainLabel()), m_place(new QLabel), m_progress(new QProgressBar), m_area(new QScrollArea),
-      m_back(new QPushButton(tr("Bac&k"))), m_next(new QPushButton(tr("Ne&xt"))), m_leave(new QPushButton(tr("Leave")))
+    : QWidget(parent), m_title(plainLabel()), m_place(new QLabel), m_progress(new QProgressBar),
+      m_area(new QScrollArea), m_back(new QPushButton(tr("Bac&k"))), m_next(new QPushButton(tr("Ne&xt"))),
+      m_leave(new QPushButton(tr("Leave")))
 {
     m_title->setWordWrap(true);
     m_progress->setTextVisible(false);

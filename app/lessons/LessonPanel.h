@@ -13,9 +13,11 @@ class QScrollArea;
 
 namespace faintline {
 
-/// A lesson's page: what it says, its question with the choices, what to do, and the way back and on. It knows nothing of the window.
+/// A lesson's page: what it says, its question with the choices, what to do, and the way back and on. It knows nothing
+/// of the window.
 ///
-/// The answer to a question, and what is said after a task, stand there only once the choice is made and the task is done.
+/// The answer to a question, and what is said after a task, stand there only once the choice is made and the task is
+/// done.
 class LessonPanel : public QWidget
 {
     Q_OBJECT

@@ -41,8 +41,10 @@ void PointerFrame::follow()
     if (!isThere)
         return;
     QRect round = QRect(m_target->mapTo(parentWidget(), QPoint()), m_target->size()).adjusted(-room, -room, room, room);
-    for (QWidget *around = m_target->parentWidget(); around && around != parentWidget(); around = around->parentWidget())
-        if (const auto *area = qobject_cast<QAbstractScrollArea *>(around)) // of a form that scrolls, no more than is in sight
+    for (QWidget *around = m_target->parentWidget(); around && around != parentWidget();
+         around = around->parentWidget())
+        if (const auto *area =
+                qobject_cast<QAbstractScrollArea *>(around)) // of a form that scrolls, no more than is in sight
             round &= QRect(area->viewport()->mapTo(parentWidget(), QPoint()), area->viewport()->size());
     setGeometry(round.intersected(parentWidget()->rect()));
     raise();

@@ -5,7 +5,8 @@
 
 namespace faintline {
 
-/// A frame around a widget that is being spoken of. It lets every click through and follows the widget wherever it goes.
+/// A frame around a widget that is being spoken of. It lets every click through and follows the widget wherever it
+/// goes.
 class PointerFrame : public QWidget
 {
     Q_OBJECT

@@ -1,9 +1,9 @@
 #include "app/lessons/lessonMeasures.h"
 
-#include "app/workspace/PingBench.h"
 #include "app/panels/WhyPanel.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "base/Error.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -339,8 +339,7 @@ Value lessonMeasure(WindowParts &window, const std::string &name)
 
 void checkMeasure(const std::string &name, const std::string &where)
 {
-    const bool isView =
-        begins(name, "view.") && WindowViews::names().contains(QString::fromStdString(name.substr(5)));
+    const bool isView = begins(name, "view.") && WindowViews::names().contains(QString::fromStdString(name.substr(5)));
     if (isView || measures().contains(name) || isLineMeasure(name) || testField(name))
         return;
     try {

@@ -29,7 +29,8 @@ void checkMeasure(const std::string &name, const std::string &where);
 
 bool holds(WindowParts &window, const LessonCondition &condition);
 
-/// The first part that does not hold, and what there is instead; empty if all hold. For tests and for those who write lessons.
+/// The first part that does not hold, and what there is instead; empty if all hold. For tests and for those who write
+/// lessons.
 std::string failure(WindowParts &window, const LessonCondition &condition);
 
 } // namespace faintline

@@ -2,12 +2,12 @@
 
 #include "app/base/statisticUnit.h"
 #include "evaluate/comparison/differencePicture.h"
-#include "widgets/waterfall/ColourBar.h"
 #include "widgets/base/Theme.h"
-#include "widgets/waterfall/WaterfallView.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/settingWords.h"
+#include "widgets/waterfall/ColourBar.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QEvent>
 #include <QHBoxLayout>
@@ -38,7 +38,10 @@ namespace {
             setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
         }
 
-        bool operator<(const QTableWidgetItem &other) const override { return m_value < static_cast<const Cell &>(other).m_value; }
+        bool operator<(const QTableWidgetItem &other) const override
+        {
+            return m_value < static_cast<const Cell &>(other).m_value;
+        }
 
     private:
         double m_value;
@@ -61,15 +64,18 @@ namespace {
             return difference.field.kind == FieldKind::Choice ? choiceLabel(word) : word;
         };
         const QString name = QString::fromStdString(difference.field.name);
-        const QString label = name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector")) : settingLabel(name);
-        const QString unit = difference.field.unit.empty() ? QString() : QLatin1Char(' ') + QString::fromStdString(difference.field.unit);
+        const QString label =
+            name == QLatin1String("detector.kind") ? stageLabel(QStringLiteral("detector")) : settingLabel(name);
+        const QString unit = difference.field.unit.empty()
+                                 ? QString()
+                                 : QLatin1Char(' ') + QString::fromStdString(difference.field.unit);
         return QStringLiteral("%1 %2 → %3%4").arg(label, value(difference.a), value(difference.b), unit);
     }
 
     const Track *trackOf(const Analysis &analysis, int id)
     {
-        const auto found =
-            std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [id](const Track &track) { return track.id == id; });
+        const auto found = std::find_if(analysis.tracks.begin(), analysis.tracks.end(),
+                                        [id](const Track &track) { return track.id == id; });
         return found == analysis.tracks.end() ? nullptr : &*found;
     }
 
@@ -84,17 +90,19 @@ namespace {
             low = std::min(low, value);
             high = std::max(high, value);
         }
-        return {{time.value(static_cast<double>(track.onsetFrame)), time.value(static_cast<double>(track.endFrame))}, {low, high}};
+        return {{time.value(static_cast<double>(track.onsetFrame)), time.value(static_cast<double>(track.endFrame))},
+                {low, high}};
     }
 
 } // namespace
 
 ComparePanel::ComparePanel(Document &document, AnalysisController &controller, Comparer &comparer, QWidget *parent)
     : QWidget(parent), m_document(document), m_controller(controller), m_comparer(comparer),
-      m_picture(new WaterfallView(tr("B − A (nat)"))),
-      m_picturePane(buildPicture()), m_sentence(plainLabel()), m_differences(new QLabel), m_keep(new QPushButton(tr("Keep as A"))),
-      m_swap(new QPushButton(tr("Swap"))), m_goTo(new QPushButton(tr("Go to A"))), m_compute(new QPushButton(tr("Compute A here"))),
-      m_filters{new QToolButton, new QToolButton, new QToolButton}, m_table(new QTableWidget(0, ColumnCount))
+      m_picture(new WaterfallView(tr("B − A (nat)"))), m_picturePane(buildPicture()), m_sentence(plainLabel()),
+      m_differences(new QLabel), m_keep(new QPushButton(tr("Keep as A"))), m_swap(new QPushButton(tr("Swap"))),
+      m_goTo(new QPushButton(tr("Go to A"))),
+      m_compute(new QPushButton(tr("Compute A here"))), m_filters{new QToolButton, new QToolButton, new QToolButton},
+      m_table(new QTableWidget(0, ColumnCount))
 {
     buildTable();
     auto *splitter = new QSplitter(Qt::Horizontal);
@@ -114,7 +122,8 @@ ComparePanel::ComparePanel(Document &document, AnalysisController &controller, C
     connect(&comparer, &Comparer::progressed, this, [this](double fraction, const QString &what) {
         m_sentence->setText(tr("%1, %2 %").arg(what).arg(static_cast<int>(100.0 * fraction)));
     });
-    connect(&comparer, &Comparer::failed, this, [this](const Error &error) { m_sentence->setText(messageText(error.what())); });
+    connect(&comparer, &Comparer::failed, this,
+            [this](const Error &error) { m_sentence->setText(messageText(error.what())); });
     connect(&document, &Document::analysisChanged, this, &ComparePanel::updateButtons);
     follow();
 }
@@ -125,7 +134,8 @@ QWidget *ComparePanel::buildPicture()
     bar->attach(m_picture);
     m_picture->setObjectName(QStringLiteral("difference"));
     m_picture->setViewport(&m_document.viewport());
-    m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red") : QStringLiteral("ice-fire"));
+    m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red")
+                                                                         : QStringLiteral("ice-fire"));
     m_picture->setMinimumSize(150, 90);
     auto *pane = new QWidget;
     auto *layout = new QHBoxLayout(pane);
@@ -239,7 +249,8 @@ void ComparePanel::changeEvent(QEvent *event)
 {
     QWidget::changeEvent(event);
     if (event->type() == QEvent::PaletteChange)
-        m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red") : QStringLiteral("ice-fire"));
+        m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red")
+                                                                             : QStringLiteral("ice-fire"));
 }
 
 void ComparePanel::keep()
@@ -280,9 +291,10 @@ void ComparePanel::showPicture()
 {
     const auto &result = m_comparer.result();
     m_picturePane->setVisible(!m_document.hasPings());
-    m_picture->setEmptySentence(m_comparer.kept() ? tr("The difference appears here if A and B are of the same "
-                                                       "recording.")
-                                                  : tr("Keep the current result as A (Ctrl+B), then change any setting."));
+    m_picture->setEmptySentence(m_comparer.kept()
+                                    ? tr("The difference appears here if A and B are of the same "
+                                         "recording.")
+                                    : tr("Keep the current result as A (Ctrl+B), then change any setting."));
     if (!result || !result->difference)
         return m_picture->setPicture(nullptr, {});
     const bool isPlain = haveCommonUnit(*result->a, *result->b);
@@ -300,16 +312,17 @@ void ComparePanel::showEvents()
     const Comparison none;
     const Comparison &comparison = result ? result->comparison : none;
     for (const In in : {In::A, In::B, In::Both})
-        m_filters[static_cast<int>(in)]->setText(in == In::Both ? tr("both %1").arg(comparison.count(in))
-                                                                : tr("%1 %2").arg(nameOf(in)).arg(comparison.count(in)));
+        m_filters[static_cast<int>(in)]->setText(in == In::Both
+                                                     ? tr("both %1").arg(comparison.count(in))
+                                                     : tr("%1 %2").arg(nameOf(in)).arg(comparison.count(in)));
     m_table->setSortingEnabled(false);
     m_table->setRowCount(0);
     if (result) {
         const Axis &place = result->b->grid().axes.back();
         const QString unitA = statisticUnit(result->a->settings), unitB = statisticUnit(result->b->settings);
         const QString placeName = place.unit == "Hz" ? tr("Frequency") : labelText(place.name, mostUnitLetters);
-        m_table->setHorizontalHeaderLabels({tr("In"), tr("Onset"), placeName,
-                                            tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
+        m_table->setHorizontalHeaderLabels(
+            {tr("In"), tr("Onset"), placeName, tr("A at"), tr("B at"), tr("D of A"), tr("D of B")});
         m_table->horizontalHeaderItem(DetectedA)->setToolTip(tr("Time at which A detected it"));
         m_table->horizontalHeaderItem(DetectedB)->setToolTip(tr("Time at which B detected it"));
         m_table->horizontalHeaderItem(StatisticA)->setToolTip(tr("Largest statistic in A, %1").arg(unitA));
@@ -322,16 +335,23 @@ void ComparePanel::showEvents()
             const double step = result->b->time().step;
             const int row = m_table->rowCount();
             m_table->setRowCount(row + 1);
-            const auto set = [&](int column, const QString &text, double value) { m_table->setItem(row, column, new Cell(text, value)); };
-            const auto time = [&](const std::optional<Event> &side) { return side ? secondsText(side->detectSeconds, step) : QString(); };
-            const auto nats = [&](const std::optional<Event> &side) { return side ? numberText(side->statistic, 1) : QString(); };
+            const auto set = [&](int column, const QString &text, double value) {
+                m_table->setItem(row, column, new Cell(text, value));
+            };
+            const auto time = [&](const std::optional<Event> &side) {
+                return side ? secondsText(side->detectSeconds, step) : QString();
+            };
+            const auto nats = [&](const std::optional<Event> &side) {
+                return side ? numberText(side->statistic, 1) : QString();
+            };
             set(InColumn, nameOf(compared.in()), static_cast<double>(compared.in()));
             m_table->item(row, InColumn)->setData(Qt::UserRole, static_cast<int>(i));
             m_table->item(row, InColumn)->setTextAlignment(Qt::AlignLeft | Qt::AlignVCenter);
             set(Onset, secondsText(event.onsetSeconds, step), event.onsetSeconds);
             set(Place,
-                place.unit == "Hz" ? hertzText(event.position.back(), place.step)
-                                   : numberText(event.position.back(), 1) + QLatin1Char(' ') + labelText(place.unit, mostUnitLetters),
+                place.unit == "Hz"
+                    ? hertzText(event.position.back(), place.step)
+                    : numberText(event.position.back(), 1) + QLatin1Char(' ') + labelText(place.unit, mostUnitLetters),
                 event.position.back());
             set(DetectedA, time(compared.a), compared.a ? compared.a->detectSeconds : nothing);
             set(DetectedB, time(compared.b), compared.b ? compared.b->detectSeconds : nothing);
@@ -351,7 +371,8 @@ std::vector<Track> ComparePanel::tracksAlone(const Comparer::Result &result) con
     const bool haveSameAxes = result.a->time() == result.b->time() && result.a->grid() == result.b->grid();
     std::vector<Track> alone;
     for (const ComparedEvent &compared : result.comparison.events) {
-        if (compared.in() == In::Both || !m_filters[static_cast<int>(compared.in())]->isChecked() || (!compared.b && !haveSameAxes))
+        if (compared.in() == In::Both || !m_filters[static_cast<int>(compared.in())]->isChecked()
+            || (!compared.b && !haveSameAxes))
             continue;
         if (const Track *track = trackOf(compared.b ? *result.b : *result.a, compared.event().id))
             alone.push_back(*track);
@@ -365,7 +386,8 @@ QString ComparePanel::costText() const
     if (!cost)
         return {};
     const auto seconds = [](double value) { return numberText(value, value < 10.0 ? 2 : value < 100.0 ? 1 : 0); };
-    return tr(" One hour of recording takes %1 s of processor time with A and %2 s with B.").arg(seconds(cost->a), seconds(cost->b));
+    return tr(" One hour of recording takes %1 s of processor time with A and %2 s with B.")
+        .arg(seconds(cost->a), seconds(cost->b));
 }
 
 void ComparePanel::showWords()
@@ -377,7 +399,8 @@ void ComparePanel::showWords()
             m_sentence->setText(tr("Keep the current result as A, then change the detector or any setting. The "
                                    "difference, and the events that only one of the two found, appear here."));
         else
-            m_sentence->setText(m_comparer.isOfWhatIsOpen() ? tr("Comparing …") : tr("A was computed on another source."));
+            m_sentence->setText(m_comparer.isOfWhatIsOpen() ? tr("Comparing …")
+                                                            : tr("A was computed on another source."));
         return;
     }
     const Comparison &comparison = result->comparison;
@@ -402,7 +425,8 @@ void ComparePanel::goTo(int row)
     const QTableWidgetItem *item = m_table->item(row, InColumn);
     if (!result || !item)
         return;
-    const ComparedEvent &compared = result->comparison.events[static_cast<std::size_t>(item->data(Qt::UserRole).toInt())];
+    const ComparedEvent &compared =
+        result->comparison.events[static_cast<std::size_t>(item->data(Qt::UserRole).toInt())];
     if (compared.b)
         return emit eventActivated(compared.b->id);
     const Track *track = trackOf(*result->a, compared.a->id);

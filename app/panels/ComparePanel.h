@@ -14,8 +14,8 @@ namespace faintline {
 
 class WaterfallView;
 
-/// A against B: the difference of their statistics on the viewport that all pictures share, what both have found and what only one has, in
-/// which settings they differ, and what each costs. A click on a line of the list goes there.
+/// A against B: the difference of their statistics on the viewport that all pictures share, what both have found and
+/// what only one has, in which settings they differ, and what each costs. A click on a line of the list goes there.
 class ComparePanel : public QWidget
 {
     Q_OBJECT

@@ -5,8 +5,8 @@
 #include "app/panels/StartColumn.h"
 #include "evaluate/experiments/campaignCharts.h"
 #include "spectrum/Spectrogram.h"
-#include "widgets/plot/ChartPlot.h"
 #include "widgets/base/quantities.h"
+#include "widgets/plot/ChartPlot.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -180,9 +180,12 @@ void EvaluatePanel::showOperatingPoint(const Experiments::Entry &entry)
     const bool hasThreshold = entry.campaign && m_document.analysis();
     const AnalysisSettings &settings = m_document.settings();
     const double threshold = m_document.shownThreshold();
-    m_pd->setChart(shown(m_pdChart, hasThreshold ? pdAtOperatingPoint(*entry.campaign, settings, threshold) : std::nullopt));
+    m_pd->setChart(
+        shown(m_pdChart, hasThreshold ? pdAtOperatingPoint(*entry.campaign, settings, threshold) : std::nullopt));
     if (m_tabs->currentIndex() == 1 && m_snr->currentIndex() >= 0)
-        m_roc->setChart(shown(m_rocChart, hasThreshold ? operatingPoint(*entry.campaign, shownSnr(), settings, threshold) : std::nullopt));
+        m_roc->setChart(shown(m_rocChart, hasThreshold
+                                              ? operatingPoint(*entry.campaign, shownSnr(), settings, threshold)
+                                              : std::nullopt));
 }
 
 std::size_t EvaluatePanel::shownSnr() const

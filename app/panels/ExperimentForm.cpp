@@ -69,9 +69,11 @@ ExperimentForm::ExperimentForm(QWidget *parent)
       m_drift(number(0, -5, 5, 0.05, 3, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
       m_wander(number(0, 0, 20, 0.5, 2, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
       m_wanderTime(number(15, 1, 1000, 1, 0, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
-      m_falseAlarms(number(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour to which all detectors are set"))),
-      m_runs(count(20, 1, 100000, tr("Number of runs of 30 lines each in simulated noise, or of lines added one at a "
-                                     "time to a recording"))),
+      m_falseAlarms(
+          number(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour to which all detectors are set"))),
+      m_runs(count(20, 1, 100000,
+                   tr("Number of runs of 30 lines each in simulated noise, or of lines added one at a "
+                      "time to a recording"))),
       m_seed(count(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
 {
     m_noise->addItem(tr("in simulated noise"));

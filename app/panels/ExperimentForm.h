@@ -19,8 +19,8 @@ namespace faintline {
 
 /// What an experiment is to measure: lines of which kind, at which SNRs, in which noise, by which detectors.
 ///
-/// Times are given in windows T_FT and frequencies in resolution cells 1/T_FT, as in the papers; where a recording is open, what they
-/// come to there is said below.
+/// Times are given in windows T_FT and frequencies in resolution cells 1/T_FT, as in the papers; where a recording is
+/// open, what they come to there is said below.
 class ExperimentForm : public QWidget
 {
     Q_OBJECT
@@ -28,8 +28,8 @@ class ExperimentForm : public QWidget
 public:
     explicit ExperimentForm(QWidget *parent = nullptr);
 
-    /// The current detector competes with these settings; `windowSeconds`: T_FT of what is open, 0 where nothing is; `recordingSeconds`: of it
-    /// as much as is analysed.
+    /// The current detector competes with these settings; `windowSeconds`: T_FT of what is open, 0 where nothing is;
+    /// `recordingSeconds`: of it as much as is analysed.
     void setCurrent(const AnalysisSettings &settings, double windowSeconds, double recordingSeconds);
 
     bool isInRecording() const;

@@ -1,7 +1,7 @@
 #include "app/panels/ExperimentsPanel.h"
 
-#include "app/document/Provenance.h"
 #include "app/base/filePath.h"
+#include "app/document/Provenance.h"
 #include "base/fileName.h"
 #include "exchange/CampaignFile.h"
 #include "exchange/writeReproduction.h"

@@ -11,7 +11,8 @@ class QTableWidget;
 
 namespace faintline {
 
-/// The list of experiments: what runs, waits and is done; look at one again, stop it, take one in from a file or write it out.
+/// The list of experiments: what runs, waits and is done; look at one again, stop it, take one in from a file or write
+/// it out.
 class ExperimentsPanel : public QWidget
 {
     Q_OBJECT

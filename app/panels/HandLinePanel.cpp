@@ -2,11 +2,11 @@
 
 #include "app/workspace/Workbench.h"
 #include "base/logmath.h"
-#include "widgets/waterfall/HandLine.h"
-#include "widgets/plot/StripPlot.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
+#include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/HandLine.h"
 
 #include <QEvent>
 #include <QGridLayout>
@@ -83,8 +83,9 @@ HandLinePanel::HandLinePanel(Document &document, Workbench &workbench, QWidget *
     m_table->horizontalHeaderItem(1)->setToolTip(tr("Evidence: the sum of the log-likelihood ratios along the path"));
     m_table->horizontalHeaderItem(2)->setToolTip(
         tr("Mean power along the path over the noise power, less one, in one frame"));
-    m_table->setVerticalHeaderLabels({tr("Your line, all frames"), tr("Your line, shared frames"), tr("Detector, "
-                                                                                                      "shared frames")});
+    m_table->setVerticalHeaderLabels({tr("Your line, all frames"), tr("Your line, shared frames"),
+                                      tr("Detector, "
+                                         "shared frames")});
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
     m_table->verticalHeader()->setDefaultSectionSize(22);
     m_table->setEditTriggers(QAbstractItemView::NoEditTriggers);

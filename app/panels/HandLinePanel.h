@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/pathEvidence.h"
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 
 #include <QWidget>
 
@@ -17,10 +17,11 @@ namespace faintline {
 class HandLine;
 class Workbench;
 
-/// Beat the detector: a line drawn by hand through the input, and what the data say about it, beside the detector's path in the same frames.
+/// Beat the detector: a line drawn by hand through the input, and what the data say about it, beside the detector's
+/// path in the same frames.
 ///
-/// *Predict, then reveal*: while it is covered, the statistic, tracks and truth are out of sight; the learner draws where the line is, and
-/// reveals. Numbers follow while a vertex is dragged; the newest line wins.
+/// *Predict, then reveal*: while it is covered, the statistic, tracks and truth are out of sight; the learner draws
+/// where the line is, and reveals. Numbers follow while a vertex is dragged; the newest line wins.
 class HandLinePanel : public QWidget
 {
     Q_OBJECT

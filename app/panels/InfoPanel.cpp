@@ -1,10 +1,10 @@
 #include "app/panels/InfoPanel.h"
 
+#include "app/base/statisticUnit.h"
 #include "app/control/AnalysisController.h"
+#include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
 #include "app/panels/NoiseCheck.h"
-#include "app/base/statisticUnit.h"
-#include "app/control/thresholdWords.h"
 #include "base/utc.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/base/labelText.h"
@@ -59,8 +59,8 @@ namespace {
     void describeRecording(Rows &rows, const RecordingInfo &info)
     {
         rows.heading(tr("Recording"));
-        rows.row(tr("Format"), labelText(info.container + ", " + info.sampleType)
-                                   + (info.isComplex ? tr(", I/Q") : QString()));
+        rows.row(tr("Format"),
+                 labelText(info.container + ", " + info.sampleType) + (info.isComplex ? tr(", I/Q") : QString()));
         rows.row(tr("Sample rate"), QString::fromStdString(formatNumber(info.sampleRateHz)) + tr(" Hz"));
         rows.row(tr("Length"), secondsText(info.durationSeconds(), 1e-3 * info.durationSeconds()));
         rows.row(tr("Channels"), QString::number(info.channelCount));
@@ -85,7 +85,8 @@ namespace {
                          .arg(labelText(axis.unit, mostUnitLetters), axis.cyclic ? tr(", full circle") : QString()));
         rows.row(tr("States"), QString::number(analysis.model.space.stateCount()));
         if (analysis.lnKBand.deviation > 0.0)
-            rows.row(tr("ln K on noise"), tr("%1 … %2 nat").arg(analysis.lnKBand.low(), 0, 'f', 3).arg(analysis.lnKBand.high(), 0, 'f', 3));
+            rows.row(tr("ln K on noise"),
+                     tr("%1 … %2 nat").arg(analysis.lnKBand.low(), 0, 'f', 3).arg(analysis.lnKBand.high(), 0, 'f', 3));
     }
 
     void describeFrames(Rows &rows, const Analysis &analysis)
@@ -110,21 +111,25 @@ namespace {
                                       .arg(analysis.threshold, 0, 'f', 2)
                                       .arg(calibration.thresholdUncertainty(eventRate), 0, 'f', 2)
                                       .arg(unit));
-        rows.row(tr("False alarms"), QString::fromStdString(falseAlarmWords(eventRate * analysis.cellFramesPerHour,
-                                                                            calibration.rateUncertaintyAt(analysis.threshold))));
+        rows.row(tr("False alarms"),
+                 QString::fromStdString(falseAlarmWords(eventRate * analysis.cellFramesPerHour,
+                                                        calibration.rateUncertaintyAt(analysis.threshold))));
         if (calibration.isFirstEstimate)
             rows.note(firstEstimateSentence(analysis, isBusy));
         rows.row(tr("Pfa per cell"), powerText(calibration.exceedanceAt(analysis.threshold)));
         rows.row(tr("ln K"), withUnit(calibration.lnK, 3, "nat"));
         rows.row(tr("Paths continued"), withUnit(100.0 * calibration.continuedFraction, 1, "%"));
-        rows.row(tr("Tail e^(-θT), θ"),
-                 tr("%1 ± %2 per %3").arg(calibration.tailSlope, 0, 'f', 3).arg(calibration.slopeError, 0, 'f', 3).arg(unit));
+        rows.row(tr("Tail e^(-θT), θ"), tr("%1 ± %2 per %3")
+                                            .arg(calibration.tailSlope, 0, 'f', 3)
+                                            .arg(calibration.slopeError, 0, 'f', 3)
+                                            .arg(unit));
     }
 
 } // namespace
 
 InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, QWidget *parent)
-    : QWidget(parent), m_document(document), m_controller(controller), m_label(new QLabel), m_check(new NoiseCheck(document, controller))
+    : QWidget(parent), m_document(document), m_controller(controller), m_label(new QLabel),
+      m_check(new NoiseCheck(document, controller))
 {
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     m_label->setAlignment(Qt::AlignTop | Qt::AlignLeft);

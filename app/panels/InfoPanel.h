@@ -10,7 +10,8 @@ class AnalysisController;
 class Document;
 class NoiseCheck;
 
-/// In figures: what was opened, how it was cut into spectra, and how the detector answers to noise, this recording's too.
+/// In figures: what was opened, how it was cut into spectra, and how the detector answers to noise, this recording's
+/// too.
 class InfoPanel : public QWidget
 {
     Q_OBJECT

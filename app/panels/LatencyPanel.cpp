@@ -2,8 +2,8 @@
 
 #include "base/Interval.h"
 #include "evaluate/experiments/PingExperiment.h"
-#include "widgets/plot/ChartPlot.h"
 #include "widgets/base/labelText.h"
+#include "widgets/plot/ChartPlot.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -41,7 +41,8 @@ namespace {
         const auto count = static_cast<double>(latencies.size());
         const std::vector<double> pd = pdAgainstPings(latencies, longest);
         for (std::size_t i = 0; i < pd.size(); ++i)
-            curve.points.push_back({static_cast<double>(i + 1), pd[i], wilsonInterval(std::llround(pd[i] * count), std::ssize(latencies))});
+            curve.points.push_back({static_cast<double>(i + 1), pd[i],
+                                    wilsonInterval(std::llround(pd[i] * count), std::ssize(latencies))});
         return curve;
     }
 
@@ -57,8 +58,8 @@ namespace {
 } // namespace
 
 LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_runs(new QSpinBox), m_button(new QPushButton(tr("&Measure"))), m_sentence(plainLabel()),
-      m_pd(new ChartPlot), m_histogram(new ChartPlot)
+    : QWidget(parent), m_document(document), m_runs(new QSpinBox), m_button(new QPushButton(tr("&Measure"))),
+      m_sentence(plainLabel()), m_pd(new ChartPlot), m_histogram(new ChartPlot)
 {
     constexpr int usualRuns = 12;
     m_runs->setRange(1, 10000);
@@ -85,7 +86,8 @@ LatencyPanel::LatencyPanel(const Document &document, QWidget *parent)
     layout->addLayout(top);
     layout->addWidget(charts, 1);
 
-    connect(m_button, &QPushButton::clicked, this, [this] { m_runner.isRunning() ? m_runner.cancel() : start(m_runs->value()); });
+    connect(m_button, &QPushButton::clicked, this,
+            [this] { m_runner.isRunning() ? m_runner.cancel() : start(m_runs->value()); });
     connect(&document, &Document::opened, this, [this] {
         m_runner.cancel();
         m_pd->setChart({});
@@ -124,7 +126,8 @@ QString LatencyPanel::obstacle() const
         return tr("Needs a simulated scene of pings with known targets.");
     if (!m_document.analysis())
         return tr("Needs an analysis to take its threshold from.");
-    if (!std::holds_alternative<SmdSettings>(m_document.settings().detector) || m_document.settings().model.motion == Motion::Bank)
+    if (!std::holds_alternative<SmdSettings>(m_document.settings().detector)
+        || m_document.settings().model.motion == Motion::Bank)
         return tr("Needs the sequential Markov detector with a single model.");
     return {};
 }
@@ -162,12 +165,23 @@ void LatencyPanel::show(const std::vector<TrackScore> &scores, Index longest, do
         falseConfirmed += run.falseConfirmed;
     }
     const Index last = std::max<Index>(1, *std::max_element(all.confirmation.begin(), all.confirmation.end()));
-    const Index shown = std::min(longest, std::max(last, *std::max_element(all.detection.begin(), all.detection.end())) + 3);
-    m_pd->setChart({"Probability of detection against latency", "pings since the target appeared", "Pd", false, false,
+    const Index shown =
+        std::min(longest, std::max(last, *std::max_element(all.detection.begin(), all.detection.end())) + 3);
+    m_pd->setChart({"Probability of detection against latency",
+                    "pings since the target appeared",
+                    "Pd",
+                    false,
+                    false,
                     {pdCurve("detected", all.detection, shown), pdCurve("confirmed", all.confirmation, shown)}});
-    m_histogram->setChart({"Latency", "pings since the target appeared", "targets", false, false,
-                           {histogramCurve("detected", all.detection, shown), histogramCurve("confirmed", all.confirmation, shown)}});
-    const auto never = std::count_if(all.detection.begin(), all.detection.end(), [](Index latency) { return latency < 0; });
+    m_histogram->setChart(
+        {"Latency",
+         "pings since the target appeared",
+         "targets",
+         false,
+         false,
+         {histogramCurve("detected", all.detection, shown), histogramCurve("confirmed", all.confirmation, shown)}});
+    const auto never =
+        std::count_if(all.detection.begin(), all.detection.end(), [](Index latency) { return latency < 0; });
     m_sentence->setText(tr("%1 targets in %2 runs at %3 nat, after 200 pings of noise: %4 not found; %5 false tracks, "
                            "%6 of them confirmed.")
                             .arg(all.detection.size())

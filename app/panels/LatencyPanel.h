@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
+#include "app/document/Document.h"
 #include "evaluate/comparison/trackScore.h"
 
 #include <QWidget>
@@ -14,8 +14,9 @@ namespace faintline {
 
 class ChartPlot;
 
-/// How soon the targets of the scene that is open are found: the scene again and again with other noise (PingExperiment), the probability
-/// of detection against the pings a target has been there, and how many took how long.
+/// How soon the targets of the scene that is open are found: the scene again and again with other noise
+/// (PingExperiment), the probability of detection against the pings a target has been there, and how many took how
+/// long.
 class LatencyPanel : public QWidget
 {
     Q_OBJECT

@@ -3,10 +3,10 @@
 #include "app/base/VisibilityWatcher.h"
 #include "base/logmath.h"
 #include "model/transitionLaw.h"
-#include "widgets/plot/LawPlot.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
+#include "widgets/plot/LawPlot.h"
 
 #include <QLabel>
 #include <QVBoxLayout>
@@ -42,7 +42,8 @@ namespace {
 } // namespace
 
 LawPanel::LawPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_plots(new QVBoxLayout), m_sentence(new QLabel), m_sight(new VisibilityWatcher(*this))
+    : QWidget(parent), m_document(document), m_plots(new QVBoxLayout), m_sentence(new QLabel),
+      m_sight(new VisibilityWatcher(*this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -83,25 +84,31 @@ std::vector<LawPanel::Law> LawPanel::lawsOf(const Analysis &analysis) const
         std::vector<std::size_t> axes;
         for (std::size_t axis = 0; axis < analysis.grid().axes.size(); ++axis)
             axes.push_back(axis);
-        return {{QStringLiteral("model.slopeChange"),
-                 sloped(model.slopesPerBin),
-                 model.slopeChange, analysis.model.space.axes().front().rateCount - 1, axes}};
+        return {{QStringLiteral("model.slopeChange"), sloped(model.slopesPerBin), model.slopeChange,
+                 analysis.model.space.axes().front().rateCount - 1, axes}};
     }
     if (analysis.grid().axes.size() != 2)
         return {};
     if (model.motion == Motion::NonManoeuvring)
         return {{{}, tr("Rates do not change from ping to ping (cells/ping)"), {1.0}, 0, {0, 1}}};
     const std::vector<KinematicAxis> &axes = turningSpace(analysis).axes();
-    return {{QStringLiteral("model.rangeRateChange"), tr("Change of range rate per %1 (cells/%1)").arg(frame), model.rangeRateChange,
-             axes[0].rateCount - 1, {0}},
-            {QStringLiteral("model.bearingRateChange"), tr("Change of bearing rate per %1 (cells/%1)").arg(frame), model.bearingRateChange,
-             axes[1].rateCount - 1, {1}}};
+    return {{QStringLiteral("model.rangeRateChange"),
+             tr("Change of range rate per %1 (cells/%1)").arg(frame),
+             model.rangeRateChange,
+             axes[0].rateCount - 1,
+             {0}},
+            {QStringLiteral("model.bearingRateChange"),
+             tr("Change of bearing rate per %1 (cells/%1)").arg(frame),
+             model.bearingRateChange,
+             axes[1].rateCount - 1,
+             {1}}};
 }
 
 void LawPanel::show()
 {
     const auto &analysis = m_document.analysis();
-    if (!analysis || analysis->model.space.axes().empty() || analysis->model.space.axes().size() != analysis->grid().axes.size())
+    if (!analysis || analysis->model.space.axes().empty()
+        || analysis->model.space.axes().size() != analysis->grid().axes.size())
         return;
     std::vector<Law> laws = lawsOf(*analysis);
     while (m_laws.size() > laws.size()) {
@@ -115,7 +122,8 @@ void LawPanel::show()
             law.plot = new LawPlot;
             m_plots->addWidget(law.plot, 1);
             connect(law.plot, &LawPlot::lawDragged, this, [this] {
-                m_sentence->setFixedHeight(m_sentence->height()); // other words must not move the bar from under the pointer
+                m_sentence->setFixedHeight(
+                    m_sentence->height()); // other words must not move the bar from under the pointer
                 sayWhatItMeans();
             });
             connect(law.plot, &LawPlot::lawRequested, this, [this, i](const std::vector<double> &values) {
@@ -150,12 +158,12 @@ QString LawPanel::driftWords(const Analysis &analysis) const
         const QString name = labelText(axis.unit, mostUnitLetters);
         const QString cells = m_document.hasPings() ? tr("cells/ping") : tr("bins/frame");
         const QString words = lowest == -highest
-            ? tr("±%1 (±%2 %3)").arg(perSecond(highest * unit, name)).arg(highest).arg(cells)
-            : tr("%1 … %2 (%3 … %4 %5)")
-                  .arg(perSecond(lowest * unit, name), perSecond(highest * unit, name))
-                  .arg(lowest)
-                  .arg(highest)
-                  .arg(cells);
+                                  ? tr("±%1 (±%2 %3)").arg(perSecond(highest * unit, name)).arg(highest).arg(cells)
+                                  : tr("%1 … %2 (%3 … %4 %5)")
+                                        .arg(perSecond(lowest * unit, name), perSecond(highest * unit, name))
+                                        .arg(lowest)
+                                        .arg(highest)
+                                        .arg(cells);
         drifts << (axes.size() > 1 ? labelText(axis.name, mostUnitLetters) + QLatin1Char(' ') + words : words);
     }
     return tr("Largest drift: %1.").arg(drifts.join(QStringLiteral(", ")));

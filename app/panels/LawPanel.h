@@ -14,7 +14,8 @@ namespace faintline {
 class LawPlot;
 class VisibilityWatcher;
 
-/// The laws of the model's changes of rate, one for each that the settings hold, to be dragged; what they mean in words below.
+/// The laws of the model's changes of rate, one for each that the settings hold, to be dragged; what they mean in words
+/// below.
 class LawPanel : public QWidget
 {
     Q_OBJECT

@@ -24,7 +24,8 @@ namespace {
 
     QString row(const QString &name, const QString &present, const QString &learned)
     {
-        return QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td><td>%2&nbsp;&nbsp;</td><td>%3</td></tr>").arg(name, present, learned);
+        return QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td><td>%2&nbsp;&nbsp;</td><td>%3</td></tr>")
+            .arg(name, present, learned);
     }
 
     QString nats(double value)
@@ -34,9 +35,10 @@ namespace {
 
 } // namespace
 
-LearnMotionDialog::LearnMotionDialog(std::shared_ptr<const Analysis> analysis, AnalysisController &controller, QWidget *parent)
-    : QDialog(parent), m_analysis(std::move(analysis)), m_controller(controller), m_words(new QLabel(tr("Learning from the tracks …"))),
-      m_progress(new QProgressBar)
+LearnMotionDialog::LearnMotionDialog(std::shared_ptr<const Analysis> analysis, AnalysisController &controller,
+                                     QWidget *parent)
+    : QDialog(parent), m_analysis(std::move(analysis)), m_controller(controller),
+      m_words(new QLabel(tr("Learning from the tracks …"))), m_progress(new QProgressBar)
 {
     setWindowTitle(tr("Learn motion from tracks"));
     m_words->setObjectName(QStringLiteral("learnedMotion"));
@@ -56,7 +58,8 @@ LearnMotionDialog::LearnMotionDialog(std::shared_ptr<const Analysis> analysis, A
 
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons, &QDialogButtonBox::accepted, this, &LearnMotionDialog::apply);
-    connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &) { m_progress->setValue(static_cast<int>(1000.0 * fraction)); });
+    connect(&m_runner, &JobRunner::progressed, this,
+            [this](double fraction, const QString &) { m_progress->setValue(static_cast<int>(1000.0 * fraction)); });
     connect(&m_runner, &JobRunner::finished, this, &LearnMotionDialog::settled);
     connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
         m_progress->hide();
@@ -73,12 +76,16 @@ void LearnMotionDialog::show(const LearnedMotion &motion)
     m_motion = motion;
     m_progress->hide();
     m_apply->setEnabled(true);
-    const QString learnedFrom = tr("From %n track(s), %1 frames.", nullptr, static_cast<int>(motion.tracks)).arg(motion.frames, 0, 'f', 0);
-    const QString table = row(QString(), tr("<b>present</b>"), tr("<b>learned</b>")) + row(tr("Slope changes"), lawText(motion.present), lawText(motion.learned))
-        + row(tr("ln K"), nats(motion.presentLnK), nats(motion.learnedLnK)) + row(tr("Threshold"), nats(motion.presentThreshold), nats(motion.learnedThreshold));
-    const QString gain = tr("Gain of the learned law over the threshold: %1 nat for a path of 25 frames, %2 nat for one of 100 frames.")
-                             .arg(motion.gainOver(25.0), 0, 'f', 1)
-                             .arg(motion.gainOver(100.0), 0, 'f', 1);
+    const QString learnedFrom =
+        tr("From %n track(s), %1 frames.", nullptr, static_cast<int>(motion.tracks)).arg(motion.frames, 0, 'f', 0);
+    const QString table = row(QString(), tr("<b>present</b>"), tr("<b>learned</b>"))
+                          + row(tr("Slope changes"), lawText(motion.present), lawText(motion.learned))
+                          + row(tr("ln K"), nats(motion.presentLnK), nats(motion.learnedLnK))
+                          + row(tr("Threshold"), nats(motion.presentThreshold), nats(motion.learnedThreshold));
+    const QString gain =
+        tr("Gain of the learned law over the threshold: %1 nat for a path of 25 frames, %2 nat for one of 100 frames.")
+            .arg(motion.gainOver(25.0), 0, 'f', 1)
+            .arg(motion.gainOver(100.0), 0, 'f', 1);
     m_words->setText(QStringLiteral("<p>%1</p><table>%2</table><p>%3</p>").arg(learnedFrom, table, gain));
     m_words->setFixedHeight(m_words->heightForWidth(m_words->width()));
     adjustSize();

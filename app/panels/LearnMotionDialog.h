@@ -15,13 +15,15 @@ namespace faintline {
 
 class AnalysisController;
 
-/// The law of motion that an analysis' own tracks suggest (`learnMotion`), beside the present one, with what it would gain; applied only if asked.
+/// The law of motion that an analysis' own tracks suggest (`learnMotion`), beside the present one, with what it would
+/// gain; applied only if asked.
 class LearnMotionDialog : public QDialog
 {
     Q_OBJECT
 
 public:
-    LearnMotionDialog(std::shared_ptr<const Analysis> analysis, AnalysisController &controller, QWidget *parent = nullptr);
+    LearnMotionDialog(std::shared_ptr<const Analysis> analysis, AnalysisController &controller,
+                      QWidget *parent = nullptr);
 
     bool isBusy() const { return m_runner.isRunning(); }
 

@@ -1,8 +1,8 @@
 #include "app/panels/NoiseCheck.h"
 
 #include "analysis/noiseLaw.h"
-#include "app/control/AnalysisController.h"
 #include "app/base/statisticUnit.h"
+#include "app/control/AnalysisController.h"
 #include "base/Error.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
@@ -141,7 +141,8 @@ void NoiseCheck::count()
     m_result->hide();
     m_correct->hide();
     m_runner.start([this, analysis = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
-        const SurrogateCount counted = countOnSurrogates(analysis->recording, analysis->settings, runsFor(*analysis), context);
+        const SurrogateCount counted =
+            countOnSurrogates(analysis->recording, analysis->settings, runsFor(*analysis), context);
         return [this, counted] { show(counted); };
     });
     m_button->setText(tr("Stop"));
@@ -160,7 +161,8 @@ void NoiseCheck::show(const SurrogateCount &count)
         text += QLatin1Char(' ') + tr("The threshold gives the specified false-alarm rate here.");
     } else {
         m_correctedNats = analysis.threshold + count.correction;
-        m_correct->setText(tr("Set threshold to %1 %2").arg(numberText(m_correctedNats, 2), statisticUnit(analysis.settings)));
+        m_correct->setText(
+            tr("Set threshold to %1 %2").arg(numberText(m_correctedNats, 2), statisticUnit(analysis.settings)));
         m_correct->setToolTip(tr("At this threshold the false-alarm rate is as specified"));
         m_correct->show();
     }

@@ -18,10 +18,10 @@ class Document;
 
 /// Whether the threshold keeps its promise in the recording that is open.
 ///
-/// After each analysis the noise outside its tracks is looked at (`checkNoiseLaw`), and a sentence stands here where it is not what the
-/// threshold was calibrated for. "Count on noise like this recording's" sends surrogates of the recording through the whole chain
-/// (`countOnSurrogates`), says how many false alarms came for one ordered, and moves the threshold by a click so that as many
-/// come as were ordered. Both run behind the window; the count can be stopped.
+/// After each analysis the noise outside its tracks is looked at (`checkNoiseLaw`), and a sentence stands here where it
+/// is not what the threshold was calibrated for. "Count on noise like this recording's" sends surrogates of the
+/// recording through the whole chain (`countOnSurrogates`), says how many false alarms came for one ordered, and moves
+/// the threshold by a click so that as many come as were ordered. Both run behind the window; the count can be stopped.
 class NoiseCheck : public QWidget
 {
     Q_OBJECT

@@ -1,12 +1,12 @@
 #include "app/panels/NoiseFitPanel.h"
 
 #include "analysis/Calibration.h"
-#include "app/document/Document.h"
 #include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
-#include "widgets/plot/ChartPlot.h"
+#include "app/document/Document.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
+#include "widgets/plot/ChartPlot.h"
 
 #include <QHeaderView>
 #include <QLabel>
@@ -31,7 +31,8 @@ namespace {
         if (axis.unit != "Hz") {
             const int decimals = decimalsFor((band.high - band.low) / 10.0);
             return QObject::tr("%1 … %2 %3")
-                .arg(numberText(band.low, decimals), numberText(band.high, decimals), labelText(axis.unit, mostUnitLetters));
+                .arg(numberText(band.low, decimals), numberText(band.high, decimals),
+                     labelText(axis.unit, mostUnitLetters));
         }
         const FrequencyUnit unit = frequencyUnit(std::max(std::abs(band.low), std::abs(band.high)));
         const int decimals = decimalsFor((band.high - band.low) / unit.hz / 10.0);
@@ -82,8 +83,8 @@ namespace {
 } // namespace
 
 NoiseFitPanel::NoiseFitPanel(const Document &document, QWidget *parent)
-    : QWidget(parent), m_document(document), m_sentence(plainLabel()),
-      m_plot(new ChartPlot), m_table(new QTableWidget(0, 4)), m_sight(new VisibilityWatcher(*this))
+    : QWidget(parent), m_document(document), m_sentence(plainLabel()), m_plot(new ChartPlot),
+      m_table(new QTableWidget(0, 4)), m_sight(new VisibilityWatcher(*this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setText(tr("Open a recording to measure its noise."));
@@ -137,11 +138,13 @@ void NoiseFitPanel::measure()
         Fit fit{analysis, {}, {}};
         const FrameGeometry geometry =
             analysis->recording ? faintline::frameGeometry(analysis->settings.spectrogram) : FrameGeometry();
-        fit.bands = fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4), mostCells, blindCells(*analysis));
-        if (analysis->settings.model.motion == Motion::Slopes) // a sonar's targets move on two axes, these cells lie on one
+        fit.bands =
+            fitNoise(*analysis->frames, bandCount, geometry, context.part(0.0, 0.4), mostCells, blindCells(*analysis));
+        if (analysis->settings.model.motion
+            == Motion::Slopes) // a sonar's targets move on two axes, these cells lie on one
             fit.pfa = misfitPfa(fit.bands, analysis->settings,
-                            std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
-                            context.part(0.4, 1.0));
+                                std::max(rarest, analysis->calibration->exceedanceAt(analysis->threshold)),
+                                context.part(0.4, 1.0));
         return [this, fit = std::move(fit)] { show(fit); };
     });
 }
@@ -153,12 +156,12 @@ void NoiseFitPanel::show(const Fit &fit)
     m_table->setRowCount(static_cast<int>(fit.bands.size()));
     for (int row = 0; row < m_table->rowCount(); ++row) {
         const FittedBand &band = fit.bands[static_cast<std::size_t>(row)];
-        const QStringList texts{bandText(band, axis), numberText(band.law.mean(), 3),
-                                 tr("%1 %2 %3")
-                                     .arg(numberText(band.law.distance(), 4),
-                                          band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
-                                          numberText(NoiseLaw::distanceLimit(band.independent), 4)),
-                                 fit.pfa.empty() ? QStringLiteral("–") : pfaText(fit.pfa[static_cast<std::size_t>(row)])};
+        const QStringList texts{
+            bandText(band, axis), numberText(band.law.mean(), 3),
+            tr("%1 %2 %3")
+                .arg(numberText(band.law.distance(), 4), band.fits() ? QStringLiteral("≤") : QStringLiteral(">"),
+                     numberText(NoiseLaw::distanceLimit(band.independent), 4)),
+            fit.pfa.empty() ? QStringLiteral("–") : pfaText(fit.pfa[static_cast<std::size_t>(row)])};
         fillRow(*m_table, row, texts, 1);
     }
     say(fit);
@@ -174,23 +177,30 @@ void NoiseFitPanel::say(const Fit &fit)
                                                       "cause this.")
                                                        .arg(misfits)
                                                        .arg(fit.bands.size()))
-                                   + QLatin1Char(' ') + tr("The effect of misfits on Pfa is computed for slope sets "
-                                                           "only."));
+                                   + QLatin1Char(' ')
+                                   + tr("The effect of misfits on Pfa is computed for slope sets "
+                                        "only."));
     const auto worst = std::max_element(fit.pfa.begin(), fit.pfa.end(),
                                         [](const MisfitPfa &a, const MisfitPfa &b) { return a.ratio() < b.ratio(); });
-    const QString band = bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());
+    const QString band =
+        bandText(fit.bands[static_cast<std::size_t>(worst - fit.pfa.begin())], fit.analysis->grid().axes.back());
     const bool isHarmless = misfits == 0 && worst->ratio() < notable;
-    const QString law = misfits > 0 ? tr("%1 of %2 bands depart from the law; lines in a band also cause this.").arg(misfits).arg(fit.bands.size())
+    const QString law = misfits > 0 ? tr("%1 of %2 bands depart from the law; lines in a band also cause this.")
+                                          .arg(misfits)
+                                          .arg(fit.bands.size())
                         : isHarmless ? tr("All bands follow the law.")
                                      : tr("All bands follow the law except in their tails, which include any lines.");
     const QString ratio = powerText(worst->ratio(), 3);
     const QString nominal = powerText(worst->nominal);
-    QString alarms = tr("If %1 were noise only, it would give %2 times the nominal Pfa of %3 per cell.").arg(band, ratio, nominal);
+    QString alarms =
+        tr("If %1 were noise only, it would give %2 times the nominal Pfa of %3 per cell.").arg(band, ratio, nominal);
     if (growsWithoutEnd(*worst))
         alarms = tr("If %1 were noise only, D would grow without bound and nearly every cell would exceed the "
-                    "threshold.").arg(band);
+                    "threshold.")
+                     .arg(band);
     else if (isHarmless)
-        alarms = tr("At a nominal Pfa of %1 per cell, the bands give at most %2 times that (%3).").arg(nominal, ratio, band);
+        alarms =
+            tr("At a nominal Pfa of %1 per cell, the bands give at most %2 times that (%3).").arg(nominal, ratio, band);
     m_sentence->setText(law + QLatin1Char(' ') + alarms);
 }
 

@@ -18,9 +18,9 @@ class ChartPlot;
 class Document;
 class VisibilityWatcher;
 
-/// Whether the selection's normalised noise follows the law that thresholds rest on, and what it costs where it does not: quantiles
-/// against quantiles, Kolmogorov and Smirnov's distance, and the false-alarm probability at the threshold, band by band. Measured by
-/// itself while it is seen.
+/// Whether the selection's normalised noise follows the law that thresholds rest on, and what it costs where it does
+/// not: quantiles against quantiles, Kolmogorov and Smirnov's distance, and the false-alarm probability at the
+/// threshold, band by band. Measured by itself while it is seen.
 class NoiseFitPanel : public QWidget
 {
     Q_OBJECT

@@ -54,8 +54,8 @@ OpenOptionsDialog::OpenOptionsDialog(const QString &path, QWidget *parent)
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
 
     auto *form = new QFormLayout(this);
-    auto *what =
-        new QLabel(tr("<b>%1</b> holds samples without a header. Specify their format.").arg(fileLabel(path).toHtmlEscaped()));
+    auto *what = new QLabel(
+        tr("<b>%1</b> holds samples without a header. Specify their format.").arg(fileLabel(path).toHtmlEscaped()));
     form->addRow(what);
     form->addRow(tr("&Type"), m_type);
     form->addRow(tr("Sample &rate"), m_rate);

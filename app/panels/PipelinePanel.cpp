@@ -1,14 +1,14 @@
 #include "app/panels/PipelinePanel.h"
 
-#include "app/control/AnalysisController.h"
 #include "analysis/chooseWindow.h"
 #include "analysis/slopeUnit.h"
+#include "app/control/AnalysisController.h"
 #include "spectrum/NoiseNormaliser.h"
-#include "widgets/forms/SettingsForm.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/settingWords.h"
+#include "widgets/forms/SettingsForm.h"
 
 #include <QComboBox>
 #include <QFormLayout>
@@ -24,8 +24,8 @@ namespace {
     /// "WAV, int16 · 12 kHz · 15 s"
     QString summary(const RecordingInfo &info)
     {
-        QStringList parts{labelText(
-            info.container == info.sampleType ? info.container : info.container + ", " + info.sampleType)};
+        QStringList parts{
+            labelText(info.container == info.sampleType ? info.container : info.container + ", " + info.sampleType)};
         parts << hertzText(info.sampleRateHz, 1e-3 * info.sampleRateHz)
               << secondsText(info.durationSeconds(), 1e-2 * info.durationSeconds());
         if (info.channelCount > 1)
@@ -109,8 +109,9 @@ void PipelinePanel::showRecording()
 void PipelinePanel::showSettings()
 {
     m_form->setSettings(m_document.settings());
-    m_form->setHzPerSecondOfABinAFrame(
-        m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings().spectrogram, m_document.recording()->info()) : 0.0);
+    m_form->setHzPerSecondOfABinAFrame(m_document.recording() ? hzPerSecondOfABinAFrame(
+                                           m_document.settings().spectrogram, m_document.recording()->info())
+                                                              : 0.0);
     for (const char *stage : {"selection", "spectrogram", "noise"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
     m_form->setSectionShown(QStringLiteral("conventional"), m_document.hasPings());
@@ -126,17 +127,22 @@ void PipelinePanel::showWindows()
 {
     m_window->clear();
     if (m_choice && m_choice->trials.size() > 1) {
-        const auto seconds = [&](std::size_t trial) { return QString::number(m_choice->trials[trial].windowSeconds, 'g', 4); };
+        const auto seconds = [&](std::size_t trial) {
+            return QString::number(m_choice->trials[trial].windowSeconds, 'g', 4);
+        };
         m_window->addItem(tr("From the recording: %1 s").arg(seconds(m_choice->chosen)));
         for (std::size_t i = 0; i < m_choice->trials.size(); ++i)
-            m_window->addItem(tr("%1 s, %n track(s)", nullptr, static_cast<int>(m_choice->trials[i].tracks)).arg(seconds(i)));
-        const auto taken = std::find_if(m_choice->trials.begin(), m_choice->trials.end(), [this](const WindowTrial &trial) {
-            return inWindowOf(trial, m_document.settings()) == m_document.settings();
-        });
+            m_window->addItem(
+                tr("%1 s, %n track(s)", nullptr, static_cast<int>(m_choice->trials[i].tracks)).arg(seconds(i)));
+        const auto taken =
+            std::find_if(m_choice->trials.begin(), m_choice->trials.end(), [this](const WindowTrial &trial) {
+                return inWindowOf(trial, m_document.settings()) == m_document.settings();
+            });
         if (leavesWindowToRecording(m_document.analysedSettings()))
             m_window->setCurrentIndex(0);
         else
-            m_window->setCurrentIndex(taken == m_choice->trials.end() ? -1 : static_cast<int>(taken - m_choice->trials.begin()) + 1);
+            m_window->setCurrentIndex(
+                taken == m_choice->trials.end() ? -1 : static_cast<int>(taken - m_choice->trials.begin()) + 1);
     }
     m_window->setVisible(m_window->count() > 0);
     m_top->labelForField(m_window)->setVisible(m_window->count() > 0);

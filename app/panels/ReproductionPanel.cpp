@@ -1,8 +1,8 @@
 #include "app/panels/ReproductionPanel.h"
 
-#include "widgets/plot/ChartPlot.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
+#include "widgets/plot/ChartPlot.h"
 
 #include <QComboBox>
 #include <QEvent>

@@ -14,8 +14,8 @@ namespace faintline {
 
 class ChartPlot;
 
-/// A table or figure of a publication beside ours: every cell with the paper's figure, ours, its interval, the gap and whether it lies
-/// inside its tolerance; the chart next to it; what the reader should know below.
+/// A table or figure of a publication beside ours: every cell with the paper's figure, ours, its interval, the gap and
+/// whether it lies inside its tolerance; the chart next to it; what the reader should know below.
 class ReproductionPanel : public QWidget
 {
     Q_OBJECT

@@ -1,11 +1,11 @@
 #include "app/panels/ScanTestForm.h"
 
 #include "base/Error.h"
-#include "widgets/forms/FormSection.h"
-#include "widgets/forms/SettingRow.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/settingWords.h"
+#include "widgets/forms/FormSection.h"
+#include "widgets/forms/SettingRow.h"
 
 #include <QLabel>
 #include <QVBoxLayout>

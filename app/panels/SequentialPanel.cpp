@@ -1,9 +1,9 @@
 #include "app/panels/SequentialPanel.h"
 
 #include "app/document/Document.h"
+#include "app/document/saveView.h"
 #include "app/panels/ScanTestForm.h"
 #include "app/panels/TrajectoryPage.h"
-#include "app/document/saveView.h"
 #include "app/panels/sequentialSentences.h"
 #include "exchange/sequentialCsv.h"
 #include "exchange/writeChart.h"
@@ -69,17 +69,19 @@ namespace {
 } // namespace
 
 SequentialPanel::SequentialPanel(Document &document, SequentialTests &tests, QWidget *parent)
-    : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm), m_start(new QPushButton(tr("Run"))),
-      m_cancel(new QPushButton(tr("Cancel"))), m_onSelection(new QPushButton(tr("Test the visible part"))),
-      m_progress(new QProgressBar), m_state(new QLabel), m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
-      m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()),
-      m_prior(new ChartPlot), m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()),
-      m_runText(new QLabel), m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
+    : QWidget(parent), m_document(document), m_tests(tests), m_form(new ScanTestForm),
+      m_start(new QPushButton(tr("Run"))), m_cancel(new QPushButton(tr("Cancel"))),
+      m_onSelection(new QPushButton(tr("Test the visible part"))), m_progress(new QProgressBar), m_state(new QLabel),
+      m_tabs(new QTabWidget), m_walk(new WalkPlot), m_stopping(new BarPlot), m_trajectory(new TrajectoryPage(tests)),
+      m_asn(new ChartPlot), m_variation(new ChartPlot), m_curvesText(sentenceLabel()), m_prior(new ChartPlot),
+      m_priorText(sentenceLabel()), m_sectors(new BarPlot), m_sectorsText(sentenceLabel()), m_runText(new QLabel),
+      m_stageText(new QLabel), m_slider(new QSlider(Qt::Horizontal))
 {
     m_tabs->setDocumentMode(true);
     m_tabs->setMinimumWidth(280); // the window must not grow for charts that are not looked at
     m_tabs->addTab(buildWalks(), tr("Walks"));
-    addView(&m_trajectory->posterior(), tr("Posterior and trajectory"), [this] { return m_trajectory->posteriorNumbers(); });
+    addView(&m_trajectory->posterior(), tr("Posterior and trajectory"),
+            [this] { return m_trajectory->posteriorNumbers(); });
     addView(&m_trajectory->scan(), tr("Scan"), [this] { return m_trajectory->scanNumbers(); });
     m_tabs->addTab(m_trajectory, tr("Trajectory and scan"));
     m_tabs->addTab(buildCurves(), tr("Stages against SNR"));
@@ -305,14 +307,17 @@ void SequentialPanel::showBusy(bool isBusy)
         return m_progress->setValue(0);
     }
     m_progress->setValue(m_tests.isFixedSizeKnown() || (!m_tests.isOfScans() && !m_tests.isEmpty()) ? 1000 : 0);
-    m_state->setText(m_tests.isEmpty() ? QString() : m_progress->value() == 1000 ? tr("done") : tr("Stopped; results "
-                                                                                                   "incomplete"));
+    m_state->setText(m_tests.isEmpty()             ? QString()
+                     : m_progress->value() == 1000 ? tr("done")
+                                                   : tr("Stopped; results "
+                                                        "incomplete"));
 }
 
 void SequentialPanel::followDocument()
 {
     const auto &analysis = m_document.analysis();
-    m_onSelection->setEnabled(analysis && analysis->grid().axes.size() == 1 && analysis->settings.model.motion == Motion::Slopes);
+    m_onSelection->setEnabled(analysis && analysis->grid().axes.size() == 1
+                              && analysis->settings.model.motion == Motion::Slopes);
 }
 
 // ---- showing --------------------------------------------------------------------------------------------------------
@@ -321,8 +326,8 @@ void SequentialPanel::showWalks()
 {
     std::vector<WalkPlot::Walk> walks;
     for (const auto &[run, result] : m_tests.walks())
-        walks.push_back({result.lnLambda, result.decision, m_tests.isOfScans() ? std::optional(run.hasTarget) : std::nullopt,
-                         result.isForced});
+        walks.push_back({result.lnLambda, result.decision,
+                         m_tests.isOfScans() ? std::optional(run.hasTarget) : std::nullopt, result.isForced});
     m_walk->setWalks(std::move(walks));
     m_walk->setTest(m_tests.test().sprt, m_tests.fixedSize());
     m_walk->setSelected(m_tests.selected());
@@ -345,9 +350,11 @@ void SequentialPanel::showStopping()
     m_stopping->setBars(std::move(series), 1);
     std::vector<MarkedPlot::Mark> marks;
     if (m_tests.fixedSize() && *m_tests.fixedSize() <= longest)
-        marks.push_back({static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
+        marks.push_back(
+            {static_cast<double>(*m_tests.fixedSize()), true, tr("fixed size: about %1").arg(*m_tests.fixedSize())});
     m_stopping->setMarks(std::move(marks));
-    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("The stages at which tests stop are counted here.") : recordingNote(m_tests));
+    m_stopping->setEmptySentence(m_tests.isOfScans() ? tr("The stages at which tests stop are counted here.")
+                                                     : recordingNote(m_tests));
 }
 
 void SequentialPanel::selectStoppedAt(int stage)
@@ -444,7 +451,8 @@ std::string SequentialPanel::provenance(const View &view) const
                  {"walk", m_tests.selected()},
                  {"stage", m_tests.stage()},
                  {"axis", m_trajectory->axis()}};
-    json["sequential"] = m_tests.isOfScans() ? writeFields(m_tests.test(), ScanTest::fields()) : writeFields(m_tests.test().sprt, SprtSettings::fields());
+    json["sequential"] = m_tests.isOfScans() ? writeFields(m_tests.test(), ScanTest::fields())
+                                             : writeFields(m_tests.test().sprt, SprtSettings::fields());
     if (!m_tests.isOfScans()) {
         const SequentialTests::Selection &selection = m_tests.selection();
         json["recording"] = {{"name", selection.name.toStdString()}};
@@ -459,8 +467,8 @@ std::string SequentialPanel::provenance(const View &view) const
 
 void SequentialPanel::save(const View &view)
 {
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title), QStringLiteral("sequential.png"),
-                                                      saveViewFilter());
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save: %1").arg(view.title),
+                                                      QStringLiteral("sequential.png"), saveViewFilter());
     if (path.isEmpty())
         return;
     try {

@@ -23,8 +23,8 @@ class ScanTestForm;
 class TrajectoryPage;
 class WalkPlot;
 
-/// Sequential tests to look into: the walks between their boundaries and when they stop, what one run thought of its target and what it
-/// received, stages against SNR and prior with their bounds, and what a survey of sectors saves.
+/// Sequential tests to look into: the walks between their boundaries and when they stop, what one run thought of its
+/// target and what it received, stages against SNR and prior with their bounds, and what a survey of sectors saves.
 ///
 /// J and L, or the slider, go from stage to stage of the selected run; a click on a walk selects it everywhere.
 class SequentialPanel : public QWidget

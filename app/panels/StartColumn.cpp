@@ -13,8 +13,8 @@
 namespace faintline {
 
 StartColumn::StartColumn(QWidget *form, const QString &progressName, const QString &startToolTip, QWidget *parent)
-    : QWidget(parent), m_start(new QPushButton(tr("Start"))), m_cancel(new QPushButton(tr("Cancel"))), m_progress(new QProgressBar),
-      m_state(new QLabel)
+    : QWidget(parent), m_start(new QPushButton(tr("Start"))), m_cancel(new QPushButton(tr("Cancel"))),
+      m_progress(new QProgressBar), m_state(new QLabel)
 {
     constexpr int usualWidth = 330;
     auto *area = new QScrollArea;
@@ -22,7 +22,8 @@ StartColumn::StartColumn(QWidget *form, const QString &progressName, const QStri
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    setFixedWidth(std::max(usualWidth, form->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width()));
+    setFixedWidth(
+        std::max(usualWidth, form->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width()));
     m_progress->setRange(0, 1000);
     m_progress->setTextVisible(false);
     m_progress->setFixedHeight(8);

@@ -1,14 +1,14 @@
 #include "app/panels/StateSlicePanel.h"
 
 #include "analysis/chain.h"
-#include "app/panels/LawPanel.h"
 #include "app/base/VisibilityWatcher.h"
+#include "app/panels/LawPanel.h"
 #include "spectrum/pictureCuts.h"
+#include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
 #include "widgets/waterfall/ColourBar.h"
 #include "widgets/waterfall/SliceMarks.h"
 #include "widgets/waterfall/WaterfallView.h"
-#include "widgets/base/labelText.h"
-#include "widgets/base/quantities.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -25,7 +25,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index longAxis = 200;    ///< cells from which on only the cursor's surroundings are shown at first
+    constexpr Index longAxis = 200;       ///< cells from which on only the cursor's surroundings are shown at first
     constexpr double surroundings = 60.0; ///< cells either way
 
     Span whole(const Axis &axis)
@@ -63,7 +63,8 @@ StateSlicePanel::StateSlicePanel(Document &document, PingViewports &viewports, Q
     : QWidget(parent), m_document(document), m_viewports(viewports), m_rows(new QComboBox), m_columns(new QComboBox),
       m_others(new QComboBox), m_model(new QComboBox), m_sentence(plainLabel()),
       m_view(new WaterfallView(tr("States (nat)"))), m_tabs(new QTabBar), m_pane(new QWidget),
-      m_law(new LawPanel(document)), m_sight(new VisibilityWatcher(*this)), m_marks(std::make_unique<SliceMarks>(*m_view))
+      m_law(new LawPanel(document)), m_sight(new VisibilityWatcher(*this)),
+      m_marks(std::make_unique<SliceMarks>(*m_view))
 {
     m_others->addItems({tr("other axes at cursor"), tr("best over other axes")});
     m_others->setToolTip(tr("Axes not shown: fixed at the cursor's cell with its best rates, or maximum over all their "
@@ -161,7 +162,8 @@ StateSlicePanel::~StateSlicePanel() = default;
 bool StateSlicePanel::isOfLines() const
 {
     const auto &analysis = m_document.analysis();
-    return analysis && !m_document.hasPings() && analysis->grid().axes.size() == 1 && analysis->model.space.axes().size() == 1;
+    return analysis && !m_document.hasPings() && analysis->grid().axes.size() == 1
+           && analysis->model.space.axes().size() == 1;
 }
 
 std::optional<StateSlicePanel::Place> StateSlicePanel::place() const
@@ -263,13 +265,15 @@ void StateSlicePanel::update()
     const auto &analysis = m_document.analysis();
     const bool isLines = isOfLines();
     const std::optional<Place> at = analysis ? place() : std::nullopt;
-    if (!m_sight->isOn() || !at || !(isLines || (m_document.hasPings() && m_rows->currentIndex() != m_columns->currentIndex())))
+    if (!m_sight->isOn() || !at
+        || !(isLines || (m_document.hasPings() && m_rows->currentIndex() != m_columns->currentIndex())))
         return;
     const bool isBest = isMaximised();
     const std::size_t model = !analysis->isBank() ? 0 : static_cast<std::size_t>(m_model->currentIndex());
     StateSlice slice{1, 0, {}}; // of lines: slope × frequency
     if (!isLines)
-        slice = {static_cast<std::size_t>(m_rows->currentIndex()), static_cast<std::size_t>(m_columns->currentIndex()), {}};
+        slice = {
+            static_cast<std::size_t>(m_rows->currentIndex()), static_cast<std::size_t>(m_columns->currentIndex()), {}};
     m_runner.start([this, analysis, at = *at, isBest, model, slice](const RunContext &context) -> JobRunner::Delivery {
         if (!m_replay || m_replay->analysis() != analysis)
             m_replay = std::make_shared<StateReplay>(
@@ -290,7 +294,8 @@ void StateSlicePanel::update()
         }
         cut.scores = cutStates(space, states->values, cut.slice);
         cut.best = static_cast<double>(*std::max_element(cut.scores.begin(), cut.scores.end()));
-        cut.picture = pictureOf(cut.axes[slice.rows], cut.axes[slice.columns], cut.scores, ByteScale(ByteScale::Kind::ScoreNats));
+        cut.picture =
+            pictureOf(cut.axes[slice.rows], cut.axes[slice.columns], cut.scores, ByteScale(ByteScale::Kind::ScoreNats));
         return [this, analysis, cut] {
             if (m_document.analysis() == analysis) // something else may be open by now
                 show(cut);
@@ -346,20 +351,23 @@ void StateSlicePanel::show(const Cut &cut)
         chooseRange();
 
     placeMarks();
-    m_sentence->setText(isOfLines() ? tr("Frame %1 at %2: %3")
-                                          .arg(cut.frame + 1)
-                                          .arg(secondsText(m_document.analysis()->time().value(static_cast<double>(cut.frame)),
-                                                           m_document.analysis()->time().step),
-                                               bestWords(cut))
-                                    : tr("Ping %1: %2; at most %3 nat").arg(cut.frame + 1).arg(otherWords(cut), numberText(cut.best, 1)));
+    m_sentence->setText(
+        isOfLines()
+            ? tr("Frame %1 at %2: %3")
+                  .arg(cut.frame + 1)
+                  .arg(secondsText(m_document.analysis()->time().value(static_cast<double>(cut.frame)),
+                                   m_document.analysis()->time().step),
+                       bestWords(cut))
+            : tr("Ping %1: %2; at most %3 nat").arg(cut.frame + 1).arg(otherWords(cut), numberText(cut.best, 1)));
 }
 
-/// A followed target's states stand far above the threshold; its hill is what there is to see. Of lines, that under the cursor: a carrier
-/// elsewhere may have gathered a hundred times as much.
+/// A followed target's states stand far above the threshold; its hill is what there is to see. Of lines, that under the
+/// cursor: a carrier elsewhere may have gathered a hundred times as much.
 void StateSlicePanel::chooseRange()
 {
     m_view->setAutomaticRange();
-    m_view->setRange(m_view->range().low, std::max(m_view->range().high, isOfLines() ? scoreAtCursor(*m_cut) : m_cut->best));
+    m_view->setRange(m_view->range().low,
+                     std::max(m_view->range().high, isOfLines() ? scoreAtCursor(*m_cut) : m_cut->best));
     m_givenRange = m_view->range();
 }
 
@@ -369,9 +377,10 @@ QString StateSlicePanel::otherWords(const Cut &cut) const
     QStringList others;
     for (std::size_t i = 0; i < cut.axes.size(); ++i)
         if (i != cut.slice.rows && i != cut.slice.columns)
-            others << (cut.slice.places[i] ? tr("%1 %2 %3").arg(labelText(cut.axes[i].name, mostUnitLetters),
-                                                               numberText(cut.values[i], decimalsFor(cut.axes[i].step)),
-                                                               labelText(cut.axes[i].unit, mostUnitLetters))
+            others << (cut.slice.places[i] ? tr("%1 %2 %3")
+                                                 .arg(labelText(cut.axes[i].name, mostUnitLetters),
+                                                      numberText(cut.values[i], decimalsFor(cut.axes[i].step)),
+                                                      labelText(cut.axes[i].unit, mostUnitLetters))
                                            : tr("best %1").arg(labelText(cut.axes[i].name, mostUnitLetters)));
     return others.join(QStringLiteral(", "));
 }
@@ -381,7 +390,8 @@ double StateSlicePanel::scoreAtCursor(const Cut &cut) const
     const Axis &rows = cut.axes[cut.slice.rows];
     const Axis &columns = cut.axes[cut.slice.columns];
     const Index row = rows.nearest(cut.values[cut.slice.rows]);
-    return static_cast<double>(cut.scores[static_cast<std::size_t>(row * columns.count + columns.nearest(cut.values[cut.slice.columns]))]);
+    return static_cast<double>(
+        cut.scores[static_cast<std::size_t>(row * columns.count + columns.nearest(cut.values[cut.slice.columns]))]);
 }
 
 /// The best state in view, and that of the cursor's cell.
@@ -393,9 +403,11 @@ QString StateSlicePanel::bestWords(const Cut &cut) const
         const QString unit = labelText(slope.unit, mostUnitLetters);
         return tr("%1, %2 %3").arg(hertzText(hz, frequency.step), numberText(rate, decimalsFor(slope.step)), unit);
     };
-    QString words = tr("at the cursor %1 nat (%2)").arg(numberText(scoreAtCursor(cut), 1), stateWords(cut.values[0], cut.values[1]));
+    QString words = tr("at the cursor %1 nat (%2)")
+                        .arg(numberText(scoreAtCursor(cut), 1), stateWords(cut.values[0], cut.values[1]));
     if (const auto best = m_marks->best())
-        words += tr("; best in view ○ %1 nat (%2)").arg(numberText(best->score, 1), stateWords(best->column, best->row));
+        words +=
+            tr("; best in view ○ %1 nat (%2)").arg(numberText(best->score, 1), stateWords(best->column, best->row));
     if (!m_marks->paths().empty())
         words += tr("; ◇ a track's state");
     return words;
@@ -413,8 +425,10 @@ void StateSlicePanel::placeMarks()
     for (Index row = 0; row < rows.count; ++row)
         for (Index column = 0; column < columns.count; ++column) {
             const auto score = static_cast<double>(cut.scores[static_cast<std::size_t>(row * columns.count + column)]);
-            const SliceMarks::Best here{rows.value(static_cast<double>(row)), columns.value(static_cast<double>(column)), score};
-            if ((!best || score > best->score) && m_viewport.time().contains(here.row) && m_viewport.frequency().contains(here.column))
+            const SliceMarks::Best here{rows.value(static_cast<double>(row)),
+                                        columns.value(static_cast<double>(column)), score};
+            if ((!best || score > best->score) && m_viewport.time().contains(here.row)
+                && m_viewport.frequency().contains(here.column))
                 best = here;
         }
     std::vector<Viewport::Point> paths;

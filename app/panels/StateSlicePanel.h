@@ -1,10 +1,10 @@
 #pragma once
 
 #include "analysis/StateReplay.h"
-#include "app/document/Document.h"
 #include "app/base/JobRunner.h"
-#include "widgets/pings/PingViewports.h"
+#include "app/document/Document.h"
 #include "widgets/base/Viewport.h"
+#include "widgets/pings/PingViewports.h"
 
 #include <QWidget>
 
@@ -22,9 +22,10 @@ class WaterfallView;
 
 /// A slice through the states of the frame under the cursor, and the law by which they follow each other beside it.
 ///
-/// Of lines: frequency × slope, the frequencies those that the waterfalls show. Of pings: any two of range, bearing and their rates, the
-/// others at the cursor (the best rates of its cell) or the best of them all. The best state in view and those of the tracks' paths are
-/// marked. It is computed while the panel can be seen, by going through the run again.
+/// Of lines: frequency × slope, the frequencies those that the waterfalls show. Of pings: any two of range, bearing and
+/// their rates, the others at the cursor (the best rates of its cell) or the best of them all. The best state in view
+/// and those of the tracks' paths are marked. It is computed while the panel can be seen, by going through the run
+/// again.
 class StateSlicePanel : public QWidget
 {
     Q_OBJECT
@@ -96,7 +97,7 @@ private:
     QComboBox *m_rows;
     QComboBox *m_columns;
     QComboBox *m_others;
-    QComboBox *m_model; ///< of a bank
+    QComboBox *m_model;               ///< of a bank
     std::vector<QWidget *> m_choices; ///< that only pings leave
     QLabel *m_sentence;
     WaterfallView *m_view;
@@ -109,8 +110,8 @@ private:
     std::optional<Cut> m_cut; ///< the one shown
     Viewport m_viewport;
     std::pair<std::size_t, std::size_t> m_shownAxes{0, 0};
-    Span m_givenRange; ///< of the colours, as this panel set it
-    bool m_isShowing = false; ///< the slice's own cursor is being placed
+    Span m_givenRange;                     ///< of the colours, as this panel set it
+    bool m_isShowing = false;              ///< the slice's own cursor is being placed
     std::shared_ptr<StateReplay> m_replay; ///< touched by jobs only, one at a time
     JobRunner m_runner;                    ///< last, so that its jobs end first
 };

@@ -25,7 +25,8 @@ namespace {
     constexpr double windowsOfALine = 60.0; ///< that a line lasts, at first
     constexpr double windowsOfMargin = 30.0;
 
-    QDoubleSpinBox *number(double value, double low, double high, int decimals, const QString &suffix, const QString &toolTip)
+    QDoubleSpinBox *number(double value, double low, double high, int decimals, const QString &suffix,
+                           const QString &toolTip)
     {
         auto *box = new QDoubleSpinBox;
         box->setRange(low, high);
@@ -88,7 +89,8 @@ namespace {
 
 SweepForm::SweepForm(QWidget *parent)
     : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit),
-      m_steps(count(6, 2, 60, tr("Number of values"))), m_byFactors(new QCheckBox(tr("logarithmic"))), m_noise(new QComboBox),
+      m_steps(count(6, 2, 60, tr("Number of values"))), m_byFactors(new QCheckBox(tr("logarithmic"))),
+      m_noise(new QComboBox),
       m_snr(number(0, -40, 40, 1, tr(" dB"), tr("SNR of a line, in a rectangular window of the current length"))),
       m_duration(number(30, 0.001, 1e6, 1, tr(" s"), tr("Duration of a line"))),
       m_margin(number(15, 0, 1e6, 1, tr(" s"), tr("Noise before and after a line, in which false alarms are counted"))),
@@ -262,11 +264,12 @@ void SweepForm::showMeaning()
         QStringList values;
         for (const double value : sweep.values)
             values << text(value);
-        m_meaning->setText(tr("%1. Each on %2 trials of %3 s%4.")
-                               .arg(values.join(QStringLiteral(", ")))
-                               .arg(sweep.trials)
-                               .arg(text(sweep.trialSeconds()),
-                                    sweep.recording.empty() ? tr(" of white noise, %1 Hz").arg(text(sweep.sampleRateHz)) : QString()));
+        m_meaning->setText(
+            tr("%1. Each on %2 trials of %3 s%4.")
+                .arg(values.join(QStringLiteral(", ")))
+                .arg(sweep.trials)
+                .arg(text(sweep.trialSeconds()),
+                     sweep.recording.empty() ? tr(" of white noise, %1 Hz").arg(text(sweep.sampleRateHz)) : QString()));
     } catch (const Error &error) {
         m_meaning->setText(messageText(error.what()));
     }

@@ -14,8 +14,8 @@ namespace faintline {
 SweepPanel::SweepPanel(const Document &document, Experiments &experiments, QWidget *parent)
     : QWidget(parent), m_document(document), m_experiments(experiments), m_form(new SweepForm),
       m_column(new StartColumn(m_form, tr("Progress of the sweep"), tr("Try all values in the background"))),
-      m_tabs(new QTabWidget),
-      m_tradeOff(new ChartPlot), m_pd(new ChartPlot), m_falseAlarms(new ChartPlot), m_latency(new ChartPlot), m_cost(new ChartPlot)
+      m_tabs(new QTabWidget), m_tradeOff(new ChartPlot), m_pd(new ChartPlot), m_falseAlarms(new ChartPlot),
+      m_latency(new ChartPlot), m_cost(new ChartPlot)
 {
     buildCharts();
     auto *layout = new QHBoxLayout(this);
@@ -50,7 +50,8 @@ void SweepPanel::buildCharts()
                                                 : tr("Choose a setting and its values, then press Start to plot the "
                                                      "results."));
         chart->setInvitation(tr("click it to apply this value"));
-        connect(chart, &ChartPlot::pointActivated, this, [this, chart = chart](std::size_t, std::size_t point) { choose(*chart, point); });
+        connect(chart, &ChartPlot::pointActivated, this,
+                [this, chart = chart](std::size_t, std::size_t point) { choose(*chart, point); });
     }
     m_tabs->setDocumentMode(true);
 }
@@ -61,7 +62,8 @@ void SweepPanel::followDocument()
     if (const auto &analysis = m_document.analysis(); analysis && analysis->recording)
         if (const Spectrogram *spectrogram = analysis->frames->spectrogram())
             windowSeconds = spectrogram->windowSeconds();
-    m_form->setCurrent(m_document.usedSettings(), m_document.recording() ? m_document.source().path : QString(), windowSeconds);
+    m_form->setCurrent(m_document.usedSettings(), m_document.recording() ? m_document.source().path : QString(),
+                       windowSeconds);
 }
 
 void SweepPanel::start()
@@ -95,7 +97,8 @@ void SweepPanel::show(int id)
 void SweepPanel::follow(int id)
 {
     const Experiments::Entry *entry = m_experiments.entry(id);
-    if (id != m_shown || !entry || !entry->campaign || !std::holds_alternative<SweepExperiment>(entry->campaign->experiment))
+    if (id != m_shown || !entry || !entry->campaign
+        || !std::holds_alternative<SweepExperiment>(entry->campaign->experiment))
         return;
     m_column->showState(*entry);
     showCharts(*entry);
@@ -116,7 +119,8 @@ void SweepPanel::measureCost(const Experiments::Entry &entry)
     m_costOf = entry.id;
     m_meter.start([this, sweep = std::get<SweepExperiment>(entry.campaign->experiment),
                    recording = entry.recording](const RunContext &context) -> JobRunner::Delivery {
-        const Chart chart = costChart(sweep, SweepTrials(sweep, recording, context.part(0.0, 0.1)).costs(context.part(0.1, 1.0)));
+        const Chart chart =
+            costChart(sweep, SweepTrials(sweep, recording, context.part(0.0, 0.1)).costs(context.part(0.1, 1.0)));
         return [this, chart] { m_cost->setChart(chart); };
     });
 }

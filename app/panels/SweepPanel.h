@@ -17,8 +17,8 @@ class Document;
 class StartColumn;
 class SweepForm;
 
-/// What the values of one setting are worth: Pd, false alarms, latency and cost against the setting, and the trade-off of Pd against false
-/// alarms, growing while they are measured. A click on a value takes it over.
+/// What the values of one setting are worth: Pd, false alarms, latency and cost against the setting, and the trade-off
+/// of Pd against false alarms, growing while they are measured. A click on a value takes it over.
 class SweepPanel : public QWidget
 {
     Q_OBJECT

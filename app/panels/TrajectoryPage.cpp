@@ -2,9 +2,9 @@
 
 #include "app/control/SequentialTests.h"
 #include "exchange/sequentialCsv.h"
-#include "widgets/plot/CellPicture.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
+#include "widgets/plot/CellPicture.h"
 
 #include <QComboBox>
 #include <QLabel>
@@ -16,7 +16,8 @@
 namespace faintline {
 
 TrajectoryPage::TrajectoryPage(SequentialTests &tests, QWidget *parent)
-    : QSplitter(Qt::Horizontal, parent), m_tests(tests), m_axis(new QComboBox), m_posterior(new CellPicture), m_scan(new CellPicture)
+    : QSplitter(Qt::Horizontal, parent), m_tests(tests), m_axis(new QComboBox), m_posterior(new CellPicture),
+      m_scan(new CellPicture)
 {
     m_posterior->setEmptySentence(tr("Posterior of the target's cell in the selected run, stage by stage."));
     m_posterior->setAccessibleName(tr("Posterior probability of the target's cell, stage by stage"));
@@ -85,7 +86,8 @@ void TrajectoryPage::clear()
 
 void TrajectoryPage::showStage()
 {
-    m_posterior->setCursor(m_tests.selected() >= 0 ? std::optional(static_cast<double>(m_tests.stage())) : std::nullopt);
+    m_posterior->setCursor(m_tests.selected() >= 0 ? std::optional(static_cast<double>(m_tests.stage()))
+                                                   : std::nullopt);
 }
 
 const PosteriorPicture *TrajectoryPage::shownPosterior() const
@@ -126,8 +128,8 @@ void TrajectoryPage::showInspection()
     for (const float p : picture.probability)
         lg.push_back(static_cast<float>(std::log10(std::max(static_cast<double>(p), 1e-9))));
     const Axis cells = cellAxis(picture);
-    m_posterior->setPicture({"stage", "", 1.0, static_cast<double>(picture.stride), picture.rows(), false}, cells, std::move(lg),
-                            {leastLg, 0.0}, tr("log₁₀ P"));
+    m_posterior->setPicture({"stage", "", 1.0, static_cast<double>(picture.stride), picture.rows(), false}, cells,
+                            std::move(lg), {leastLg, 0.0}, tr("log₁₀ P"));
 
     const Theme::Colours &colours = Theme::colours(*this);
     CellPicture::Path truth{tr("truth"), CellPicture::Path::Kind::Dashes, colours.truth, {}};
@@ -158,20 +160,25 @@ void TrajectoryPage::showScan()
     for (std::size_t r = 0; r < ranges; ++r)
         for (std::size_t d = 0; d < dopplers; ++d)
             values[d * ranges + r] = scan->db[r * dopplers + d];
-    m_scan->setPicture({"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false}, {"range", "cell", 0.0, 1.0, scene.rangeCells, false},
-                       std::move(values), {0.0, std::max(15.0, scene.snrDb + 6.0)}, tr("strongest beam (dB)"));
+    m_scan->setPicture({"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false},
+                       {"range", "cell", 0.0, 1.0, scene.rangeCells, false}, std::move(values),
+                       {0.0, std::max(15.0, scene.snrDb + 6.0)}, tr("strongest beam (dB)"));
     const auto &inspection = m_tests.inspection();
     std::vector<CellPicture::Path> marks;
     const auto at = static_cast<std::size_t>(scan->stage - 1);
     const Theme::Colours &colours = Theme::colours(*this);
     if (inspection && at < inspection->truth.size()) {
         const ScanCell &cell = inspection->truth[at];
-        marks.push_back({tr("truth"), CellPicture::Path::Kind::Rings, colours.truth,
+        marks.push_back({tr("truth"),
+                         CellPicture::Path::Kind::Rings,
+                         colours.truth,
                          {QPointF(static_cast<double>(cell[3]), static_cast<double>(cell[2]))}});
     }
     if (inspection && at < inspection->test.result.trajectory.size()) {
         const std::vector<Index> &cell = inspection->test.result.trajectory[at];
-        marks.push_back({tr("MAP"), CellPicture::Path::Kind::Crosses, colours.track,
+        marks.push_back({tr("MAP"),
+                         CellPicture::Path::Kind::Crosses,
+                         colours.track,
                          {QPointF(static_cast<double>(cell[3]), static_cast<double>(cell[2]))}});
     }
     m_scan->setPaths(std::move(marks));

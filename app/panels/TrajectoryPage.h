@@ -14,8 +14,8 @@ class CellPicture;
 class SequentialTests;
 struct PosteriorPicture;
 
-/// What the selected run of a sequential test thought of its target's place, stage by stage along one axis, and the scan of the stage that
-/// is looked at, with the truth and the most probable trajectory over both.
+/// What the selected run of a sequential test thought of its target's place, stage by stage along one axis, and the
+/// scan of the stage that is looked at, with the truth and the most probable trajectory over both.
 class TrajectoryPage : public QSplitter
 {
     Q_OBJECT

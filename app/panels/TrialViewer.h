@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/control/Experiments.h"
 #include "app/base/JobRunner.h"
+#include "app/control/Experiments.h"
 #include "evaluate/experiments/showTrial.h"
 
 #include <QObject>

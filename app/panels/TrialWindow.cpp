@@ -1,7 +1,7 @@
 #include "app/panels/TrialWindow.h"
 
-#include "app/workspace/Workbench.h"
 #include "app/base/statisticUnit.h"
+#include "app/workspace/Workbench.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/labelText.h"
 

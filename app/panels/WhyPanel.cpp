@@ -1,13 +1,13 @@
 #include "app/panels/WhyPanel.h"
 
-#include "app/document/Document.h"
 #include "app/base/VisibilityWatcher.h"
 #include "app/base/readingTable.h"
 #include "app/base/statisticUnit.h"
-#include "widgets/plot/ChartPlot.h"
-#include "widgets/pings/PingViewports.h"
+#include "app/document/Document.h"
 #include "widgets/base/axisWords.h"
 #include "widgets/base/labelText.h"
+#include "widgets/pings/PingViewports.h"
+#include "widgets/plot/ChartPlot.h"
 
 #include <QHeaderView>
 #include <QLabel>
@@ -44,7 +44,9 @@ namespace {
         const double first = sum.points.front().x;
         const double last = sum.points.back().x;
         chart.curves.push_back(std::move(sum));
-        chart.curves.push_back({"threshold", Curve::Kind::Theory, {{first, explanation.threshold, {}}, {last, explanation.threshold, {}}}});
+        chart.curves.push_back({"threshold",
+                                Curve::Kind::Theory,
+                                {{first, explanation.threshold, {}}, {last, explanation.threshold, {}}}});
         return chart;
     }
 
@@ -72,8 +74,9 @@ namespace {
         for (std::size_t axis = 0; axis < rates.size(); ++axis) {
             const Axis &along = analysis.grid().axes[axis];
             const double rate = rates[axis] * along.step / analysis.time().step;
-            words << (along.unit == "Hz" ? rateText(rate)
-                                         : QStringLiteral("%1 %2/s").arg(powerText(rate, 3), labelText(along.unit, mostUnitLetters)));
+            words << (along.unit == "Hz"
+                          ? rateText(rate)
+                          : QStringLiteral("%1 %2/s").arg(powerText(rate, 3), labelText(along.unit, mostUnitLetters)));
         }
         return QObject::tr("the state of %1").arg(words.join(QStringLiteral(", ")));
     }
@@ -86,17 +89,17 @@ namespace {
             return QObject::tr(", with the recording.");
         case ResetCause::Kind::Background:
             return std::isfinite(reset.lost)
-                ? QObject::tr(": continuing an earlier path would have started %1 nat below the background.")
-                      .arg(numberText(reset.lost, 2))
-                : QObject::tr(": no earlier path leads there.");
+                       ? QObject::tr(": continuing an earlier path would have started %1 nat below the background.")
+                             .arg(numberText(reset.lost, 2))
+                       : QObject::tr(": no earlier path leads there.");
         case ResetCause::Kind::Forgotten:
             break;
         }
         return reset.track > 0
-            ? QObject::tr(": the previous score, %1 nat, was discarded when track %2 started.")
-                  .arg(numberText(reset.lost, 2))
-                  .arg(reset.track)
-            : QObject::tr(": the previous score, %1 nat, was discarded.").arg(numberText(reset.lost, 2));
+                   ? QObject::tr(": the previous score, %1 nat, was discarded when track %2 started.")
+                         .arg(numberText(reset.lost, 2))
+                         .arg(reset.track)
+                   : QObject::tr(": the previous score, %1 nat, was discarded.").arg(numberText(reset.lost, 2));
     }
 
 } // namespace
@@ -113,41 +116,44 @@ QString whySentence(const Explanation &explanation, const Analysis &analysis)
     }
     const Axis &time = analysis.time();
     const double margin = explanation.displayed - explanation.threshold;
-    QString words = QObject::tr("%1: D = %2 %7 at %3 and %4, %5 %7 %6 the threshold. ")
-                        .arg(explanation.isTracked ? QObject::tr("Followed by a track")
-                                                   : margin >= 0.0 ? QObject::tr("Detected") : QObject::tr("Not detected"),
-                             numberText(explanation.displayed, 2), secondsText(explanation.seconds, time.step),
-                             placeWords(explanation.position, analysis.grid()), numberText(std::abs(margin), 2),
-                             margin >= 0.0 ? QObject::tr("above") : QObject::tr("below"), statisticUnit(analysis.settings));
+    QString words =
+        QObject::tr("%1: D = %2 %7 at %3 and %4, %5 %7 %6 the threshold. ")
+            .arg(explanation.isTracked ? QObject::tr("Followed by a track")
+                 : margin >= 0.0       ? QObject::tr("Detected")
+                                       : QObject::tr("Not detected"),
+                 numberText(explanation.displayed, 2), secondsText(explanation.seconds, time.step),
+                 placeWords(explanation.position, analysis.grid()), numberText(std::abs(margin), 2),
+                 margin >= 0.0 ? QObject::tr("above") : QObject::tr("below"), statisticUnit(analysis.settings));
     if (!isScoreOfPaths(analysis.settings.detector))
         words += QObject::tr("This detector has no paths; the path below, in nats, is that of the sequential Markov "
                              "detector that guides its tracks. ");
     if (explanation.inhibitedFor)
         words += *explanation.inhibitedFor > 0
-            ? QObject::tr("This cell is inhibited by track %1. ").arg(*explanation.inhibitedFor)
-        : *explanation.inhibitedFor < 0
-            ? QObject::tr("This cell is inhibited by a track that was dropped later. ")
-            : QObject::tr("This cell is excluded: no signal is looked for here. ");
+                     ? QObject::tr("This cell is inhibited by track %1. ").arg(*explanation.inhibitedFor)
+                 : *explanation.inhibitedFor < 0
+                     ? QObject::tr("This cell is inhibited by a track that was dropped later. ")
+                     : QObject::tr("This cell is excluded: no signal is looked for here. ");
     const auto steps = explanation.steps.size();
     const QString since = secondsText(time.value(static_cast<double>(explanation.steps.front().frame)), time.step);
     words += steps == 1 ? QObject::tr("The path begins in this frame")
                         : QObject::tr("The path has %1 steps and begins at %2").arg(steps).arg(since);
     words += resetWords(explanation.reset) + QLatin1Char(' ');
     if (explanation.otherState && std::isfinite(explanation.otherMargin))
-        words += QObject::tr("Runner-up: %1, %2 nat behind. ")
-                     .arg(rateWords(*explanation.otherState, explanation, analysis), numberText(explanation.otherMargin, 2));
-    words += QObject::tr("Evidence %1, transitions %2, ln K %3").arg(signedText(evidence), signedText(transitions), signedText(lnK));
+        words +=
+            QObject::tr("Runner-up: %1, %2 nat behind. ")
+                .arg(rateWords(*explanation.otherState, explanation, analysis), numberText(explanation.otherMargin, 2));
+    words += QObject::tr("Evidence %1, transitions %2, ln K %3")
+                 .arg(signedText(evidence), signedText(transitions), signedText(lnK));
     if (explanation.offset != 0.0)
-        words += QObject::tr(", %1 %2")
-                     .arg(!analysis.isBank() ? QObject::tr("K of the last frame") : QObject::tr("K and the model's threshold"),
-                          signedText(explanation.offset));
+        words += QObject::tr(", %1 %2").arg(!analysis.isBank() ? QObject::tr("K of the last frame")
+                                                               : QObject::tr("K and the model's threshold"),
+                                            signedText(explanation.offset));
     return words + QObject::tr(" add up to %1.").arg(numberText(explanation.statistic, 2));
 }
 
 WhyPanel::WhyPanel(Document &document, const PingViewports &viewports, QWidget *parent)
     : QWidget(parent), m_document(document), m_viewports(viewports), m_sentence(plainLabel()), m_plot(new ChartPlot),
-      m_ladder(new QTableWidget),
-      m_sight(new VisibilityWatcher(*this)), m_pause(new QTimer(this))
+      m_ladder(new QTableWidget), m_sight(new VisibilityWatcher(*this)), m_pause(new QTimer(this))
 {
     m_sentence->setWordWrap(true);
     m_sentence->setTextFormat(Qt::PlainText);
@@ -234,7 +240,8 @@ void WhyPanel::explainCursor()
         return say(tr("Only the sequential Markov detector decides along a path; choose it to see why."));
     const PingViewports::Place place = m_viewports.place();
     const double seconds = isLines ? cursor->seconds : place.seconds;
-    const std::vector<double> position = isLines ? std::vector<double>{cursor->hz} : std::vector<double>{place.range, place.bearing};
+    const std::vector<double> position =
+        isLines ? std::vector<double>{cursor->hz} : std::vector<double>{place.range, place.bearing};
     m_began.start();
     m_runner.start([this, analysis, seconds, position](const RunContext &context) -> JobRunner::Delivery {
         auto explanation = explain(*analysis, seconds, position, context);
@@ -256,7 +263,8 @@ void WhyPanel::layColumns(const Analysis &analysis)
     m_ladder->horizontalHeaderItem(axes + 3)->setToolTip(tr("ln K: bonus for continuing the path instead of restarting "
                                                             "it (nat)"));
     m_ladder->horizontalHeaderItem(axes + 4)->setToolTip(tr("Sum of all terms so far, nat above background"));
-    m_ladder->horizontalHeaderItem(axes + 5)->setToolTip(tr("Margin over the second-best transition into this step, nat"));
+    m_ladder->horizontalHeaderItem(axes + 5)->setToolTip(
+        tr("Margin over the second-best transition into this step, nat"));
 }
 
 void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)
@@ -280,7 +288,8 @@ void WhyPanel::show(const Explanation &explanation, const Analysis &analysis)
             texts << numberText(axis.value(static_cast<double>(cells[i])) / unit, decimalsFor(axis.step / unit));
         }
         texts << signedText(step.logLikelihoodRatio) << numberText(step.lnTransition, 2) << signedText(step.lnK)
-              << numberText(step.score, 2) << (std::isfinite(step.runnerUp) ? numberText(-step.runnerUp, 2) : QStringLiteral("–"));
+              << numberText(step.score, 2)
+              << (std::isfinite(step.runnerUp) ? numberText(-step.runnerUp, 2) : QStringLiteral("–"));
         fillRow(*m_ladder, static_cast<int>(row), texts);
     }
 }

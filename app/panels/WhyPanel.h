@@ -19,9 +19,9 @@ class Document;
 class PingViewports;
 class VisibilityWatcher;
 
-/// Why the cell under the cursor, of a line's frame or of a ping, was detected or was not: the best path that ends there, step by step,
-/// with terms that add up to the statistic displayed, how narrowly each step was won, and why the path begins where it does. Goes
-/// through the chain again, on a worker, while it is seen; the newest cursor wins.
+/// Why the cell under the cursor, of a line's frame or of a ping, was detected or was not: the best path that ends
+/// there, step by step, with terms that add up to the statistic displayed, how narrowly each step was won, and why the
+/// path begins where it does. Goes through the chain again, on a worker, while it is seen; the newest cursor wins.
 class WhyPanel : public QWidget
 {
     Q_OBJECT

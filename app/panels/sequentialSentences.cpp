@@ -46,7 +46,8 @@ namespace {
         for (std::size_t stage = 0; stage < inspection->test.result.trajectory.size(); ++stage) {
             last = 0;
             for (std::size_t axis = 0; axis < 3; ++axis)
-                last = std::max(last, std::abs(inspection->test.result.trajectory[stage][axis] - inspection->truth[stage][axis]));
+                last = std::max(
+                    last, std::abs(inspection->test.result.trajectory[stage][axis] - inspection->truth[stage][axis]));
             worst = std::max(worst, last);
         }
         if (worst == 0)
@@ -85,8 +86,9 @@ QString runSentence(const SequentialTests &tests)
     return tr("Run %1 %2: %3 after %4, ln Λ = %5.")
                .arg(run.number + 1)
                .arg(run.hasTarget ? tr("with a target") : tr("of noise only"), decisionText(result),
-                    result.stages == 1 ? tr("one stage") : tr("%1 stages").arg(result.stages), numberText(result.lnLambda.back(), 1))
-        + trajectorySentence(tests);
+                    result.stages == 1 ? tr("one stage") : tr("%1 stages").arg(result.stages),
+                    numberText(result.lnLambda.back(), 1))
+           + trajectorySentence(tests);
 }
 
 QString recordingNote(const SequentialTests &tests)
@@ -95,7 +97,8 @@ QString recordingNote(const SequentialTests &tests)
                       "visible frame. “No target” is final: a line that starts later is not considered.");
     if (const Index every = tests.selection().frames ? framesApart(*tests.selection().frames) : 1; every > 1)
         text += tr("\nWindows overlap but stages must be independent, so the test uses one frame in %1. This makes α "
-                   "and β hold.").arg(every);
+                   "and β hold.")
+                    .arg(every);
     text += tr("\nα and β assume a correct background and lines that move as the model says.");
     return text;
 }
@@ -103,15 +106,19 @@ QString recordingNote(const SequentialTests &tests)
 QString curvesSentence(const SequentialTests &tests)
 {
     const auto &points = tests.points();
-    const auto atDesign = std::find_if(points.begin(), points.end(), [](const ScanPoint &p) { return p.snrDb == p.designSnrDb; });
+    const auto atDesign =
+        std::find_if(points.begin(), points.end(), [](const ScanPoint &p) { return p.snrDb == p.designSnrDb; });
     if (atDesign == points.end())
         return {};
     const ScanPoint &p = tests.test().designFollows ? points.back() : *atDesign;
-    const auto range = [](double low, double high) { return tr("%1 … %2").arg(numberText(low, 1), numberText(high, 1)); };
-    QString text = tr("At %1 dB: %2 stages on noise, bounds (8b) %3; %4 with a target, bounds (8a) %5. The bounds "
-                      "neglect the overshoot of ln Λ")
-                       .arg(numberText(p.snrDb, 0), numberText(p.h0.stages.value, 1), range(p.bounds.h0Low, p.bounds.h0High),
-                            numberText(p.h1.stages.value, 1), range(p.bounds.h1Low, p.bounds.h1High));
+    const auto range = [](double low, double high) {
+        return tr("%1 … %2").arg(numberText(low, 1), numberText(high, 1));
+    };
+    QString text =
+        tr("At %1 dB: %2 stages on noise, bounds (8b) %3; %4 with a target, bounds (8a) %5. The bounds "
+           "neglect the overshoot of ln Λ")
+            .arg(numberText(p.snrDb, 0), numberText(p.h0.stages.value, 1), range(p.bounds.h0Low, p.bounds.h0High),
+                 numberText(p.h1.stages.value, 1), range(p.bounds.h1Low, p.bounds.h1High));
     QStringList above;
     if (p.h0.stages.value > p.bounds.h0High)
         above << tr("%1 on noise").arg(percent(p.h0.stages.value / p.bounds.h0High - 1.0));
@@ -136,9 +143,10 @@ QString priorSentence(const SequentialTests &tests)
     const std::optional<Overshoot> over = overshoot(curve);
     if (!over)
         return what;
-    const QString how = over->h0 >= 0.0 && over->h1 >= 0.0
-                            ? tr(" At the right end the stages exceed the “upper bounds” by %1 on noise and %2 with a target")
-                            : tr(" At the right end the stages differ from the upper bounds by %1 on noise and %2 with a target");
+    const QString how =
+        over->h0 >= 0.0 && over->h1 >= 0.0
+            ? tr(" At the right end the stages exceed the “upper bounds” by %1 on noise and %2 with a target")
+            : tr(" At the right end the stages differ from the upper bounds by %1 on noise and %2 with a target");
     return what + how.arg(percent(over->h0), percent(over->h1)) + tr(": the bounds neglect the overshoot of ln Λ.");
 }
 
@@ -167,14 +175,19 @@ QString sectorsSentence(const SequentialTests &tests)
     if (!tests.isFixedSizeKnown())
         return tr("%1 looks take %2 stages.").arg(looks).arg(survey.stages) + seen;
     if (!tests.fixedSize())
-        return tr("%1 looks take %2 stages; a test of fixed size would need more than 40 for each.").arg(looks).arg(survey.stages) + seen;
-    return tr("%1 looks take %2 stages; tests of fixed size with the same errors, of about %3 stages each, would take %4: %5.")
+        return tr("%1 looks take %2 stages; a test of fixed size would need more than 40 for each.")
+                   .arg(looks)
+                   .arg(survey.stages)
+               + seen;
+    return tr("%1 looks take %2 stages; tests of fixed size with the same errors, of about %3 stages each, would take "
+              "%4: %5.")
                .arg(looks)
                .arg(survey.stages)
                .arg(*tests.fixedSize())
                .arg(survey.fixedStages)
-               .arg(survey.saving() >= 0.0 ? tr("%1 saved").arg(percent(survey.saving())) : tr("%1 lost").arg(percent(-survey.saving())))
-        + seen;
+               .arg(survey.saving() >= 0.0 ? tr("%1 saved").arg(percent(survey.saving()))
+                                           : tr("%1 lost").arg(percent(-survey.saving())))
+           + seen;
 }
 
 } // namespace faintline

@@ -8,7 +8,8 @@ class SequentialTests;
 
 /// What the views of sequential tests say below themselves. Nothing where there is nothing to say yet.
 
-/// How the selected run ended and how well its trajectory is known; of a recording, what was decided after how many frames.
+/// How the selected run ended and how well its trajectory is known; of a recording, what was decided after how many
+/// frames.
 QString runSentence(const SequentialTests &tests);
 
 /// Why there is no histogram of one test, what it can say and what it assumes.

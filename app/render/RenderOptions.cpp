@@ -12,8 +12,8 @@ std::string pictureName(const RenderOptions &options, const std::string &view)
     if (options.views.size() == 1)
         return options.out;
     const QFileInfo out(pathText(options.out));
-    return pathBytes(out.path() + QLatin1Char('/') + out.completeBaseName() + QLatin1Char('-') + QString::fromStdString(view)
-                     + QLatin1Char('.') + out.suffix());
+    return pathBytes(out.path() + QLatin1Char('/') + out.completeBaseName() + QLatin1Char('-')
+                     + QString::fromStdString(view) + QLatin1Char('.') + out.suffix());
 }
 
 Json toJson(const RenderOptions &options, const std::string &view)
@@ -49,7 +49,8 @@ RenderOptions renderOptionsFromJson(const Json &json)
 {
     RenderOptions options;
     options.views = json.value("views", std::vector{json.at("view").get<std::string>()});
-    options.size = {wholeNumber<int>(json.at("size").at(0), "render.size"), wholeNumber<int>(json.at("size").at(1), "render.size")};
+    options.size = {wholeNumber<int>(json.at("size").at(0), "render.size"),
+                    wholeNumber<int>(json.at("size").at(1), "render.size")};
     options.theme = json.at("theme").get<std::string>();
     options.scale = json.value("scale", 1.0);
     const auto take = [&json](const char *name, std::optional<double> &value) {

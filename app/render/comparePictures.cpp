@@ -168,9 +168,9 @@ namespace {
     {
         switch (one.state) {
         case CheckedPicture::State::Same:
-            return one.difference.toleratedPixels > 0
-                       ? QStringLiteral("same, except for %1 tolerated raster pixel(s)").arg(one.difference.toleratedPixels)
-                       : QStringLiteral("same");
+            return one.difference.toleratedPixels > 0 ? QStringLiteral("same, except for %1 tolerated raster pixel(s)")
+                                                            .arg(one.difference.toleratedPixels)
+                                                      : QStringLiteral("same");
         case CheckedPicture::State::Missing:
             return QStringLiteral("missing: expected but not found");
         case CheckedPicture::State::New:
@@ -179,8 +179,11 @@ namespace {
             break;
         }
         if (!one.difference.isSameSize)
-            return QStringLiteral("different size: %1 instead of %2").arg(sizeText(one.actualSize), sizeText(one.expectedSize));
-        return QStringLiteral("%1 pixel(s) changed in %2 place(s)").arg(one.difference.changedPixels).arg(one.difference.places.size());
+            return QStringLiteral("different size: %1 instead of %2")
+                .arg(sizeText(one.actualSize), sizeText(one.expectedSize));
+        return QStringLiteral("%1 pixel(s) changed in %2 place(s)")
+            .arg(one.difference.changedPixels)
+            .arg(one.difference.places.size());
     }
 
     QString href(const char *folder, const QString &name)
@@ -190,22 +193,29 @@ namespace {
 
     QString figure(const char *folder, const QString &name, const char *caption)
     {
-        return QStringLiteral("<figure><a href=\"%1\"><img src=\"%1\" alt=\"%2 %3\"></a><figcaption>%2</figcaption></figure>\n")
+        return QStringLiteral(
+                   "<figure><a href=\"%1\"><img src=\"%1\" alt=\"%2 %3\"></a><figcaption>%2</figcaption></figure>\n")
             .arg(href(folder, name), QLatin1String(caption), name.toHtmlEscaped());
     }
 
     QString section(const CheckedPicture &one)
     {
         using State = CheckedPicture::State;
-        QString text = QStringLiteral("<section>\n<h2>%1</h2>\n<p>%2</p>\n").arg(one.name.toHtmlEscaped(), verdictOf(one));
+        QString text =
+            QStringLiteral("<section>\n<h2>%1</h2>\n<p>%2</p>\n").arg(one.name.toHtmlEscaped(), verdictOf(one));
         if (!one.difference.places.empty()) {
             QStringList places;
             for (const QRect &place : one.difference.places)
-                places << QStringLiteral("%1 × %2 at (%3, %4)").arg(place.width()).arg(place.height()).arg(place.x()).arg(place.y());
+                places << QStringLiteral("%1 × %2 at (%3, %4)")
+                              .arg(place.width())
+                              .arg(place.height())
+                              .arg(place.x())
+                              .arg(place.y());
             constexpr qsizetype most = 12;
             const bool isLong = places.size() > most;
-            text += QStringLiteral("<p class=\"places\">%1%2</p>\n")
-                        .arg(places.mid(0, most).join(QStringLiteral("; ")), isLong ? QStringLiteral("; …") : QString());
+            text +=
+                QStringLiteral("<p class=\"places\">%1%2</p>\n")
+                    .arg(places.mid(0, most).join(QStringLiteral("; ")), isLong ? QStringLiteral("; …") : QString());
         }
         text += QStringLiteral("<div>\n");
         if (one.state != State::New)
@@ -227,13 +237,17 @@ namespace {
 
     QString pageOf(const std::vector<CheckedPicture> &pictures)
     {
-        const auto differing = std::count_if(pictures.begin(), pictures.end(), [](const auto &one) { return one.state != CheckedPicture::State::Same; });
-        QString text = QStringLiteral("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Pictures compared</title>\n<style>\n"
-                                      "body{font:15px/1.45 sans-serif;margin:2em;color:#1c2127;background:#fff}\n"
-                                      "table{border-collapse:collapse}td,th{text-align:left;padding:.25em 1em .25em 0;border-bottom:1px solid #dde1e6}\n"
-                                      "tr.other td{color:#b00018}\nsection{margin-top:2.5em}\ndiv{display:flex;flex-wrap:wrap;gap:1em}\n"
-                                      "figure{margin:0;flex:1 1 22em;max-width:100%}img{max-width:100%;border:1px solid #c4cad1}\n"
-                                      "figcaption,.places{color:#59636e}\n</style>\n</head>\n<body>\n");
+        const auto differing = std::count_if(pictures.begin(), pictures.end(),
+                                             [](const auto &one) { return one.state != CheckedPicture::State::Same; });
+        QString text = QStringLiteral(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Pictures "
+            "compared</title>\n<style>\n"
+            "body{font:15px/1.45 sans-serif;margin:2em;color:#1c2127;background:#fff}\n"
+            "table{border-collapse:collapse}td,th{text-align:left;padding:.25em 1em .25em 0;border-bottom:1px solid "
+            "#dde1e6}\n"
+            "tr.other td{color:#b00018}\nsection{margin-top:2.5em}\ndiv{display:flex;flex-wrap:wrap;gap:1em}\n"
+            "figure{margin:0;flex:1 1 22em;max-width:100%}img{max-width:100%;border:1px solid #c4cad1}\n"
+            "figcaption,.places{color:#59636e}\n</style>\n</head>\n<body>\n");
         text += QStringLiteral("<h1>%1 of %2 picture(s) differ</h1>\n").arg(differing).arg(pictures.size());
         text += QStringLiteral("<table>\n<tr><th>Picture</th><th>Verdict</th><th>Expected</th><th>Actual</th></tr>\n");
         for (const CheckedPicture &one : pictures)
@@ -245,7 +259,8 @@ namespace {
         return text + QStringLiteral("</body>\n</html>\n");
     }
 
-    CheckedPicture check(const QString &name, const QString &expectedPath, const QString &actualPath, bool toleratesRasters)
+    CheckedPicture check(const QString &name, const QString &expectedPath, const QString &actualPath,
+                         bool toleratesRasters)
     {
         CheckedPicture one;
         one.name = name;

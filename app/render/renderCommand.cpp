@@ -1,19 +1,19 @@
 #include "app/render/renderCommand.h"
 
-#include "app/panels/ComparePanel.h"
-#include "app/lessons/LessonGuide.h"
-#include "app/window/MainWindow.h"
+#include "app/base/filePath.h"
 #include "app/control/OutputLayers.h"
-#include "app/workspace/PingBench.h"
+#include "app/control/scanScenario.h"
 #include "app/document/Provenance.h"
-#include "app/views/ReportWriter.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/panels/ComparePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/WhyPanel.h"
-#include "app/views/WindowViews.h"
-#include "app/workspace/Workbench.h"
-#include "app/base/filePath.h"
-#include "app/control/scanScenario.h"
 #include "app/render/settleViews.h"
+#include "app/views/ReportWriter.h"
+#include "app/views/WindowViews.h"
+#include "app/window/MainWindow.h"
+#include "app/workspace/PingBench.h"
+#include "app/workspace/Workbench.h"
 #include "base/AtomicFile.h"
 #include "base/fileName.h"
 #include "base/json.h"
@@ -77,12 +77,11 @@ namespace {
         QObject::connect(&window.controller(), &AnalysisController::failed, &loop,
                          [&](const Error &error) { failure = error; });
         QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
-        window.open(pathText(options.source), options.opening,
-                    [options, settingsOfB](AnalysisSettings &settings) {
-                        *settingsOfB = settings;
-                        adjust(*settingsOfB, options);
-                        adjust(settings, optionsOfA(options));
-                    });
+        window.open(pathText(options.source), options.opening, [options, settingsOfB](AnalysisSettings &settings) {
+            *settingsOfB = settings;
+            adjust(*settingsOfB, options);
+            adjust(settings, optionsOfA(options));
+        });
         loop.exec();
         if (failure)
             throw *failure;
@@ -100,7 +99,8 @@ namespace {
         testAndSettle(window, [&] { window.openScans(test); });
         if (!options.seconds)
             return;
-        const double before = std::clamp(*options.seconds / test.scene.secondsPerStage, 0.0, static_cast<double>(stageLimit(test)));
+        const double before =
+            std::clamp(*options.seconds / test.scene.secondsPerStage, 0.0, static_cast<double>(stageLimit(test)));
         testAndSettle(window, [&] { window.sequentialTests().setStage(static_cast<Index>(before) + 1); });
     }
 
@@ -112,7 +112,8 @@ namespace {
         if (!options.settings.empty() || !options.preset.empty() || !options.part.assignments().empty())
             throw Error("--set", "cannot be combined with a lesson, which has its own settings");
         if (const auto count = std::ssize(lesson.steps); step < 1 || step > count)
-            throw Error("--step " + std::to_string(step), "must lie in 1 … " + std::to_string(count) + " of this lesson");
+            throw Error("--step " + std::to_string(step),
+                        "must lie in 1 … " + std::to_string(count) + " of this lesson");
         QEventLoop loop;
         std::optional<Error> failure;
         QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) {
@@ -149,7 +150,8 @@ namespace {
     {
         const auto found = std::find(outputLayerNames.begin(), outputLayerNames.end(), options.layer);
         if (found == outputLayerNames.end())
-            throw Error("--layer " + options.layer, "is not known; there are statistic, rate, bearing-rate, age, reset, inhibited");
+            throw Error("--layer " + options.layer,
+                        "is not known; there are statistic, rate, bearing-rate, age, reset, inhibited");
         OutputLayers &layers = window.workbench().layers();
         const auto layer = static_cast<OutputLayer>(found - outputLayerNames.begin());
         if (!layers.isOffered(layer))
@@ -171,7 +173,8 @@ namespace {
         window.comparePanel().keep();
         QEventLoop loop;
         std::optional<Error> failure;
-        QObject::connect(&window.controller(), &AnalysisController::failed, &loop, [&](const Error &error) { failure = error; });
+        QObject::connect(&window.controller(), &AnalysisController::failed, &loop,
+                         [&](const Error &error) { failure = error; });
         QObject::connect(&window.controller(), &AnalysisController::settled, &loop, &QEventLoop::quit);
         window.controller().setSettings(settings, QStringLiteral("B"));
         if (window.controller().isBusy())
@@ -220,8 +223,10 @@ namespace {
     {
         const Document &document = window.document();
         if (document.isEmpty())
-            return {{"version", FAINTLINE_VERSION}, {"sequential", writeFields(window.sequentialTests().test(), ScanTest::fields())}};
-        return parseJson(faintline::provenanceOf(document.source(), document.settings(), document.annotations()), "provenance");
+            return {{"version", FAINTLINE_VERSION},
+                    {"sequential", writeFields(window.sequentialTests().test(), ScanTest::fields())}};
+        return parseJson(faintline::provenanceOf(document.source(), document.settings(), document.annotations()),
+                         "provenance");
     }
 
     void write(QImage image, const std::string &path, const Json &provenance)
@@ -235,10 +240,13 @@ namespace {
         writeTextFile(path, bytes.toStdString());
     }
 
-    /// A view is taken out of what it is a part of, so the window comes before its parts, and the maps before each of them.
+    /// A view is taken out of what it is a part of, so the window comes before its parts, and the maps before each of
+    /// them.
     std::vector<std::string> wholesFirst(std::vector<std::string> views)
     {
-        const auto rank = [](const std::string &view) { return view == "window" ? 0 : view == "map" || view == "polar" || view == "sequential" ? 1 : 2; };
+        const auto rank = [](const std::string &view) {
+            return view == "window" ? 0 : view == "map" || view == "polar" || view == "sequential" ? 1 : 2;
+        };
         std::stable_sort(views.begin(), views.end(), [&](const auto &a, const auto &b) { return rank(a) < rank(b); });
         return views;
     }
@@ -282,8 +290,9 @@ void render(const RenderOptions &options)
     if (isLesson(pathText(options.source))) {
         goThroughLesson(window, options);
     } else if (options.step) {
-        throw Error("--step " + std::to_string(*options.step), "requires a lesson; " + options.source + " is not a "
-                                                                                                        "lesson");
+        throw Error("--step " + std::to_string(*options.step), "requires a lesson; " + options.source
+                                                                   + " is not a "
+                                                                     "lesson");
     } else if (isScanScenario(pathText(options.source))) {
         checkViewsOfScans(options.views);
         testScans(window, options);
@@ -300,7 +309,8 @@ void render(const RenderOptions &options)
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         QWidget &widget = *window.views().named(QString::fromStdString(view));
-        pictureOf(widget, options.size, options.isFocused); // at that size a layer may have more pixels to fill, and a picture smaller ones
+        pictureOf(widget, options.size,
+                  options.isFocused); // at that size a layer may have more pixels to fill, and a picture smaller ones
         settleLayers(window);
         settleCloseup(window);
         provenance["render"] = toJson(options, view);

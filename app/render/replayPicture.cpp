@@ -1,15 +1,15 @@
 #include "app/render/replayPicture.h"
 
 #include "analysis/CalibrationStore.h"
-#include "app/window/MainWindow.h"
-#include "app/document/Provenance.h"
-#include "app/panels/SequentialPanel.h"
-#include "app/document/Session.h"
-#include "app/panels/TrajectoryPage.h"
 #include "app/base/filePath.h"
+#include "app/document/Provenance.h"
+#include "app/document/Session.h"
+#include "app/panels/SequentialPanel.h"
+#include "app/panels/TrajectoryPage.h"
 #include "app/render/readPicture.h"
 #include "app/render/renderCommand.h"
 #include "app/render/settleViews.h"
+#include "app/window/MainWindow.h"
 #include "base/AtomicFile.h"
 #include "base/oneLine.h"
 #include "base/readingJson.h"
@@ -55,18 +55,23 @@ namespace {
             window.setAsking(false);
             window.show();
             testAndSettle(window, [&] { window.openScans(test); });
-            testAndSettle(window, [&] { window.sequentialTests().select(wholeNumber<int>(provenance.at("walk"), "walk")); });
-            testAndSettle(window, [&] { window.sequentialTests().setStage(wholeNumber<Index>(provenance.at("stage"), "stage")); });
+            testAndSettle(window,
+                          [&] { window.sequentialTests().select(wholeNumber<int>(provenance.at("walk"), "walk")); });
+            testAndSettle(window, [&] {
+                window.sequentialTests().setStage(wholeNumber<Index>(provenance.at("stage"), "stage"));
+            });
             window.sequential().trajectory().showAxis(wholeNumber<int>(provenance.at("axis"), "axis"));
             const auto &views = window.sequential().views();
-            const auto view = std::find_if(views.begin(), views.end(), [name = provenance.at("chart").get<std::string>()](const auto &one) {
-                return one.title.toStdString() == name;
-            });
+            const auto view = std::find_if(views.begin(), views.end(),
+                                           [name = provenance.at("chart").get<std::string>()](const auto &one) {
+                                               return one.title.toStdString() == name;
+                                           });
             if (view == views.end())
                 throw Error(options.picture, "belongs to a chart that this version does not have");
             const QString kept = pathText(options.picture);
             const bool isSame = readBeginning(kept, std::numeric_limits<qint64>::max()).toStdString() == view->csv();
-            std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(kept).fileName())).c_str(), isSame ? "the same bytes" : "differs");
+            std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(kept).fileName())).c_str(),
+                        isSame ? "the same bytes" : "differs");
             if (!isSame)
                 throw Error(options.picture, "differs from the result of its provenance", Error::Kind::Failure);
         } catch (const Json::exception &error) {
@@ -83,7 +88,8 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
         throw Error(options.picture, "contains no provenance");
     const Json provenance = parseJson(text.toStdString(), options.picture);
     try {
-        if (!provenance.contains("recording") || !provenance.contains("render") || provenance["render"].contains("step"))
+        if (!provenance.contains("recording") || !provenance.contains("render")
+            || provenance["render"].contains("step"))
             throw Error(options.picture,
                         "shows the whole window, radar scans or a lesson; such pictures cannot be reproduced from "
                         "their provenance");
@@ -92,7 +98,8 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
         if (source.contains("path")) {
             const QDir place = QFileInfo(absolutePath(pathText(options.picture))).dir();
             const QString named = QString::fromStdString(source["path"].get<std::string>());
-            const QString beside = place.filePath(QFileInfo(named).fileName()); // wherever else it says, nobody asked to read there
+            const QString beside =
+                place.filePath(QFileInfo(named).fileName()); // wherever else it says, nobody asked to read there
             const QString recording = absolutePath(options.recording.empty() ? beside : pathText(options.recording));
             if (!fileExists(recording))
                 throw Error(pathBytes(recording),
@@ -103,7 +110,8 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
         }
         session.erase("render");
         session.erase("version");
-        PictureOrigin origin{renderOptionsFromJson(provenance["render"]), provenance["render"].at("view").get<std::string>()};
+        PictureOrigin origin{renderOptionsFromJson(provenance["render"]),
+                             provenance["render"].at("view").get<std::string>()};
         if (!(origin.options.scale >= 1.0 && origin.options.scale <= 4.0))
             throw Error(options.picture, "names an invalid scale; it must lie in 1 … 4");
         if (origin.options.size != picture.size() / origin.options.scale)
@@ -114,8 +122,8 @@ PictureOrigin originOf(const QImage &picture, const ReplayOptions &options, cons
         try {
             readSession(pathText(origin.options.source));
         } catch (const Error &error) { // of a file of which nobody knows
-            throw Error(options.picture,
-                        "has an invalid provenance: " + std::string(error.what()).substr(origin.options.source.size() + 2));
+            throw Error(options.picture, "has an invalid provenance: "
+                                             + std::string(error.what()).substr(origin.options.source.size() + 2));
         }
         return origin;
     } catch (const Json::exception &error) {
@@ -135,7 +143,8 @@ void replay(const ReplayOptions &options)
     const std::string remade = pictureName(origin.options, origin.view);
     const bool isSame =
         QImage(pathText(remade)).convertToFormat(QImage::Format_RGB32) == kept.convertToFormat(QImage::Format_RGB32);
-    std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(pathText(options.picture)).fileName())).c_str(), isSame ? "the same pixels" : "differs");
+    std::printf("%s: %s\n", oneLine(pathBytes(QFileInfo(pathText(options.picture)).fileName())).c_str(),
+                isSame ? "the same pixels" : "differs");
     if (!isSame)
         throw Error(options.picture, "differs from the result of its provenance", Error::Kind::Failure);
 }

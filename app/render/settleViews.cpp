@@ -1,19 +1,19 @@
 #include "app/render/settleViews.h"
 
 #include "app/control/Closeup.h"
+#include "app/control/OutputLayers.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentForm.h"
-#include "app/panels/LatencyPanel.h"
-#include "app/window/MainWindow.h"
 #include "app/panels/InfoPanel.h"
+#include "app/panels/LatencyPanel.h"
 #include "app/panels/NoiseCheck.h"
 #include "app/panels/NoiseFitPanel.h"
-#include "app/control/OutputLayers.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepForm.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/WhyPanel.h"
+#include "app/window/MainWindow.h"
 #include "app/workspace/Workbench.h"
 
 #include <QEventLoop>
@@ -50,7 +50,8 @@ namespace {
 void measureCurves(MainWindow &window)
 {
     constexpr int runs = 2;
-    window.evaluation().form().setQuick(runs, {QStringLiteral("SMD 5 slopes"), QStringLiteral("3 of 4"), QStringLiteral("integrator")}, -5, 3, 2);
+    window.evaluation().form().setQuick(
+        runs, {QStringLiteral("SMD 5 slopes"), QStringLiteral("3 of 4"), QStringLiteral("integrator")}, -5, 3, 2);
     window.evaluation().start();
     waitForExperiments(window);
     const Experiments::Entry *entry = window.experiments().entry(window.evaluation().shown());
@@ -71,7 +72,8 @@ void sweepThreshold(MainWindow &window)
     waitForExperiments(window);
     const Experiments::Entry *entry = window.experiments().entry(panel.shown());
     if (!entry || entry->state == Experiments::State::Failed)
-        throw Error("--view sweep", entry ? entry->failure.toStdString() : "cannot be drawn for this source", Error::Kind::Failure);
+        throw Error("--view sweep", entry ? entry->failure.toStdString() : "cannot be drawn for this source",
+                    Error::Kind::Failure);
 }
 
 void explainCursor(MainWindow &window)

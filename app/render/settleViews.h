@@ -6,8 +6,8 @@ namespace faintline {
 
 class MainWindow;
 
-/// Puts into a window's views what a picture of them shows, as a person would, and waits until nothing is left to do: the same from run to
-/// run. What cannot be had of this source throws Error.
+/// Puts into a window's views what a picture of them shows, as a person would, and waits until nothing is left to do:
+/// the same from run to run. What cannot be had of this source throws Error.
 
 /// A small experiment on lines such as the papers', as curves.
 void measureCurves(MainWindow &window);

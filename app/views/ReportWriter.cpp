@@ -1,10 +1,10 @@
 #include "app/views/ReportWriter.h"
 
+#include "app/base/filePath.h"
+#include "app/control/thresholdWords.h"
 #include "app/document/Document.h"
 #include "app/document/Provenance.h"
 #include "app/views/WindowViews.h"
-#include "app/base/filePath.h"
-#include "app/control/thresholdWords.h"
 #include "base/AtomicFile.h"
 
 #include <QBuffer>
@@ -18,7 +18,8 @@ namespace faintline {
 
 namespace {
 
-    /// The cell whose statistic was largest in the frame of detection, close to where the tracker then took the signal to be.
+    /// The cell whose statistic was largest in the frame of detection, close to where the tracker then took the signal
+    /// to be.
     std::vector<double> strongestNear(const Analysis &analysis, const Event &event)
     {
         constexpr Index reach = 3;
@@ -26,10 +27,12 @@ namespace {
         if (!statistic || event.position.size() != 1 || statistic->rowCount(0) == 0 || statistic->framesPerRow(0) != 1)
             return event.position;
         const Axis &frequency = analysis.grid().axes.back();
-        const auto row = statistic->row(0, std::clamp<Index>(analysis.time().nearest(event.detectSeconds), 0, statistic->rowCount(0) - 1));
+        const auto row = statistic->row(
+            0, std::clamp<Index>(analysis.time().nearest(event.detectSeconds), 0, statistic->rowCount(0) - 1));
         const Index centre = frequency.nearest(event.position.back());
         Index best = centre;
-        for (Index cell = std::max<Index>(0, centre - reach); cell <= std::min(frequency.count - 1, centre + reach); ++cell)
+        for (Index cell = std::max<Index>(0, centre - reach); cell <= std::min(frequency.count - 1, centre + reach);
+             ++cell)
             if (row[static_cast<std::size_t>(cell)] > row[static_cast<std::size_t>(best)])
                 best = cell;
         return {frequency.value(static_cast<double>(best))};
@@ -40,14 +43,16 @@ namespace {
 std::vector<ReportMaterial::Picture> reportPictures(const WindowViews &views)
 {
     std::vector<ReportMaterial::Picture> pictures;
-    const std::pair<const char *, QString> shown[] = {{"input", ReportWriter::tr("Input, dB over the noise")},
-                                                      {"output", ReportWriter::tr("Statistic of the detector, with events and tracks")},
-                                                      {"threshold", ReportWriter::tr("False alarms against the threshold, and this recording's own cells")}};
+    const std::pair<const char *, QString> shown[] = {
+        {"input", ReportWriter::tr("Input, dB over the noise")},
+        {"output", ReportWriter::tr("Statistic of the detector, with events and tracks")},
+        {"threshold", ReportWriter::tr("False alarms against the threshold, and this recording's own cells")}};
     for (const auto &[name, title] : shown) {
         QByteArray bytes;
         QBuffer buffer(&bytes);
         buffer.open(QIODevice::WriteOnly);
-        const QImage image = views.named(QString::fromLatin1(name))->grab().toImage().convertToFormat(QImage::Format_RGB32);
+        const QImage image =
+            views.named(QString::fromLatin1(name))->grab().toImage().convertToFormat(QImage::Format_RGB32);
         image.save(&buffer, "PNG");
         pictures.push_back({title.toStdString(), bytes.toStdString(), image.width(), image.height()});
     }
@@ -59,7 +64,9 @@ void writeReport(const Analysis &analysis, ReportMaterial material, const std::s
     const std::vector<Event> chosen = eventsToExplain(analysis, material.events, material.annotations);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const auto share = [&](std::size_t n) { return static_cast<double>(n) / static_cast<double>(chosen.size()); };
-        material.ladders.push_back({chosen[i].id, explain(analysis, chosen[i].detectSeconds, strongestNear(analysis, chosen[i]), context.part(share(i), share(i + 1)))});
+        material.ladders.push_back(
+            {chosen[i].id, explain(analysis, chosen[i].detectSeconds, strongestNear(analysis, chosen[i]),
+                                   context.part(share(i), share(i + 1)))});
     }
     writeTextFile(path, reportHtml(analysis, material));
 }

@@ -15,7 +15,8 @@ class WindowViews;
 std::vector<ReportMaterial::Picture> reportPictures(const WindowViews &views);
 
 /// Adds the ladders and writes the page. The chain runs again for each of them. Throws Error, Cancelled.
-void writeReport(const Analysis &analysis, ReportMaterial material, const std::string &path, const RunContext &context = {});
+void writeReport(const Analysis &analysis, ReportMaterial material, const std::string &path,
+                 const RunContext &context = {});
 
 /// Reports from the window: the pictures at once, the ladders and the recording's hash on a worker.
 class ReportWriter : public QObject

@@ -2,9 +2,9 @@
 
 #include "app/control/AnalysisController.h"
 #include "app/control/Comparer.h"
-#include "app/document/Document.h"
 #include "app/control/Experiments.h"
 #include "app/control/SequentialTests.h"
+#include "app/document/Document.h"
 
 namespace faintline {
 
@@ -33,8 +33,8 @@ class WhyPanel;
 class WindowViews;
 class Workbench;
 
-/// What a window is made of: the document, what computes, and the panels that show it. Lessons, reports, views and render know the window
-/// as this; where its parts stand, and its menus, are MainWindow's own affair, which makes them.
+/// What a window is made of: the document, what computes, and the panels that show it. Lessons, reports, views and
+/// render know the window as this; where its parts stand, and its menus, are MainWindow's own affair, which makes them.
 class WindowParts
 {
 public:
@@ -71,7 +71,8 @@ public:
     WindowViews &views() const { return *m_views; }
 
     /// A recording, a scenario or a session, whatever is unsaved.
-    virtual void openNow(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {}) = 0;
+    virtual void openNow(const QString &path, const OpenOptions &options = {},
+                         const AnalysisController::Adjust &adjust = {}) = 0;
     /// A radar's sequential test on simulated scans. Where no recording is open, nothing else is shown.
     virtual void openScans(const ScanTest &test) = 0;
 

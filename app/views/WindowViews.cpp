@@ -1,28 +1,28 @@
 #include "app/views/WindowViews.h"
 
+#include "app/control/EventReviews.h"
+#include "app/control/OutputLayers.h"
+#include "app/document/saveView.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/EvaluatePanel.h"
-#include "app/control/EventReviews.h"
 #include "app/panels/HandLinePanel.h"
 #include "app/panels/InfoPanel.h"
 #include "app/panels/LatencyPanel.h"
 #include "app/panels/NoiseFitPanel.h"
-#include "app/control/OutputLayers.h"
-#include "app/workspace/PingBench.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/TrajectoryPage.h"
 #include "app/panels/WhyPanel.h"
 #include "app/views/WindowParts.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "app/document/saveView.h"
+#include "widgets/base/Theme.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/pings/PingMap.h"
 #include "widgets/plot/BarPlot.h"
 #include "widgets/plot/CellPicture.h"
-#include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
-#include "widgets/pings/PingMap.h"
-#include "widgets/base/Theme.h"
 #include "widgets/plot/WalkPlot.h"
 
 #include <QApplication>
@@ -66,9 +66,12 @@ const std::vector<WindowView> &windowViews()
         {"latency", tr("Latency"), Of::Pings, [](Parts parts) -> QWidget * { return &parts.latency(); }},
         {"sequential", tr("Sequential test"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential(); }},
         {"walk", tr("Walks"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().walk(); }},
-        {"stopping", tr("Stopping stages"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().stopping(); }},
-        {"posterior", tr("Posterior"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().trajectory().posterior(); }},
-        {"scan", tr("Scan"), Of::Scans, [](Parts parts) -> QWidget * { return &parts.sequential().trajectory().scan(); }},
+        {"stopping", tr("Stopping stages"), Of::Scans,
+         [](Parts parts) -> QWidget * { return &parts.sequential().stopping(); }},
+        {"posterior", tr("Posterior"), Of::Scans,
+         [](Parts parts) -> QWidget * { return &parts.sequential().trajectory().posterior(); }},
+        {"scan", tr("Scan"), Of::Scans,
+         [](Parts parts) -> QWidget * { return &parts.sequential().trajectory().scan(); }},
         {"asn", tr("Average sample number"), Of::Scans, [](Parts parts) { return parts.sequential().curvesPage(); }},
         {"prior", tr("Prior"), Of::Scans, [](Parts parts) { return parts.sequential().priorPage(); }},
         {"sectors", tr("Sectors"), Of::Scans, [](Parts parts) { return parts.sequential().sectorsPage(); }},
@@ -92,7 +95,8 @@ const QStringList &WindowViews::names()
 QWidget *WindowViews::named(const QString &name) const
 {
     const auto &table = windowViews();
-    const auto found = std::find_if(table.begin(), table.end(), [&](const WindowView &view) { return view.name == name; });
+    const auto found =
+        std::find_if(table.begin(), table.end(), [&](const WindowView &view) { return view.name == name; });
     if (found == table.end())
         return nullptr;
     return found->widget ? found->widget(m_parts) : m_window;
@@ -126,12 +130,13 @@ std::string WindowViews::withView(const QString &name, const std::string &proven
     const OutputLayers &layers = m_parts.workbench().layers();
     Json json = parseJson(provenance, "provenance");
     json["view"] = toJson(m_parts.bench().viewState());
-    json["render"] = {{"view", name.toStdString()},
-                      {"size", {shown.width(), shown.height()}},
-                      {"theme", Theme::nameOf(Theme::kind(m_window->palette())).toStdString()},
-                      {"layer", std::string(outputLayerNames[static_cast<std::size_t>(layers.layer())])},
-                      {"overlay", layers.isOverlay()},
-                      {"focused", shown.isAncestorOf(QApplication::focusWidget()) || &shown == QApplication::focusWidget()}};
+    json["render"] = {
+        {"view", name.toStdString()},
+        {"size", {shown.width(), shown.height()}},
+        {"theme", Theme::nameOf(Theme::kind(m_window->palette())).toStdString()},
+        {"layer", std::string(outputLayerNames[static_cast<std::size_t>(layers.layer())])},
+        {"overlay", layers.isOverlay()},
+        {"focused", shown.isAncestorOf(QApplication::focusWidget()) || &shown == QApplication::focusWidget()}};
     return json.dump(2) + "\n";
 }
 

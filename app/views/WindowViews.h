@@ -14,7 +14,8 @@ namespace faintline {
 
 class WindowParts;
 
-/// Something of the window that can be looked at by itself: in a picture, in a lesson, on the sheets of keys and equations.
+/// Something of the window that can be looked at by itself: in a picture, in a lesson, on the sheets of keys and
+/// equations.
 struct WindowView {
     /// What it shows, where something else is open there is nothing to be seen in it.
     enum class Of { Recording, Pings, Scans };

@@ -1,8 +1,8 @@
 #include "app/welcome/ScanCard.h"
 
 #include "app/control/scanScenario.h"
-#include "widgets/plot/CellPicture.h"
 #include "widgets/base/Theme.h"
+#include "widgets/plot/CellPicture.h"
 #include "widgets/plot/WalkPlot.h"
 
 #include <QLabel>
@@ -43,7 +43,8 @@ namespace {
 } // namespace
 
 ScanCard::ScanCard(QWidget *parent)
-    : QAbstractButton(parent), m_scan(new CellPicture), m_walks(new WalkPlot), m_found(caption(tr("Simulating …"), Theme::font(12)))
+    : QAbstractButton(parent), m_scan(new CellPicture), m_walks(new WalkPlot),
+      m_found(caption(tr("Simulating …"), Theme::font(12)))
 {
     const QString sentence = tr("The test leaves an empty sector as soon as it can decide, and follows a target that "
                                 "changes cells from scan to scan.");
@@ -101,10 +102,14 @@ void ScanCard::setResult(const Result &result)
     m_walks->setMarks({});
     const ScanScene &scene = result.test.scene;
     // As wide as the card: range to the right.
-    m_scan->setPicture({"range", "cell", 0.0, 1.0, scene.rangeCells, false}, {"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false},
-                       result.scan.db, {0.0, scene.snrDb + 6.0}, tr("dB"));
+    m_scan->setPicture({"range", "cell", 0.0, 1.0, scene.rangeCells, false},
+                       {"Doppler", "cell", 0.0, 1.0, scene.dopplerCells, false}, result.scan.db,
+                       {0.0, scene.snrDb + 6.0}, tr("dB"));
     m_scan->setPaths({{{}, CellPicture::Path::Kind::Rings, Theme::colours(*this).truth, truthOn(result)}});
-    m_found->setText(tr("%1 of %2 targets found, in %3 scans each").arg(accepted).arg(walksShown).arg(onTargets / walksShown, 0, 'f', 1));
+    m_found->setText(tr("%1 of %2 targets found, in %3 scans each")
+                         .arg(accepted)
+                         .arg(walksShown)
+                         .arg(onTargets / walksShown, 0, 'f', 1));
 }
 
 QSize ScanCard::sizeHint() const

@@ -1,7 +1,7 @@
 #include "app/welcome/ScenarioCard.h"
 
-#include "widgets/waterfall/OverviewStrip.h"
 #include "widgets/base/Theme.h"
+#include "widgets/waterfall/OverviewStrip.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QLabel>

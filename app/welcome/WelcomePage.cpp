@@ -1,10 +1,10 @@
 #include "app/welcome/WelcomePage.h"
 
 #include "analysis/analyse.h"
+#include "app/base/filePath.h"
 #include "app/lessons/LessonList.h"
 #include "app/welcome/ScanCard.h"
 #include "app/welcome/ScenarioCard.h"
-#include "app/base/filePath.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 
@@ -42,7 +42,8 @@ namespace {
 
 } // namespace
 
-WelcomePage::WelcomePage(QWidget *parent) : QWidget(parent), m_scanCard(new ScanCard), m_lessons(new LessonList), m_recent(new QVBoxLayout)
+WelcomePage::WelcomePage(QWidget *parent)
+    : QWidget(parent), m_scanCard(new ScanCard), m_lessons(new LessonList), m_recent(new QVBoxLayout)
 {
     connect(&m_runner, &JobRunner::failed, this, &WelcomePage::failed);
     auto *page = new QWidget;

@@ -39,7 +39,7 @@ signals:
     /// The card may have its result already.
     void scenarioChosen(faintline::ScenarioCard *card);
     void scansChosen(); ///< the radar's card
-    void settled(); ///< all cards are ready
+    void settled();     ///< all cards are ready
     void failed(const faintline::Error &error);
 
 private:

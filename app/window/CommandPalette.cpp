@@ -51,7 +51,8 @@ void CommandPalette::open(const QList<QAction *> &commands)
     m_previousFocus = QApplication::focusWidget();
     m_commands.clear();
     collect(commands, {});
-    setGeometry((parentWidget()->width() - paletteWidth) / 2, parentWidget()->height() / 8, paletteWidth, paletteHeight);
+    setGeometry((parentWidget()->width() - paletteWidth) / 2, parentWidget()->height() / 8, paletteWidth,
+                paletteHeight);
     m_line->clear();
     filter({});
     show();
@@ -101,7 +102,8 @@ void CommandPalette::filter(const QString &typed)
     m_list->clear();
     for (const Found &each : found) {
         const QString key = each.command->action->shortcut().toString(QKeySequence::NativeText);
-        auto *item = new QListWidgetItem(key.isEmpty() ? each.command->name : each.command->name + QStringLiteral("   (") + key + QLatin1Char(')'));
+        auto *item = new QListWidgetItem(
+            key.isEmpty() ? each.command->name : each.command->name + QStringLiteral("   (") + key + QLatin1Char(')'));
         item->setData(Qt::UserRole, static_cast<qlonglong>(each.command - m_commands.constData()));
         m_list->addItem(item);
     }

@@ -10,8 +10,8 @@ class QListWidget;
 
 namespace faintline {
 
-/// Every command of the window by name: type some letters of it, Enter carries it out. Letters need not stand together: "nofi" finds
-/// "Noise fit". Arrows choose, Escape leaves.
+/// Every command of the window by name: type some letters of it, Enter carries it out. Letters need not stand together:
+/// "nofi" finds "Noise fit". Arrows choose, Escape leaves.
 class CommandPalette : public QFrame
 {
     Q_OBJECT

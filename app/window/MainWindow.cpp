@@ -1,53 +1,53 @@
 #include "app/window/MainWindow.h"
 
-#include "app/window/ActivityBar.h"
-#include "app/window/CommandPalette.h"
-#include "app/panels/ComparePanel.h"
-#include "app/help/EquationSheet.h"
-#include "app/panels/EvaluatePanel.h"
+#include "app/base/MessageBar.h"
+#include "app/base/filePath.h"
+#include "app/base/statisticUnit.h"
 #include "app/control/EventReviews.h"
+#include "app/control/OutputLayers.h"
+#include "app/control/ThresholdCurves.h"
+#include "app/control/hint.h"
+#include "app/control/scanScenario.h"
+#include "app/document/Recovery.h"
+#include "app/document/SessionSaver.h"
+#include "app/help/EquationSheet.h"
+#include "app/help/KeysOverlay.h"
+#include "app/lessons/Lesson.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/panels/ComparePanel.h"
+#include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/panels/HandLinePanel.h"
 #include "app/panels/InfoPanel.h"
 #include "app/panels/InjectDialog.h"
-#include "app/panels/LearnMotionDialog.h"
-#include "app/help/KeysOverlay.h"
 #include "app/panels/LatencyPanel.h"
-#include "app/lessons/Lesson.h"
-#include "app/lessons/LessonGuide.h"
-#include "app/base/MessageBar.h"
+#include "app/panels/LearnMotionDialog.h"
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/OpenOptionsDialog.h"
-#include "app/control/OutputLayers.h"
-#include "app/window/Panels.h"
-#include "app/workspace/PingBench.h"
 #include "app/panels/PipelinePanel.h"
-#include "app/document/Recovery.h"
-#include "app/views/ReportWriter.h"
 #include "app/panels/ReproductionPanel.h"
-#include "app/welcome/ScenarioCard.h"
 #include "app/panels/SequentialPanel.h"
-#include "app/document/SessionSaver.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
-#include "app/control/ThresholdCurves.h"
 #include "app/panels/TrialViewer.h"
-#include "app/welcome/WelcomePage.h"
 #include "app/panels/WhyPanel.h"
+#include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
-#include "app/workspace/Workbench.h"
+#include "app/welcome/ScenarioCard.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/window/ActivityBar.h"
+#include "app/window/CommandPalette.h"
+#include "app/window/Panels.h"
 #include "app/window/currentView.h"
-#include "app/base/filePath.h"
-#include "app/control/hint.h"
-#include "app/control/scanScenario.h"
-#include "app/base/statisticUnit.h"
+#include "app/workspace/PingBench.h"
+#include "app/workspace/Workbench.h"
 #include "spectrum/NoiseNormaliser.h"
-#include "widgets/events/EventTable.h"
-#include "widgets/plot/ExceedancePlot.h"
-#include "widgets/waterfall/OverviewStrip.h"
-#include "widgets/pings/PingMap.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/labelText.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/pings/PingMap.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/waterfall/OverviewStrip.h"
 
 #include <QCloseEvent>
 #include <QDateTime>
@@ -162,8 +162,9 @@ void MainWindow::buildDocks()
     new ThresholdCurves(m_document, *m_threshold, this);
     m_events = new EventTable;
     m_events->setEmptySentence(tr("No event at this threshold."));
-    m_reviews = new EventReviews(m_document, *m_events,
-                                 {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
+    m_reviews = new EventReviews(
+        m_document, *m_events,
+        {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
     m_why = new WhyPanel(m_document, m_pings->viewports());
     m_info = new InfoPanel(m_document, m_controller);
@@ -277,13 +278,16 @@ void MainWindow::offerRecovery()
     if (left.isEmpty())
         return;
     const QString when = QFileInfo(left.first()).lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"));
-    m_messages->showMessage(MessageBar::Kind::Notice, tr("Unsaved work"), tr("of %1 was recovered after the program "
-                                                                             "ended unexpectedly.").arg(when),
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Unsaved work"),
+                            tr("of %1 was recovered after the program "
+                               "ended unexpectedly.")
+                                .arg(when),
                             tr("Restore"), [this, session = left.first()] {
                                 m_welcome->stop();
                                 // What was left behind goes when it is kept again.
                                 connect(
-                                    m_recovery, &Recovery::kept, this, [session] { Recovery::discard(session); }, Qt::SingleShotConnection);
+                                    m_recovery, &Recovery::kept, this, [session] { Recovery::discard(session); },
+                                    Qt::SingleShotConnection);
                                 m_controller.recover(session);
                             });
 }
@@ -344,8 +348,8 @@ void MainWindow::offerIq()
     m_iqAction->setVisible(isPossible || options.iq);
     if (isPossible && info.channelCount == 2)
         m_messages->showMessage(MessageBar::Kind::Notice, m_document.source().name(),
-                                tr("Two channels; showing the first. Treat them as I/Q?"),
-                                tr("Treat as I/Q"), [this] { m_iqAction->trigger(); });
+                                tr("Two channels; showing the first. Treat them as I/Q?"), tr("Treat as I/Q"),
+                                [this] { m_iqAction->trigger(); });
 }
 
 void MainWindow::showWelcome()
@@ -455,7 +459,8 @@ void MainWindow::fillRecentMenu()
 {
     m_recentMenu->clear();
     for (const QString &path : m_memory.recent())
-        m_recentMenu->addAction(buttonText(fileLabel(path)), this, [this, path] { open(path); })->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
+        m_recentMenu->addAction(buttonText(fileLabel(path)), this, [this, path] { open(path); })
+            ->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
     if (m_recentMenu->isEmpty())
         m_recentMenu->addAction(tr("No recent files"))->setEnabled(false);
 }
@@ -495,7 +500,8 @@ void MainWindow::setAsking(bool isAsking)
 
 void MainWindow::exportReport()
 {
-    const QString path = QFileDialog::getSaveFileName(this, tr("Export report"), nameBeside(m_document.source().path, QStringLiteral(".html")),
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export report"),
+                                                      nameBeside(m_document.source().path, QStringLiteral(".html")),
                                                       tr("Report (*.html)"));
     if (!path.isEmpty())
         m_report->write(path);
@@ -509,7 +515,8 @@ void MainWindow::injectLine()
         return;
     const RecordingInfo &info = m_document.recording()->info();
     const Viewport &viewport = m_document.viewport();
-    const Viewport::Point at = viewport.cursor().value_or(Viewport::Point{viewport.full().time.middle(), viewport.full().frequency.middle()});
+    const Viewport::Point at =
+        viewport.cursor().value_or(Viewport::Point{viewport.full().time.middle(), viewport.full().frequency.middle()});
     InjectDialog dialog(info, at.seconds, at.hz, spectrogram->windowSeconds(), this);
     if (dialog.exec() == QDialog::Accepted)
         m_controller.inject(dialog.line());
@@ -598,7 +605,8 @@ void MainWindow::showEquation()
     const QString name = currentView(*this, *this);
     const QString detector = QString::fromLatin1(detectorNames[m_document.settings().detector.index()].data());
     // Where the first view is a map, input and output are maps, too.
-    const bool isMap = bench().firstViewName() == QLatin1String("map") && (name == QLatin1String("input") || name == QLatin1String("output"));
+    const bool isMap = bench().firstViewName() == QLatin1String("map")
+                       && (name == QLatin1String("input") || name == QLatin1String("output"));
     m_equation->toggle(equationOf(isMap ? QStringLiteral("map") : name, detector), m_lessons->widgetNamed(name));
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/window/WindowMemory.h"
 #include "app/views/WindowParts.h"
+#include "app/window/WindowMemory.h"
 #include "widgets/base/Theme.h"
 
 #include <QMainWindow>
@@ -34,13 +34,16 @@ class MainWindow : public QMainWindow, public WindowParts
     Q_OBJECT
 
 public:
-    /// `memory`: where recent files and the window's layout are kept; null keeps nothing. `recoveryFolder`: where unsaved work is.
-    explicit MainWindow(std::unique_ptr<QSettings> memory = {}, const QString &recoveryFolder = {}, QWidget *parent = nullptr);
+    /// `memory`: where recent files and the window's layout are kept; null keeps nothing. `recoveryFolder`: where
+    /// unsaved work is.
+    explicit MainWindow(std::unique_ptr<QSettings> memory = {}, const QString &recoveryFolder = {},
+                        QWidget *parent = nullptr);
     ~MainWindow() override;
 
     /// Opens a recording, a scenario or a session. Asks only what the file itself cannot tell.
     void open(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {});
-    void openNow(const QString &path, const OpenOptions &options = {}, const AnalysisController::Adjust &adjust = {}) override;
+    void openNow(const QString &path, const OpenOptions &options = {},
+                 const AnalysisController::Adjust &adjust = {}) override;
     void showWelcome();
     /// Offers unsaved work that a program left behind when it died.
     void offerRecovery();

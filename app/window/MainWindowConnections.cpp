@@ -2,38 +2,38 @@
 
 #include "app/window/MainWindow.h"
 
-#include "app/window/ActivityBar.h"
-#include "app/panels/ComparePanel.h"
-#include "app/panels/EvaluatePanel.h"
+#include "app/base/MessageBar.h"
+#include "app/base/filePath.h"
 #include "app/control/EventReviews.h"
-#include "app/panels/ExperimentsPanel.h"
-#include "app/window/FileDrop.h"
+#include "app/control/OutputLayers.h"
+#include "app/control/scanScenario.h"
+#include "app/control/thresholdWords.h"
+#include "app/document/Recovery.h"
+#include "app/document/SessionSaver.h"
 #include "app/lessons/Lesson.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonList.h"
-#include "app/base/MessageBar.h"
-#include "app/control/OutputLayers.h"
-#include "app/window/Panels.h"
-#include "app/workspace/PingBench.h"
-#include "app/document/Recovery.h"
-#include "app/views/ReportWriter.h"
-#include "app/welcome/ScenarioCard.h"
+#include "app/panels/ComparePanel.h"
+#include "app/panels/EvaluatePanel.h"
+#include "app/panels/ExperimentsPanel.h"
 #include "app/panels/SequentialPanel.h"
-#include "app/document/SessionSaver.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/TrialViewer.h"
-#include "app/welcome/WelcomePage.h"
+#include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
+#include "app/welcome/ScenarioCard.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/window/ActivityBar.h"
+#include "app/window/FileDrop.h"
+#include "app/window/Panels.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "app/base/filePath.h"
-#include "app/control/scanScenario.h"
-#include "app/control/thresholdWords.h"
+#include "widgets/base/ReadOut.h"
+#include "widgets/base/settingWords.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 #include "widgets/waterfall/OverviewStrip.h"
-#include "widgets/base/ReadOut.h"
-#include "widgets/base/settingWords.h"
 
 #include <QDockWidget>
 #include <QFileInfo>
@@ -111,7 +111,8 @@ void MainWindow::connectController()
     });
     connect(&m_controller, &AnalysisController::refined, this,
             [this](double firstEstimate) { m_hint->setText(refinedSentence(*m_document.analysis(), firstEstimate)); });
-    connect(&m_controller, &AnalysisController::viewRestored, this, [this](const ViewState &view) { bench().restore(view); });
+    connect(&m_controller, &AnalysisController::viewRestored, this,
+            [this](const ViewState &view) { bench().restore(view); });
     m_saver = new SessionSaver(
         m_document, [this] { return bench().viewState(); }, this);
     m_recovery = new Recovery(
@@ -121,9 +122,11 @@ void MainWindow::connectController()
     connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
-    connect(m_report, &ReportWriter::written, this,
-            [this](const QString &path) { m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path), tr("was "
-                                                                                                                "written.")); });
+    connect(m_report, &ReportWriter::written, this, [this](const QString &path) {
+        m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path),
+                                tr("was "
+                                   "written."));
+    });
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
         m_memory.addRecent(path);
@@ -139,7 +142,8 @@ void MainWindow::connectViews()
     connect(m_welcome, &WelcomePage::scansChosen, this, [this] { open(radarScenarioPath()); });
     connect(m_welcome->lessonList(), &LessonList::chosen, this,
             [this](int lesson) { startLesson(lessons()[static_cast<std::size_t>(lesson)]); });
-    connect(m_presentAction, &QAction::toggled, this, [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
+    connect(m_presentAction, &QAction::toggled, this,
+            [](bool isPresenting) { Theme::setPlotScale(isPresenting ? 1.5 : 1.0); });
     connect(m_presentAction, &QAction::toggled, m_lessons, &LessonGuide::present);
     connect(m_welcome, &WelcomePage::failed, this, &MainWindow::showError);
 
@@ -157,17 +161,19 @@ void MainWindow::connectViews()
         m_messages->showMessage(MessageBar::Kind::Notice, where, what);
     });
     connect(m_compare, &ComparePanel::eventActivated, this, goTo);
-    connect(m_workbench->output(), &WaterfallView::orientationChanged, m_compare->picture(), &WaterfallView::setOrientation);
+    connect(m_workbench->output(), &WaterfallView::orientationChanged, m_compare->picture(),
+            &WaterfallView::setOrientation);
     connect(m_workbench, &Workbench::readingChanged, m_readOut, &ReadOut::setReading);
     connect(m_workbench->output(), &WaterfallView::colourMapChanged, m_overview,
             [this](const QString &name) { m_overview->setColourMap(ColourMap::named(name)); });
 
-    connect(static_cast<QDockWidget *>(m_states->parentWidget()), &QDockWidget::visibilityChanged, &m_workbench->layers(),
-            &OutputLayers::setWatching);
+    connect(static_cast<QDockWidget *>(m_states->parentWidget()), &QDockWidget::visibilityChanged,
+            &m_workbench->layers(), &OutputLayers::setWatching);
     connect(&m_workbench->layers(), &OutputLayers::failed, this, &MainWindow::showError);
-    connect(m_states, &StateSlicePanel::lawRequested, this, [this](const QString &field, const std::vector<double> &law) {
-        m_controller.edit(field, law, tr("Change “%1”").arg(settingLabel(field)));
-    });
+    connect(m_states, &StateSlicePanel::lawRequested, this,
+            [this](const QString &field, const std::vector<double> &law) {
+                m_controller.edit(field, law, tr("Change “%1”").arg(settingLabel(field)));
+            });
     connect(m_threshold, &ExceedancePlot::thresholdRequested, &m_controller, &AnalysisController::previewThreshold);
     connect(m_threshold, &ExceedancePlot::thresholdCommitted, &m_controller, &AnalysisController::commitThreshold);
     connect(m_threshold, &ExceedancePlot::unitChanged, this,
@@ -196,7 +202,8 @@ void MainWindow::connectEvaluation()
     connect(m_experimentList, &ExperimentsPanel::showRequested, this, &MainWindow::showExperiment);
     connect(&m_experiments, &Experiments::changed, this, [this](int id) {
         // A reproduction shows itself when it is done; curves grow where they are.
-        if (const Experiments::Entry *entry = m_experiments.entry(id); entry->state == Experiments::State::Done && entry->reproduction)
+        if (const Experiments::Entry *entry = m_experiments.entry(id);
+            entry->state == Experiments::State::Done && entry->reproduction)
             showExperiment(id);
     });
 }

@@ -2,27 +2,27 @@
 
 #include "app/window/MainWindow.h"
 
-#include "app/window/CommandPalette.h"
+#include "app/control/EventReviews.h"
+#include "app/control/OutputLayers.h"
+#include "app/control/scanScenario.h"
+#include "app/document/SessionSaver.h"
+#include "app/document/scenarios.h"
+#include "app/help/KeysOverlay.h"
+#include "app/lessons/LessonGuide.h"
 #include "app/panels/ComparePanel.h"
 #include "app/panels/EvaluatePanel.h"
-#include "app/control/EventReviews.h"
 #include "app/panels/ExperimentsPanel.h"
-#include "app/help/KeysOverlay.h"
-#include "app/control/OutputLayers.h"
-#include "app/lessons/LessonGuide.h"
-#include "app/window/Panels.h"
-#include "app/workspace/PingBench.h"
-#include "app/window/currentView.h"
-#include "app/document/scenarios.h"
 #include "app/panels/SequentialPanel.h"
-#include "app/document/SessionSaver.h"
-#include "app/window/ToolBar.h"
-#include "app/welcome/WelcomePage.h"
 #include "app/views/WindowViews.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/window/CommandPalette.h"
+#include "app/window/Panels.h"
+#include "app/window/ToolBar.h"
+#include "app/window/currentView.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "app/control/scanScenario.h"
-#include "widgets/events/EventTable.h"
 #include "widgets/base/icon.h"
+#include "widgets/events/EventTable.h"
 #include "widgets/waterfall/waterfallCommands.h"
 
 #include <QActionGroup>
@@ -101,8 +101,9 @@ void MainWindow::buildEditMenu()
     redo->setShortcuts({QKeySequence(Qt::CTRL | Qt::Key_Y), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)});
     menu->addActions({undo, redo});
     menu->addSeparator();
-    addViewAction(*menu, tr("Reset all &settings"), {},
-                  [this] { m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings")); });
+    addViewAction(*menu, tr("Reset all &settings"), {}, [this] {
+        m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings"));
+    });
 }
 
 void MainWindow::buildViewMenu()
@@ -128,7 +129,8 @@ void MainWindow::buildViewMenu()
     QAction *sidebands = addViewAction(*menu, tr("S&idebands"), Qt::Key_I, {});
     sidebands->setCheckable(true);
     connect(sidebands, &QAction::toggled, output, &WaterfallView::setSidebands);
-    connect(output, &WaterfallView::sidebandsChanged, sidebands, [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
+    connect(output, &WaterfallView::sidebandsChanged, sidebands,
+            [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
     addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K,
                   [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
     menu->addSeparator();
@@ -184,10 +186,12 @@ void MainWindow::addLayerMenu(QMenu &menu)
     }
     choices->addSeparator();
     addAction(addViewAction(*choices, tr("Layer: &next"), Qt::Key_V, [layers] { layers->cycleLayer(); }));
-    QAction *overlay = addViewAction(*choices, tr("Layer &over the statistic"), QKeySequence(Qt::SHIFT | Qt::Key_V), {});
+    QAction *overlay =
+        addViewAction(*choices, tr("Layer &over the statistic"), QKeySequence(Qt::SHIFT | Qt::Key_V), {});
     overlay->setCheckable(true);
     connect(overlay, &QAction::toggled, layers, &OutputLayers::setOverlay);
-    connect(layers, &OutputLayers::layerChanged, overlay, [layers, overlay] { overlay->setChecked(layers->isOverlay()); });
+    connect(layers, &OutputLayers::layerChanged, overlay,
+            [layers, overlay] { overlay->setChecked(layers->isOverlay()); });
     addAction(overlay);
 }
 
@@ -213,7 +217,8 @@ void MainWindow::buildDetectMenu()
         showCompare();
         m_compare->keep();
     });
-    addViewAction(*menu, tr("Swap &A and B"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_B), [this] { m_compare->swap(); });
+    addViewAction(*menu, tr("Swap &A and B"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_B),
+                  [this] { m_compare->swap(); });
     addViewAction(*menu, tr("&Go to A"), {}, [this] { m_compare->goToA(); });
     menu->addSeparator();
     m_playAction = addViewAction(*menu, tr("P&lay"), Qt::Key_Space, {});
@@ -243,15 +248,18 @@ void MainWindow::buildEvaluateMenu()
     QMenu *menu = menuBar()->addMenu(tr("Eva&luate"));
     addViewAction(*menu, tr("&Pd and ROC"), QKeySequence(Qt::CTRL | Qt::Key_P), [this] { m_panels->show(m_evaluate); });
     addViewAction(*menu, tr("&Experiments"), {}, [this] { m_panels->show(m_experimentList); });
-    addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P), [this] { showSweep(); });
+    addViewAction(*menu, tr("S&weep a setting"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_P),
+                  [this] { showSweep(); });
     addViewAction(*menu, tr("&Noise fit"), {}, [this] { showNoiseFit(); });
     addViewAction(*menu, tr("&Latency of pings"), {}, [this] { showLatency(); });
     menu->addSeparator();
-    addViewAction(*menu, tr("&Sequential test"), QKeySequence(Qt::CTRL | Qt::Key_T), [this] { m_panels->show(m_sequential); });
-    addViewAction(*menu, tr("Sequential test on the se&lection"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_T), [this] {
-        m_panels->show(m_sequential);
-        m_sequential->startOnSelection();
-    });
+    addViewAction(*menu, tr("&Sequential test"), QKeySequence(Qt::CTRL | Qt::Key_T),
+                  [this] { m_panels->show(m_sequential); });
+    addViewAction(*menu, tr("Sequential test on the se&lection"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_T),
+                  [this] {
+                      m_panels->show(m_sequential);
+                      m_sequential->startOnSelection();
+                  });
     menu->addSeparator();
     addViewAction(*menu, tr("&Inject a line…"), QKeySequence(Qt::CTRL | Qt::Key_I), [this] { injectLine(); });
 }
@@ -276,11 +284,14 @@ void MainWindow::buildHelpMenu()
     QAction *keys = menu->addAction(tr("&Keys and mouse"), this, [this] { m_keys->toggle(currentView(*this, *this)); });
     keys->setShortcuts(
         {QKeySequence(Qt::Key_F1), QKeySequence(Qt::Key_Question), QKeySequence(Qt::SHIFT | Qt::Key_Question)});
-    menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this, &MainWindow::showEquation);
+    menu->addAction(tr("&Equation of this view"), QKeySequence(Qt::SHIFT | Qt::Key_F1), this,
+                    &MainWindow::showEquation);
     QMenu *lessonMenu = menu->addMenu(tr("&Lessons"));
     for (const Lesson &lesson : lessons())
-        lessonMenu->addAction(lesson.title, this, [this, &lesson] { startLesson(lesson); })->setToolTip(lesson.sentence);
-    menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this, [this] { m_palette->open(menuBar()->actions()); });
+        lessonMenu->addAction(lesson.title, this, [this, &lesson] { startLesson(lesson); })
+            ->setToolTip(lesson.sentence);
+    menu->addAction(tr("&Find a command…"), QKeySequence(Qt::CTRL | Qt::Key_K), this,
+                    [this] { m_palette->open(menuBar()->actions()); });
     menu->addAction(tr("&About Faintline"), this, &MainWindow::about);
 }
 
@@ -300,16 +311,16 @@ void MainWindow::buildToolBar()
     auto *bar = new ToolBar(tr("Tools"));
     addToolBar(bar);
     bar->setObjectName(QStringLiteral("toolBar"));
-    const auto add = [this, bar](const QString &text, const char *icon, const QString &toolTip, bool keepsText, auto action) {
+    const auto add = [this, bar](const QString &text, const char *icon, const QString &toolTip, bool keepsText,
+                                 auto action) {
         auto *result = new QAction(text, bar);
         connect(result, &QAction::triggered, this, action);
         result->setToolTip(toolTip);
         bar->addAction(result, QString::fromLatin1(icon), keepsText);
         return result;
     };
-    const auto addOfView = [&](const QString &text, const char *icon, const QString &toolTip, bool keepsText, auto action) {
-        m_viewActions.push_back(add(text, icon, toolTip, keepsText, action));
-    };
+    const auto addOfView = [&](const QString &text, const char *icon, const QString &toolTip, bool keepsText,
+                               auto action) { m_viewActions.push_back(add(text, icon, toolTip, keepsText, action)); };
     add(tr("Open…"), "open", tr("Open a recording, a scenario or a session (Ctrl+O)"), true, &MainWindow::chooseFile);
 
     auto *scenarioMenu = new QMenu(this);
@@ -330,15 +341,19 @@ void MainWindow::buildToolBar()
     addOfView(tr("Orientation"), "orientation", tr("Newest on top, oldest on top, left to right (O)"), false,
               [this] { bench().cycleOrientation(); });
     addOfView(tr("Colours"), "colours", tr("Next colour map (C)"), false, [this] { bench().cycleColourMap(); });
-    addOfView(tr("Show all"), "show-all", tr("The whole recording (0)"), false, [this] { m_document.viewport().showAll(); });
+    addOfView(tr("Show all"), "show-all", tr("The whole recording (0)"), false,
+              [this] { m_document.viewport().showAll(); });
     bar->addSeparator();
     addOfView(tr("Frame back"), "step-back", tr("One frame back (J)"), false, [this] { bench().stepFrames(-1); });
     bar->addAction(m_playAction, QStringLiteral("play"), false);
-    connect(m_playAction, &QAction::toggled, this,
-            [this](bool isPlaying) { m_playAction->setIcon(icon(isPlaying ? QStringLiteral("pause") : QStringLiteral("play"))); });
-    addOfView(tr("Frame forward"), "step-forward", tr("One frame forward (L)"), false, [this] { bench().stepFrames(1); });
+    connect(m_playAction, &QAction::toggled, this, [this](bool isPlaying) {
+        m_playAction->setIcon(icon(isPlaying ? QStringLiteral("pause") : QStringLiteral("play")));
+    });
+    addOfView(tr("Frame forward"), "step-forward", tr("One frame forward (L)"), false,
+              [this] { bench().stepFrames(1); });
     bar->addSeparator();
-    addOfView(tr("Next event"), "next-event", tr("Go to the next event (N)"), false, [this] { m_events->selectNext(); });
+    addOfView(tr("Next event"), "next-event", tr("Go to the next event (N)"), false,
+              [this] { m_events->selectNext(); });
 }
 
 } // namespace faintline

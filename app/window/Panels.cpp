@@ -17,7 +17,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr int twoColumnsFrom = 1500; ///< pixels; in a narrower window all panels share a column, so that the pictures have the room
+    constexpr int twoColumnsFrom =
+        1500; ///< pixels; in a narrower window all panels share a column, so that the pictures have the room
     constexpr int narrowestColumn = 280;
 
     Qt::DockWidgetArea areaOf(Panels::Place place)
@@ -45,7 +46,8 @@ namespace {
             {QT_TRANSLATE_NOOP("faintline::Panels", "Lines"), {}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Active sonar"), {"thresholdDock", "eventsDock", "statesDock"}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Sequential test"), {"sequentialDock"}},
-            {QT_TRANSLATE_NOOP("faintline::Panels", "Evaluate"), {"experimentsDock", "reproductionDock", "evaluateDock"}},
+            {QT_TRANSLATE_NOOP("faintline::Panels", "Evaluate"),
+             {"experimentsDock", "reproductionDock", "evaluateDock"}},
             {QT_TRANSLATE_NOOP("faintline::Panels", "Teach"), {"eventsDock", "thresholdDock"}},
         };
         return all;
@@ -107,8 +109,10 @@ void Panels::takeDefault()
         m_window.tabifyDockWidget(right, left);
         right->raise();
     }
-    m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)}, Qt::Horizontal);
-    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{1, 1} : QList<int>{4, 5}, Qt::Vertical);
+    m_window.resizeDocks({left, right}, {width * 16 / 100, std::max(narrowestColumn, width * 18 / 100)},
+                         Qt::Horizontal);
+    m_window.resizeDocks({right, first(Place::RightBottom)}, isNarrow ? QList<int>{1, 1} : QList<int>{4, 5},
+                         Qt::Vertical);
 }
 
 void Panels::show(QWidget *panel)

@@ -20,8 +20,8 @@ class Panels : public QObject
     Q_OBJECT
 
 public:
-    /// Where a panel stands at first. Panels in one place are tabs, the first one in front; those at the bottom are out of
-    /// sight until they are asked for, because the pictures need the room.
+    /// Where a panel stands at first. Panels in one place are tabs, the first one in front; those at the bottom are out
+    /// of sight until they are asked for, because the pictures need the room.
     enum class Place { Left, RightTop, RightBottom, Bottom };
 
     explicit Panels(QMainWindow &window);

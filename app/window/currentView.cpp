@@ -1,8 +1,8 @@
 #include "app/window/currentView.h"
 
-#include "app/welcome/WelcomePage.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
+#include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/plot/StripPlot.h"
 

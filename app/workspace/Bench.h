@@ -12,8 +12,9 @@ class QSplitter;
 
 namespace faintline {
 
-/// What fills the middle of the window while something is open: the pictures, and what moves about in them. There is one for lines over
-/// time and frequency, one for a sonar's pings. Each hears of the document only while the document's frames are of its kind.
+/// What fills the middle of the window while something is open: the pictures, and what moves about in them. There is
+/// one for lines over time and frequency, one for a sonar's pings. Each hears of the document only while the document's
+/// frames are of its kind.
 class Bench : public QWidget
 {
     Q_OBJECT
@@ -37,9 +38,9 @@ public:
 
     virtual QWidget *inputView() const = 0; ///< with its colour bar
     virtual QWidget *outputView() const = 0;
-    virtual QWidget *firstView() const = 0;      ///< that has the focus at first
-    virtual QString firstViewName() const = 0;   ///< as in `windowViews`
-    virtual bool hasReadOut() const = 0;         ///< of its own, and a history
+    virtual QWidget *firstView() const = 0;    ///< that has the focus at first
+    virtual QString firstViewName() const = 0; ///< as in `windowViews`
+    virtual bool hasReadOut() const = 0;       ///< of its own, and a history
 
     /// What the panes say while there is nothing to see.
     virtual void setEmptySentence(const QString &sentence) = 0;

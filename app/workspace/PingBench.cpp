@@ -1,15 +1,15 @@
 #include "app/workspace/PingBench.h"
 
 #include "analysis/regulation.h"
-#include "app/control/OutputLayers.h"
 #include "app/base/statisticUnit.h"
+#include "app/control/OutputLayers.h"
 #include "spectrum/pictureCuts.h"
-#include "widgets/pings/PingMap.h"
-#include "widgets/pings/PolarView.h"
-#include "widgets/plot/StripPlot.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
+#include "widgets/pings/PingMap.h"
+#include "widgets/pings/PolarView.h"
+#include "widgets/plot/StripPlot.h"
 
 #include <QCheckBox>
 #include <QHBoxLayout>
@@ -184,7 +184,8 @@ QWidget *PingBench::buildBar()
     auto *row = new QHBoxLayout;
     row->setContentsMargins(8, 2, 8, 0);
     row->setSpacing(6);
-    row->addWidget(button(tr("◀"), tr("Play backwards (Shift+Space)"), [this] { setPlayingBackward(!m_player.isActive()); }));
+    row->addWidget(
+        button(tr("◀"), tr("Play backwards (Shift+Space)"), [this] { setPlayingBackward(!m_player.isActive()); }));
     row->addWidget(button(tr("−1"), tr("One ping back (J)"), [this] { stepFrames(-1); }));
     row->addWidget(m_slider, 1);
     row->addWidget(button(tr("+1"), tr("One ping forward (L)"), [this] { stepFrames(1); }));
@@ -214,8 +215,9 @@ void PingBench::linkViews()
                 continue;
             connect(view, &WaterfallView::colourMapChanged, other, &WaterfallView::setColourMap);
             connect(view, &WaterfallView::layersChanged, other, [view, other] {
-                for (const auto layer : {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer,
-                                         WaterfallView::ThresholdLayer, WaterfallView::GridLayer, WaterfallView::CursorLayer})
+                for (const auto layer :
+                     {WaterfallView::EventLayer, WaterfallView::TrackLayer, WaterfallView::TruthLayer,
+                      WaterfallView::ThresholdLayer, WaterfallView::GridLayer, WaterfallView::CursorLayer})
                     other->setLayer(layer, view->layers().testFlag(layer));
             });
         }
@@ -284,7 +286,8 @@ void PingBench::showHeading()
         return;
     const bool isProvisional = provisional() != nullptr;
     const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
-    const QString statistic = isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
+    const QString statistic =
+        isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
     m_output->plane()->setStatisticUnit(unit, isStatistic ? statistic : m_layers.heading());
     m_output->polar()->followPicture();
 }
@@ -343,8 +346,8 @@ void PingBench::followExtents()
 void PingBench::placeCursor()
 {
     const std::vector<Event> events = m_document.shownEvents();
-    const auto strongest =
-        std::max_element(events.begin(), events.end(), [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
+    const auto strongest = std::max_element(events.begin(), events.end(),
+                                            [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
     const Viewport::Box &map = m_viewports.map().full();
     // In the middle of the strongest track's life, where there is most to see.
     const Track *track = strongest == events.end() ? nullptr : m_document.track(strongest->id);
@@ -417,7 +420,8 @@ void PingBench::followPlace()
 const PeakPyramid *PingBench::provisional() const
 {
     const auto &statistic = m_document.provisional();
-    return statistic && m_document.analysis() && m_shownPing == m_document.analysis()->time().nearest(statistic->time().first)
+    return statistic && m_document.analysis()
+                   && m_shownPing == m_document.analysis()->time().nearest(statistic->time().first)
                ? statistic.get()
                : nullptr;
 }
@@ -428,7 +432,8 @@ void PingBench::showStatistic()
         return;
     const Analysis &analysis = *m_document.analysis();
     const PeakPyramid *now = provisional();
-    m_output->setPicture(now ? pictureOfFrame(*now, analysis.grid(), 0) : pictureOfFrame(*analysis.statistic, analysis.grid(), m_shownPing),
+    m_output->setPicture(now ? pictureOfFrame(*now, analysis.grid(), 0)
+                             : pictureOfFrame(*analysis.statistic, analysis.grid(), m_shownPing),
                          analysis.grid().axes[1]);
     showHeading();
 }
@@ -456,15 +461,20 @@ void PingBench::read(double range, double bearing)
         return there ? numberText(*there, 1) : QStringLiteral("–");
     };
     QStringList words{tr("ping %1/%2").arg(m_shownPing + 1).arg(analysis.time().count),
-                      secondsText(analysis.time().value(static_cast<double>(m_shownPing)), 1.0), axisText(ranges, r), axisText(bearings, b),
+                      secondsText(analysis.time().value(static_cast<double>(m_shownPing)), 1.0),
+                      axisText(ranges, r),
+                      axisText(bearings, b),
                       tr("y %1 dB").arg(value(*m_input->plane(), r, b)),
                       tr("D %1 %2").arg(value(*m_output->plane(), r, b), m_output->plane()->valueUnit())};
-    if (const auto best = m_layers.readingAt(PingViewports::Place{analysis.time().value(static_cast<double>(m_shownPing)), r, b})) {
+    if (const auto best =
+            m_layers.readingAt(PingViewports::Place{analysis.time().value(static_cast<double>(m_shownPing)), r, b})) {
         const auto rate = [&](const Axis &axis, double perSecond) {
-            return numberText(perSecond, decimalsFor(axis.step / analysis.time().step)) + unitText(axis) + QStringLiteral("/s");
+            return numberText(perSecond, decimalsFor(axis.step / analysis.time().step)) + unitText(axis)
+                   + QStringLiteral("/s");
         };
-        words << tr("best state %1, %2").arg(rate(ranges, best->ratePerSecond), rate(bearings, best->secondRatePerSecond))
-              << tr("path age %1").arg(std::lround(best->ageSeconds / analysis.time().step));
+        words
+            << tr("best state %1, %2").arg(rate(ranges, best->ratePerSecond), rate(bearings, best->secondRatePerSecond))
+            << tr("path age %1").arg(std::lround(best->ageSeconds / analysis.time().step));
     }
     if (const PingMarks::Box *box = m_marks.boxAt({r, b}))
         words << (box->pings == 1 ? tr("inhibited: track %1, from now on").arg(box->track)
@@ -511,7 +521,8 @@ void PingBench::selectEvent(int id)
         if (event.id == id) {
             m_viewports.setPlace({event.detectSeconds, event.position[0], event.position[1]});
             m_viewports.map().reveal({{event.position[0], event.position[0]}, {event.position[1], event.position[1]}});
-            m_viewports.rangeTime().reveal({{event.onsetSeconds, event.endSeconds}, {event.position[0], event.position[0]}});
+            m_viewports.rangeTime().reveal(
+                {{event.onsetSeconds, event.endSeconds}, {event.position[0], event.position[0]}});
         }
 }
 
@@ -594,7 +605,8 @@ void PingBench::restore(const ViewState &view)
     if (view.bearing)
         m_viewports.map().zoomTo(m_viewports.map().time(), *view.bearing);
     if (view.cursor)
-        m_viewports.setPlace({view.cursor->seconds, view.cursor->hz, view.cursorBearing.value_or(m_viewports.place().bearing)});
+        m_viewports.setPlace(
+            {view.cursor->seconds, view.cursor->hz, view.cursorBearing.value_or(m_viewports.place().bearing)});
     setPolar(view.isPolar);
     if (!view.colourMap.isEmpty())
         m_output->plane()->setColourMap(view.colourMap);

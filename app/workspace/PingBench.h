@@ -17,7 +17,8 @@ class OutputLayers;
 class PingMap;
 class StripPlot;
 
-/// A sonar's pings: input and statistic of one ping as maps of range × bearing, range and bearing of the tracks against time, ln K below.
+/// A sonar's pings: input and statistic of one ping as maps of range × bearing, range and bearing of the tracks against
+/// time, ln K below.
 ///
 /// The ping shown is the one the cursor stands on. All pictures have one range, one bearing, one time (PingViewports).
 /// Keys: J and L step, Space plays, Shift+Space plays backwards, P looks from above.
@@ -94,7 +95,7 @@ private:
     WaterfallView *m_rangeHistory;
     WaterfallView *m_bearingHistory;
     StripPlot *m_regulation;
-    QLabel *m_dragged;  ///< a warning where signals drag K down
+    QLabel *m_dragged; ///< a warning where signals drag K down
     QSlider *m_slider;
     QLabel *m_reading;
     QSplitter *m_maps;

@@ -1,11 +1,11 @@
 #include "app/workspace/Workbench.h"
 
+#include "app/base/statisticUnit.h"
 #include "app/control/BoxMeter.h"
 #include "app/control/Closeup.h"
 #include "app/control/OutputLayers.h"
-#include "app/base/statisticUnit.h"
-#include "widgets/waterfall/ColourBar.h"
 #include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/ColourBar.h"
 
 #include <QByteArray>
 #include <QDataStream>
@@ -101,8 +101,7 @@ namespace {
 Workbench::Workbench(Document &document, QWidget *parent)
     : Bench(document, Kind::Lines, parent), m_input(new WaterfallView(tr("Input (dB over noise)"))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
-      m_boxMeter(new BoxMeter(document, this)),
-      m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
+      m_boxMeter(new BoxMeter(document, this)), m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
       m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
       m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
 {
@@ -121,7 +120,8 @@ Workbench::Workbench(Document &document, QWidget *parent)
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(m_rows);
-    setMinimumHeight(220); // of the pictures: the curves' own would keep a window small enough to hide them from becoming so
+    setMinimumHeight(
+        220); // of the pictures: the curves' own would keep a window small enough to hide them from becoming so
 
     m_regulation->setRightTitle(tr("resets"));
     m_regulation->setFixedScale(StripPlot::Side::Right, {0.0, 1.0});
@@ -213,8 +213,8 @@ void Workbench::showPictures(const PicturesSoFar &pictures)
     followExtents(pictures.time, pictures.frequency);
     // The quick look has all of the recording, what has been gone through has all of the detail.
     const Axis &time = pictures.time;
-    const double reached =
-        pictures.input ? time.value(static_cast<double>(pictures.input->frameCount()) - 0.5) : -std::numeric_limits<double>::infinity();
+    const double reached = pictures.input ? time.value(static_cast<double>(pictures.input->frameCount()) - 0.5)
+                                          : -std::numeric_limits<double>::infinity();
     const bool isReached = !pictures.quickLook || m_document.viewport().visible().time.high <= reached;
     m_input->setPicture(isReached ? pictures.input : pictures.quickLook, pictures.frequency);
     m_output->setPicture(pictures.statistic, pictures.frequency);
@@ -231,7 +231,8 @@ void Workbench::showHeading()
         return;
     const bool isProvisional = m_document.provisional() != nullptr;
     const QString unit = statisticUnit(isProvisional ? m_document.settings() : m_document.analysis()->settings);
-    const QString statistic = isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
+    const QString statistic =
+        isProvisional ? tr("Statistic D (%1), provisional").arg(unit) : tr("Statistic D (%1)").arg(unit);
     m_output->setStatisticUnit(unit, isStatistic ? statistic : m_layers->heading());
     m_statistic->setLeftTitle(tr("D (%1)").arg(unit));
 }
@@ -312,8 +313,12 @@ void Workbench::setPlace(const Place &place)
 
 void Workbench::read(const Viewport::Point &point)
 {
-    ReadOut::Reading reading{point.seconds, point.hz, m_input->valueAt(point.seconds, point.hz), m_output->valueAt(point.seconds, point.hz),
-                             m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt, {}};
+    ReadOut::Reading reading{point.seconds,
+                             point.hz,
+                             m_input->valueAt(point.seconds, point.hz),
+                             m_output->valueAt(point.seconds, point.hz),
+                             m_document.analysis() ? slopeAt(*m_document.analysis(), point) : std::nullopt,
+                             {}};
     if (const auto best = m_layers->readingAt(point)) {
         reading.slopeHzPerSecond = best->ratePerSecond;
         reading.ageSeconds = best->ageSeconds;

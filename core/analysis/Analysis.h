@@ -27,14 +27,14 @@ struct BankMember {
 /// What a chain is made from: frames, models with their calibrations, and the threshold.
 struct AnalysisPlan {
     AnalysisSettings settings;
-    RecordingPointer recording;           ///< null for ready-made frames
-    NormalisedFramesPointer frames;       ///< random access, recomputed on demand
+    RecordingPointer recording;                        ///< null for ready-made frames
+    NormalisedFramesPointer frames;                    ///< random access, recomputed on demand
     std::shared_ptr<const NoiseBackground> background; ///< null for ready-made frames
     MarkovModel model;
-    std::vector<BankMember> bank;         ///< several models in parallel, `model` the first; empty: `model` alone
+    std::vector<BankMember> bank; ///< several models in parallel, `model` the first; empty: `model` alone
     std::shared_ptr<const Calibration> calibration;
-    double threshold = 0.0;               ///< nat
-    double cellFramesPerHour = 0.0;       ///< cells × frames of an hour of this recording
+    double threshold = 0.0;         ///< nat
+    double cellFramesPerHour = 0.0; ///< cells × frames of an hour of this recording
 
     const Axis &time() const { return frames->time(); }
     const Grid &grid() const { return frames->grid(); }
@@ -46,7 +46,8 @@ struct AnalysisPlan {
     double offsetAt(std::size_t number) const { return isBank() ? bank[number].offset : 0.0; }
 };
 
-/// What a run of the chain leaves behind, with its plan. Immutable; parts that a change of settings leaves valid are shared.
+/// What a run of the chain leaves behind, with its plan. Immutable; parts that a change of settings leaves valid are
+/// shared.
 struct Analysis : AnalysisPlan {
     std::shared_ptr<const PeakPyramid> input;     ///< y in dB
     std::shared_ptr<const PeakPyramid> statistic; ///< D in nats
@@ -54,21 +55,25 @@ struct Analysis : AnalysisPlan {
     std::vector<std::shared_ptr<const PeakPyramid>> inputAlong, statisticAlong;
     /// Of frames on several axes: what was kept from the detector in each of them, and for which track.
     std::vector<std::vector<DetectionChain::Inhibition>> inhibitions;
-    std::vector<Track> tracks;            ///< ordered by detection, then cell
-    std::vector<Track> conventional;      ///< of frames on several axes: what thresholding each frame by itself would have found
-    std::vector<float> lnK;               ///< per frame
-    NoiseBand lnKBand;                    ///< where it stays on noise, under a law that regulates it (regulation.h)
+    std::vector<Track> tracks; ///< ordered by detection, then cell
+    std::vector<Track>
+        conventional;       ///< of frames on several axes: what thresholding each frame by itself would have found
+    std::vector<float> lnK; ///< per frame
+    NoiseBand lnKBand;      ///< where it stays on noise, under a law that regulates it (regulation.h)
     std::vector<float> continuedFraction; ///< per frame
-    std::vector<double> statisticCounts;  ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: the data's own histogram
+    std::vector<double> statisticCounts; ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: the data's own histogram
 
-    /// States of the chain, evenly spaced, from which a part of the run is gone through again: ≤ 32 MiB whatever is tracked; none of
-    /// detectors that cannot tell their state.
+    /// States of the chain, evenly spaced, from which a part of the run is gone through again: ≤ 32 MiB whatever is
+    /// tracked; none of detectors that cannot tell their state.
     Checkpoints<ChainState> checkpoints;
 
     std::optional<WindowChoice> choice; ///< where the window was left to the recording (chooseWindow.h)
 
     /// Whether it is what these settings ask for.
-    bool answers(const AnalysisSettings &wanted) const { return settings == wanted || (choice && choice->asked == wanted); }
+    bool answers(const AnalysisSettings &wanted) const
+    {
+        return settings == wanted || (choice && choice->asked == wanted);
+    }
 };
 
 } // namespace faintline

@@ -25,7 +25,8 @@ namespace {
     template <class T>
     void append(std::vector<Field<AnalysisSettings>> &table, const std::string &prefix, T AnalysisSettings::*member)
     {
-        auto fields = within<AnalysisSettings>(prefix, T::fields(), [member](auto &settings) { return &(settings.*member); });
+        auto fields =
+            within<AnalysisSettings>(prefix, T::fields(), [member](auto &settings) { return &(settings.*member); });
         table.insert(table.end(), fields.begin(), fields.end());
     }
 
@@ -34,10 +35,13 @@ namespace {
     {
         Field<AnalysisSettings> kind;
         kind.name = "detector.kind";
-        kind.sentence = "The detector: sequential Markov, P out of N, integrator, single-frame energy, fixed-window Viterbi, Shiryaev-Roberts.";
+        kind.sentence = "The detector: sequential Markov, P out of N, integrator, single-frame energy, fixed-window "
+                        "Viterbi, Shiryaev-Roberts.";
         kind.kind = FieldKind::Choice;
         kind.choices.assign(detectorNames.begin(), detectorNames.end());
-        kind.get = [](const AnalysisSettings &settings) { return std::string(detectorNames[settings.detector.index()]); };
+        kind.get = [](const AnalysisSettings &settings) {
+            return std::string(detectorNames[settings.detector.index()]);
+        };
         kind.set = [](AnalysisSettings &settings, const FieldValue &value) {
             const auto found = std::find(detectorNames.begin(), detectorNames.end(), std::get<std::string>(value));
             const auto index = static_cast<std::size_t>(found - detectorNames.begin());
@@ -51,7 +55,8 @@ namespace {
     void appendDetectors(std::vector<Field<AnalysisSettings>> &table, std::index_sequence<I...>)
     {
         const auto append = [&](const auto &fields) { table.insert(table.end(), fields.begin(), fields.end()); };
-        (append(within<AnalysisSettings>(std::string(detectorNames[I]), std::variant_alternative_t<I, DetectorSettings>::fields(),
+        (append(within<AnalysisSettings>(std::string(detectorNames[I]),
+                                         std::variant_alternative_t<I, DetectorSettings>::fields(),
                                          [](auto &settings) { return std::get_if<I>(&settings.detector); })),
          ...);
     }
@@ -101,25 +106,27 @@ namespace {
     void checkSlopes(const ModelSettings &model)
     {
         if (model.lowestSlope > model.highestSlope)
-            throw fieldError("model.lowestSlope", formatNumber(model.lowestSlope), "must not exceed model.highestSlope");
+            throw fieldError("model.lowestSlope", formatNumber(model.lowestSlope),
+                             "must not exceed model.highestSlope");
         if (model.slopeUnit != SlopeUnit::BinsPerFrame)
             return;
         const auto check = [&](const char *name, double slope) {
             constexpr double largest = 100.0;
             if (std::abs(slope) > largest)
-                throw fieldError(std::string("model.") + name, formatNumber(slope),
-                            "must lie in -100 … 100 bins/frame; use a shorter window to reduce it for the same Hz/s");
+                throw fieldError(
+                    std::string("model.") + name, formatNumber(slope),
+                    "must lie in -100 … 100 bins/frame; use a shorter window to reduce it for the same Hz/s");
             const double inSteps = slope * model.slopesPerBin;
             if (std::abs(inSteps - std::round(inSteps)) > 1e-6)
                 throw fieldError(std::string("model.") + name, formatNumber(slope),
-                            "must be a multiple of 1/" + std::to_string(model.slopesPerBin)
-                                + " bin/frame (model.slopesPerBin)");
+                                 "must be a multiple of 1/" + std::to_string(model.slopesPerBin)
+                                     + " bin/frame (model.slopesPerBin)");
         };
         check("lowestSlope", model.lowestSlope);
         check("highestSlope", model.highestSlope);
         if (slopeCount(model) > 1001)
             throw fieldError("model.slopesPerBin", std::to_string(model.slopesPerBin),
-                        "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
+                             "gives " + std::to_string(slopeCount(model)) + " slopes; at most 1001 are possible");
     }
 
     SonarMotion turning(const ModelSettings &settings)
@@ -167,8 +174,9 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
         field(&S::lowestSlope, "lowestSlope", "bins/frame", -1e9, 1e9,
               "Most negative slope a line may have, at least -100 bins/frame; in Hz/s if model.slopeUnit is "
               "hzPerSecond."),
-        field(&S::highestSlope, "highestSlope", "bins/frame", -1e9, 1e9,
-              "Most positive slope a line may have, at most 100 bins/frame; in Hz/s if model.slopeUnit is hzPerSecond."),
+        field(
+            &S::highestSlope, "highestSlope", "bins/frame", -1e9, 1e9,
+            "Most positive slope a line may have, at most 100 bins/frame; in Hz/s if model.slopeUnit is hzPerSecond."),
         field(&S::slopesPerBin, "slopesPerBin", "", 1.0, 64.0,
               "Number of slopes per bin/frame: 8 means steps of 1/8 bin/frame."),
         field(&S::slopeChange, "slopeChange", "", 0.0, 1.0,
@@ -177,8 +185,9 @@ const std::vector<Field<ModelSettings>> &ModelSettings::fields()
         field(&S::rangeRateChange, "rangeRateChange", "", 0.0, 1.0,
               "Law h(0), h(1), … of a manoeuvring target's change of range rate from ping to ping; h(0) + 2·(h(1) + …) "
               "= 1."),
-        field(&S::bearingRateChange, "bearingRateChange", "", 0.0, 1.0, "Law of the change of its bearing rate, in the "
-                                                                        "same form."),
+        field(&S::bearingRateChange, "bearingRateChange", "", 0.0, 1.0,
+              "Law of the change of its bearing rate, in the "
+              "same form."),
         field(&S::rounding, "rounding", roundingNames, "Rounding of a movement by half a bin."),
         field(&S::likelihood, "likelihood", likelihoodNames,
               "Signal law: constant amplitude, fluctuating, or the power itself."),
@@ -227,12 +236,14 @@ const std::vector<Field<DecideSettings>> &DecideSettings::fields()
         chosenBy(field(&S::pfaPerCell, "pfaPerCell", "", 1e-15, 0.5,
                        "Probability that a cell of noise exceeds the threshold in a frame."),
                  S::By::PfaPerCell),
-        chosenBy(field(&S::thresholdNats, "thresholdNats", "nat", -100.0, 1e6, "Threshold on the statistic."), S::By::Nats),
+        chosenBy(field(&S::thresholdNats, "thresholdNats", "nat", -100.0, 1e6, "Threshold on the statistic."),
+                 S::By::Nats),
         field(&S::by, "by", S::byNames, "Quantity that sets the threshold."),
         field(&S::linkCells, "linkCells", "bins", 0.0, 1000.0,
               "Largest distance between threshold crossings of one event, per axis; the last number repeats."),
-        field(&S::inhibitCells, "inhibitCells", "cells", 0.0, 1000.0,
-              "Half width, in resolution cells, of the box inhibited around a track, per axis; the last number repeats."),
+        field(
+            &S::inhibitCells, "inhibitCells", "cells", 0.0, 1000.0,
+            "Half width, in resolution cells, of the box inhibited around a track, per axis; the last number repeats."),
         field(&S::forgetCells, "forgetCells", "cells", 0.0, 1000.0,
               "Half width of the box in which the detector is reset around a new track, per axis; none: as "
               "inhibitCells."),
@@ -270,8 +281,9 @@ const Field<AnalysisSettings> &settingField(std::string_view name)
     const auto nearest = std::min_element(fields.begin(), fields.end(), [&](const auto &a, const auto &b) {
         return editDistance(a.name, name) < editDistance(b.name, name);
     });
-    throw Error(std::string(name), "unknown setting; did you mean " + nearest->name + "? (faintline-cli describe lists "
-                                                                                      "all)");
+    throw Error(std::string(name), "unknown setting; did you mean " + nearest->name
+                                       + "? (faintline-cli describe lists "
+                                         "all)");
 }
 
 FieldValue defaultValue(const Field<AnalysisSettings> &field)
@@ -288,7 +300,8 @@ void setSetting(AnalysisSettings &settings, std::string_view name, std::string_v
     const auto &f = settingField(name);
     f.set(settings, parseFieldValue(f, text));
     if (!f.get(settings))
-        throw Error(std::string(name), "belongs to a different detector; select that detector first with detector.kind").ofField(f.name);
+        throw Error(std::string(name), "belongs to a different detector; select that detector first with detector.kind")
+            .ofField(f.name);
 }
 
 void checkSettings(const AnalysisSettings &settings)
@@ -298,7 +311,8 @@ void checkSettings(const AnalysisSettings &settings)
             checkFieldValue(f, *value);
     checkSlopes(settings.model);
     if (settings.conventional.hits > settings.conventional.window)
-        throw fieldError("conventional.hits", std::to_string(settings.conventional.hits), "must not exceed conventional.window");
+        throw fieldError("conventional.hits", std::to_string(settings.conventional.hits),
+                         "must not exceed conventional.window");
     const bool isInBins = settings.model.slopeUnit == SlopeUnit::BinsPerFrame;
     checkLaw("model.slopeChange", settings.model.slopeChange,
              isInBins ? slopeCount(settings.model) : std::max(1, static_cast<int>(settings.model.slopeChange.size())));
@@ -356,7 +370,8 @@ const std::vector<Preset> &presets()
         billon.model = laws::billon();
         billon.spectrogram.window = WindowShape::Rectangular;
         billon.spectrogram.binsPerCell = 4;
-        all.push_back({"billon", "Settings of Billon's tables: rectangular window, k_t = 2, k_f = 4, five slopes.", billon});
+        all.push_back(
+            {"billon", "Settings of Billon's tables: rectangular window, k_t = 2, k_f = 4, five slopes.", billon});
 
         AnalysisSettings steady;
         steady.model = laws::steady();
@@ -364,7 +379,8 @@ const std::vector<Preset> &presets()
 
         AnalysisSettings strong;
         strong.spectrogram.window = WindowShape::BlackmanHarris;
-        all.push_back({"strong", "Faint lines beside very strong ones: a window with side lobes below -92 dB.", strong});
+        all.push_back(
+            {"strong", "Faint lines beside very strong ones: a window with side lobes below -92 dB.", strong});
 
         AnalysisSettings whistles;
         whistles.model = laws::glide();
@@ -373,7 +389,8 @@ const std::vector<Preset> &presets()
         sonar.model.motion = Motion::NonManoeuvring;
         sonar.decide.thresholdNats = 40.0;
         sonar.track.decayNats = 1.0;
-        all.push_back({"sonarSteady", "Active sonar, targets that keep their rates: Parsons' non-manoeuvring model.", sonar});
+        all.push_back(
+            {"sonarSteady", "Active sonar, targets that keep their rates: Parsons' non-manoeuvring model.", sonar});
         sonar.model.motion = Motion::Bank;
         all.push_back({"sonarBank", "Active sonar, both models in parallel at equal false-alarm probability.", sonar});
 
@@ -402,7 +419,7 @@ MarkovModel makeModel(const ModelSettings &settings, const Grid &grid)
         return sonarModel(grid, settings.motion == Motion::Manoeuvring ? turning(settings) : nonManoeuvring());
     if (settings.slopeUnit != SlopeUnit::BinsPerFrame)
         throw fieldError("model.slopeUnit", "hzPerSecond",
-                    "needs a recording; for frames and pings, give the slopes in binsPerFrame");
+                         "needs a recording; for frames and pings, give the slopes in binsPerFrame");
     std::vector<KinematicAxis> axes;
     for (const Axis &axis : grid.axes)
         axes.push_back({axis.name,

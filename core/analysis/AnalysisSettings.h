@@ -37,11 +37,12 @@ struct ModelSettings {
     int slopesPerBin = 8; ///< neighbouring slopes differ by 1/slopesPerBin bin per frame
     std::vector<double> slopeChange{0.9,
                                     0.05}; ///< h(0), h(1), …, of a change by one slope, two, …; h(0) + 2 Σ h(i) = 1
-    std::vector<double> rangeRateChange = std::vector<double>(5, 1.0 / 9.0); ///< h of manoeuvring targets, as Parsons has it
+    std::vector<double> rangeRateChange =
+        std::vector<double>(5, 1.0 / 9.0); ///< h of manoeuvring targets, as Parsons has it
     std::vector<double> bearingRateChange{0.5, 0.25};
     Rounding rounding = Rounding::HalfDown;
     LikelihoodKind likelihood = LikelihoodKind::Rice;
-    double snr = 0.5;      ///< r0 or ρ, power ratio in one frame
+    double snr = 0.5; ///< r0 or ρ, power ratio in one frame
 
     static const std::vector<Field<ModelSettings>> &fields();
     bool operator==(const ModelSettings &) const = default;
@@ -55,7 +56,7 @@ struct DecideSettings {
     double falseAlarmsPerHour = 1.0;
     double pfaPerCell = 1e-6;
     double thresholdNats = 20.0;
-    By by = By::FalseAlarmsPerHour;  ///< which of the three counts; setting one of them makes it count
+    By by = By::FalseAlarmsPerHour; ///< which of the three counts; setting one of them makes it count
     std::vector<double> linkCells{3.0};
     std::vector<double> inhibitCells{2.5}; ///< per axis; the last number repeats
     std::vector<double> forgetCells;       ///< per axis; empty: as inhibitCells
@@ -66,8 +67,9 @@ struct DecideSettings {
     bool operator==(const DecideSettings &) const = default;
 };
 
-/// The laws of motion that presets are made of. Coarse slopes that change freely suit lines that turn at any moment; fine slopes with
-/// inertia suit everything that does not: a path must not follow noise for nothing, nor pay for a slope between two whole bins.
+/// The laws of motion that presets are made of. Coarse slopes that change freely suit lines that turn at any moment;
+/// fine slopes with inertia suit everything that does not: a path must not follow noise for nothing, nor pay for a
+/// slope between two whole bins.
 namespace laws {
     /// Billon 2005: five slopes a bin apart, h = (1/3, 1/3).
     ModelSettings billon();
@@ -111,8 +113,8 @@ enum class Stage { Spectrogram, Noise, Detector, Nothing };
 /// The earliest stage whose result differs between two settings.
 Stage firstStale(const AnalysisSettings &before, const AnalysisSettings &after);
 
-/// JSON text of all settings that differ from the defaults, and back (missing keys take their defaults, unknown ones are
-/// refused). Round trip is exact.
+/// JSON text of all settings that differ from the defaults, and back (missing keys take their defaults, unknown ones
+/// are refused). Round trip is exact.
 std::string settingsToJson(const AnalysisSettings &settings, bool onlyChanged = true);
 AnalysisSettings settingsFromJson(const std::string &json, const std::string &where);
 
@@ -125,7 +127,8 @@ struct Preset {
 const std::vector<Preset> &presets();
 const Preset &preset(std::string_view name);
 
-/// The model for frames on a grid: the slope set and law on every axis, or that of a sonar's targets; a bank's first one.
+/// The model for frames on a grid: the slope set and law on every axis, or that of a sonar's targets; a bank's first
+/// one.
 MarkovModel makeModel(const ModelSettings &settings, const Grid &grid);
 
 /// All models of a bank, or the only one.

@@ -21,7 +21,8 @@ namespace {
 } // namespace
 
 ChainReplay::ChainReplay(std::shared_ptr<const Analysis> analysis, std::size_t byteBudget)
-    : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)), m_checkpoints(intervalOf(*m_analysis, byteBudget), byteBudget),
+    : m_analysis(std::move(analysis)), m_chain(makeScoringChain(*m_analysis)),
+      m_checkpoints(intervalOf(*m_analysis, byteBudget), byteBudget),
       m_y(static_cast<std::size_t>(m_analysis->grid().size())), m_statistic(m_y.size())
 {
 }

@@ -17,7 +17,8 @@ struct PicturesSoFar {
     Axis frequency;
 };
 
-/// Called by the thread that computes, a few times a second, if the recording is long or not calibrated yet. Changes no byte.
+/// Called by the thread that computes, a few times a second, if the recording is long or not calibrated yet. Changes no
+/// byte.
 using PictureSink = std::function<void(const PicturesSoFar &)>;
 
 } // namespace faintline

@@ -5,7 +5,8 @@
 
 namespace faintline {
 
-ProgressPublisher::ProgressPublisher(const PictureSink &sink, const Axis &time, const Axis &frequency, const AnalysisSettings &settings)
+ProgressPublisher::ProgressPublisher(const PictureSink &sink, const Axis &time, const Axis &frequency,
+                                     const AnalysisSettings &settings)
     : m_sink(sink)
 {
     constexpr double manyCells = 3e7;
@@ -15,8 +16,8 @@ ProgressPublisher::ProgressPublisher(const PictureSink &sink, const Axis &time, 
     m_pictures.frequency = frequency;
 }
 
-void ProgressPublisher::publishQuickLook(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings,
-                                         const RunContext &context)
+void ProgressPublisher::publishQuickLook(std::shared_ptr<const Spectrogram> spectrogram,
+                                         const NormaliserSettings &settings, const RunContext &context)
 {
     if (!m_isWanted)
         return;

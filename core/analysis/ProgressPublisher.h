@@ -10,14 +10,17 @@
 
 namespace faintline {
 
-/// Publishes pictures of a run that takes long, or has to wait for a calibration, and not so often that the run takes longer.
+/// Publishes pictures of a run that takes long, or has to wait for a calibration, and not so often that the run takes
+/// longer.
 class ProgressPublisher
 {
 public:
     ProgressPublisher() = default; ///< publishes nothing
-    ProgressPublisher(const PictureSink &sink, const Axis &time, const Axis &frequency, const AnalysisSettings &settings);
+    ProgressPublisher(const PictureSink &sink, const Axis &time, const Axis &frequency,
+                      const AnalysisSettings &settings);
 
-    void publishQuickLook(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings, const RunContext &context);
+    void publishQuickLook(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings,
+                          const RunContext &context);
     /// What has been gone through so far.
     void publish(const std::shared_ptr<PeakPyramid> &input, const PeakPyramid &statistic);
 

@@ -42,7 +42,8 @@ namespace {
 
     const Event &eventOf(const std::vector<Event> &events, int id)
     {
-        const auto found = std::find_if(events.begin(), events.end(), [id](const Event &event) { return event.id == id; });
+        const auto found =
+            std::find_if(events.begin(), events.end(), [id](const Event &event) { return event.id == id; });
         if (found == events.end())
             throw Error("event " + std::to_string(id), "is not there");
         return *found;
@@ -52,7 +53,8 @@ namespace {
     void dropEmpty(std::vector<Review> &reviews)
     {
         std::erase_if(reviews, [](const Review &review) {
-            return review.paths.empty() || (review.verdict == Verdict::None && review.note.empty() && review.paths.size() == 1);
+            return review.paths.empty()
+                   || (review.verdict == Verdict::None && review.note.empty() && review.paths.size() == 1);
         });
     }
 
@@ -162,7 +164,8 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
     const std::vector<Axis> &axes = analysis.grid().axes;
     for (const Axis &axis : axes)
         path.tolerance.push_back(toleranceCells * axis.step);
-    const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [&](const Track &t) { return t.id == event.id; });
+    const auto track =
+        std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [&](const Track &t) { return t.id == event.id; });
     if (track == analysis.tracks.end() || track->points.empty()) {
         path.seconds = {event.detectSeconds};
         path.position = {event.position};
@@ -198,8 +201,10 @@ std::optional<double> distance(const SignalPath &a, const SignalPath &b, const s
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
         double mean = 0.0;
         for (std::size_t i = 0; i < mostInstants; ++i) {
-            const double seconds = std::lerp(begin, end, static_cast<double>(i) / static_cast<double>(mostInstants - 1));
-            mean += std::abs(wrapped(at(a, seconds, axis) - at(b, seconds, axis), axes[axis])) / static_cast<double>(mostInstants);
+            const double seconds =
+                std::lerp(begin, end, static_cast<double>(i) / static_cast<double>(mostInstants - 1));
+            mean += std::abs(wrapped(at(a, seconds, axis) - at(b, seconds, axis), axes[axis]))
+                    / static_cast<double>(mostInstants);
         }
         const double inTolerances = mean / std::max(a.tolerance[axis], b.tolerance[axis]);
         if (!(inTolerances <= 1.0))
@@ -209,7 +214,8 @@ std::optional<double> distance(const SignalPath &a, const SignalPath &b, const s
     return sum;
 }
 
-std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event> &events, const std::vector<Review> &reviews)
+std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event> &events,
+                              const std::vector<Review> &reviews)
 {
     std::vector<int> result;
     for (const Event &event : events) {
@@ -227,7 +233,8 @@ std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event>
     return result;
 }
 
-std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vector<Event> &events, const std::vector<Review> &reviews)
+std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vector<Event> &events,
+                                      const std::vector<Review> &reviews)
 {
     const std::vector<int> matches = matchReviews(analysis, events, reviews);
     std::vector<int> first(reviews.size(), 0);
@@ -255,15 +262,16 @@ std::vector<Review> withVerdict(std::vector<Review> reviews, const Analysis &ana
     return reviews;
 }
 
-std::vector<Review> withNote(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events, int id,
-                             const std::string &note)
+std::vector<Review> withNote(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
+                             int id, const std::string &note)
 {
     reviewOf(reviews, analysis, eventOf(events, id)).note = note;
     dropEmpty(reviews);
     return reviews;
 }
 
-std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events, const std::vector<int> &ids)
+std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
+                           const std::vector<int> &ids)
 {
     if (ids.size() < 2)
         return reviews;
@@ -316,9 +324,11 @@ Annotations annotationsFromJson(const Json &json, const std::string &where)
     checkKeys(json, where, {"reviews", "boxes"});
     Annotations annotations;
     for (const Json &review : json.value("reviews", Json::array()))
-        annotations.reviews.push_back(reviewFromJson(review, where + ".reviews[" + std::to_string(annotations.reviews.size()) + "]"));
+        annotations.reviews.push_back(
+            reviewFromJson(review, where + ".reviews[" + std::to_string(annotations.reviews.size()) + "]"));
     for (const Json &box : json.value("boxes", Json::array()))
-        annotations.boxes.push_back(boxFromJson(box, where + ".boxes[" + std::to_string(annotations.boxes.size()) + "]"));
+        annotations.boxes.push_back(
+            boxFromJson(box, where + ".boxes[" + std::to_string(annotations.boxes.size()) + "]"));
     return annotations;
 }
 

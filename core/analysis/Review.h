@@ -69,25 +69,29 @@ struct EventReview {
 /// The path of an event's track.
 SignalPath pathOf(const Analysis &analysis, const Event &event);
 
-/// Whether two paths are of one signal: they have at least half of the shorter one's time in common, and are there, on average, at most
-/// two cells apart on every axis, cells of the coarser run. Events carry no name from one run to the next; this is what a review
-/// holds on to when threshold or settings change. The mean distance in tolerances, or nothing.
+/// Whether two paths are of one signal: they have at least half of the shorter one's time in common, and are there, on
+/// average, at most two cells apart on every axis, cells of the coarser run. Events carry no name from one run to the
+/// next; this is what a review holds on to when threshold or settings change. The mean distance in tolerances, or
+/// nothing.
 std::optional<double> distance(const SignalPath &a, const SignalPath &b, const std::vector<Axis> &axes);
 
 /// Of each event the review whose paths are nearest, -1 where none is of its signal. Cost: events × paths.
-std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event> &events, const std::vector<Review> &reviews);
+std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event> &events,
+                              const std::vector<Review> &reviews);
 
 /// What was said about each of the events, in their order.
-std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vector<Event> &events, const std::vector<Review> &reviews);
+std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vector<Event> &events,
+                                      const std::vector<Review> &reviews);
 
 // ---- edits: each makes other reviews of the given ones; `ids` are of `events` --------------------------------------------
 
 std::vector<Review> withVerdict(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                                 const std::vector<int> &ids, Verdict verdict);
-std::vector<Review> withNote(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events, int id,
-                             const std::string &note);
+std::vector<Review> withNote(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
+                             int id, const std::string &note);
 /// Several events are one signal from now on, with the first verdict among theirs and all their notes.
-std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events, const std::vector<int> &ids);
+std::vector<Review> merged(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
+                           const std::vector<int> &ids);
 /// Undoes a merge: what was said stays with each.
 std::vector<Review> separated(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,
                               const std::vector<int> &ids);

@@ -66,7 +66,8 @@ std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model)
     for (std::size_t i = 0; i < kinematic.size(); ++i) {
         const Axis &axis = analysis.grid().axes[i];
         const double rate = axis.step / analysis.time().step / kinematic[i].ratesPerCell;
-        axes.push_back({axis.name + " rate", axis.unit + "/s", kinematic[i].firstRate * rate, rate, kinematic[i].rateCount, false});
+        axes.push_back({axis.name + " rate", axis.unit + "/s", kinematic[i].firstRate * rate, rate,
+                        kinematic[i].rateCount, false});
     }
     return axes;
 }
@@ -94,7 +95,8 @@ std::vector<float> cutStates(const StateSpace &space, std::span<const float> sco
         along[memory] = {sizes[axis], stride, step, step == 0 ? slice.places[axis] : std::nullopt};
         stride *= sizes[axis];
     }
-    std::vector<float> picture(static_cast<std::size_t>(sizes[slice.rows] * sizes[slice.columns]), -std::numeric_limits<float>::infinity());
+    std::vector<float> picture(static_cast<std::size_t>(sizes[slice.rows] * sizes[slice.columns]),
+                               -std::numeric_limits<float>::infinity());
     const auto descend = [&](auto &&self, std::size_t memory, Index state, Index pixel) -> void {
         if (memory == along.size()) {
             float &value = picture[static_cast<std::size_t>(pixel)];

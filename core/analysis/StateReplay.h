@@ -20,10 +20,10 @@ struct StateScores {
 
 /// Looks into an analysis that kept no states: goes through its chain again up to the frame that is asked for.
 ///
-/// From a frame to a later one it goes on from where it stands; the latest frames are kept, so that a few steps back cost nothing;
-/// elsewhere it goes on from the run's checkpoint before, or a nearer one of its own (ChainReplay). Same bytes as in the run. Memory: one
-/// chain, and as many frames' states and as many checkpoints as go into half of the budget each, at least one.
-/// Cost: the detector's per frame. One object per thread.
+/// From a frame to a later one it goes on from where it stands; the latest frames are kept, so that a few steps back
+/// cost nothing; elsewhere it goes on from the run's checkpoint before, or a nearer one of its own (ChainReplay). Same
+/// bytes as in the run. Memory: one chain, and as many frames' states and as many checkpoints as go into half of the
+/// budget each, at least one. Cost: the detector's per frame. One object per thread.
 class StateReplay
 {
 public:
@@ -54,7 +54,8 @@ std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model = 0);
 struct StateSlice {
     std::size_t rows = 0;
     std::size_t columns = 1;
-    std::vector<std::optional<Index>> places; ///< one per axis; nothing: the maximum over it. Of rows and columns they do not count
+    std::vector<std::optional<Index>>
+        places; ///< one per axis; nothing: the maximum over it. Of rows and columns they do not count
 };
 
 /// rows × columns values; -∞ where no state can be reached.

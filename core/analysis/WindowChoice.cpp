@@ -7,7 +7,9 @@ namespace faintline {
 
 std::string windowChoiceWords(const WindowChoice &choice)
 {
-    const auto share = [&](std::size_t trial) { return std::to_string(std::lround(100.0 * choice.trials[trial].kept)) + " % of the energy along "; };
+    const auto share = [&](std::size_t trial) {
+        return std::to_string(std::lround(100.0 * choice.trials[trial].kept)) + " % of the energy along ";
+    };
     const auto seconds = [&](std::size_t trial) {
         char text[32];
         std::snprintf(text, sizeof text, "%.4g s", choice.trials[trial].windowSeconds);

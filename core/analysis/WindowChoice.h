@@ -12,7 +12,8 @@ struct WindowTrial {
     AnalysisSettings settings; ///< with that window, and the law of motion that goes with it
     double windowSeconds = 0.0;
     std::ptrdiff_t tracks = 0;
-    /// Share of the energy along its tracks that the next longer window tried followed too (energyKept); NaN: not compared.
+    /// Share of the energy along its tracks that the next longer window tried followed too (energyKept); NaN: not
+    /// compared.
     double kept = 0.0;
 };
 

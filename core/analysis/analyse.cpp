@@ -75,12 +75,14 @@ namespace {
         std::shared_ptr<PeakPyramid> empty(ByteScale::Kind kind) const
         {
             const Index cells = m_analysis.grid().size();
-            const std::size_t bytes = memoryShares::inTheEnd(memoryShares::picture, static_cast<std::size_t>(m_analysis.time().count),
-                                                             static_cast<std::size_t>(cells));
+            const std::size_t bytes =
+                memoryShares::inTheEnd(memoryShares::picture, static_cast<std::size_t>(m_analysis.time().count),
+                                       static_cast<std::size_t>(cells));
             return std::make_shared<PeakPyramid>(m_analysis.time(), cells, ByteScale(kind), bytes);
         }
 
-        std::vector<std::shared_ptr<const PeakPyramid>> alongEachAxis(const std::shared_ptr<const PeakPyramid> &picture) const
+        std::vector<std::shared_ptr<const PeakPyramid>>
+        alongEachAxis(const std::shared_ptr<const PeakPyramid> &picture) const
         {
             const Grid &grid = m_analysis.grid();
             if (grid.axes.size() == 1)
@@ -96,12 +98,14 @@ namespace {
         std::shared_ptr<PeakPyramid> m_statistic;
     };
 
-    /// What a sonar's engineer would compare with: each frame thresholded by itself. Of frames on one axis nothing is kept.
+    /// What a sonar's engineer would compare with: each frame thresholded by itself. Of frames on one axis nothing is
+    /// kept.
     class PingProducts
     {
     public:
         explicit PingProducts(Analysis &analysis)
-            : m_analysis(analysis), m_isWanted(analysis.grid().axes.size() > 1), m_conventional(analysis.grid(), analysis.settings.conventional)
+            : m_analysis(analysis), m_isWanted(analysis.grid().axes.size() > 1),
+              m_conventional(analysis.grid(), analysis.settings.conventional)
         {
         }
 
@@ -164,14 +168,15 @@ namespace {
         chain->finish();
         pictures.finish();
         pings.finish();
-        analysis.tracks = looksTwice(analysis) ? lookTwice(analysis, chain->takeJoinedTracks(), context.part(0.9, 1.0)) : chain->takeJoinedTracks();
+        analysis.tracks = looksTwice(analysis) ? lookTwice(analysis, chain->takeJoinedTracks(), context.part(0.9, 1.0))
+                                               : chain->takeJoinedTracks();
     }
 
 } // namespace
 
-std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
-                                  const Analysis *previous, const StatisticSink &sink, const PictureSink &pictures,
-                                  CalibrationDepth calibrationDepth, AnalysisDepth depth)
+std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
+                                  const RunContext &context, const Analysis *previous, const StatisticSink &sink,
+                                  const PictureSink &pictures, CalibrationDepth calibrationDepth, AnalysisDepth depth)
 {
     checkSettings(settings);
     auto analysis = std::make_shared<Analysis>();
@@ -195,7 +200,8 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
         analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
     }
     analysis->model = makeModel(settings.model, analysis->grid());
-    analysis->calibration = calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5), calibrationDepth);
+    analysis->calibration =
+        calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5), calibrationDepth);
     analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
     analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
     run(*analysis, context.part(0.5, 1.0), sink, publisher, depth);
@@ -204,7 +210,8 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
 
 namespace {
 
-    std::shared_ptr<Analysis> analysisOf(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings)
+    std::shared_ptr<Analysis> analysisOf(NormalisedFramesPointer frames, const MarkovModel &model,
+                                         const AnalysisSettings &settings)
     {
         checkSettings(settings);
         auto analysis = std::make_shared<Analysis>();
@@ -215,16 +222,17 @@ namespace {
         return analysis;
     }
 
-    /// Calibrates every model and shifts their statistics so that each crosses the threshold with the first one's probability.
+    /// Calibrates every model and shifts their statistics so that each crosses the threshold with the first one's
+    /// probability.
     void calibrateBank(Analysis &analysis, const std::vector<MarkovModel> &models, const RunContext &context)
     {
         const auto count = static_cast<double>(models.size());
         for (std::size_t i = 0; i < models.size(); ++i)
-            analysis.bank.push_back(
-                {models[i],
-                 calibrateOnIndependentCells(models[i], analysis.settings,
-                                             context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count)),
-                 0.0});
+            analysis.bank.push_back({models[i],
+                                     calibrateOnIndependentCells(models[i], analysis.settings,
+                                                                 context.part(static_cast<double>(i) / count,
+                                                                              static_cast<double>(i + 1) / count)),
+                                     0.0});
         analysis.calibration = analysis.bank.front().calibration;
         analysis.threshold = thresholdNats(analysis.settings.decide, *analysis.calibration, analysis.cellFramesPerHour);
         const double pfa = analysis.calibration->exceedanceAt(analysis.threshold);
@@ -232,17 +240,20 @@ namespace {
             member.offset = member.calibration->thresholdForPfa(pfa) - analysis.calibration->thresholdForPfa(pfa);
     }
 
-    void regulateAndRun(Analysis &analysis, const RunContext &context, const Analysis *previous, const StatisticSink &sink)
+    void regulateAndRun(Analysis &analysis, const RunContext &context, const Analysis *previous,
+                        const StatisticSink &sink)
     {
         const bool isSame = previous && previous->frames == analysis.frames;
         if (isSame) {
             analysis.input = previous->input;
             analysis.inputAlong = previous->inputAlong;
         }
-        if (isSame && previous->settings.model == analysis.settings.model && previous->settings.detector == analysis.settings.detector)
+        if (isSame && previous->settings.model == analysis.settings.model
+            && previous->settings.detector == analysis.settings.detector)
             analysis.lnKBand = previous->lnKBand;
         else if (const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector))
-            analysis.lnKBand = regulationBand(analysis.model, resetRule(*smd, analysis.calibration->lnK), context.part(0.0, 0.1));
+            analysis.lnKBand =
+                regulationBand(analysis.model, resetRule(*smd, analysis.calibration->lnK), context.part(0.0, 0.1));
         ProgressPublisher nothing;
         run(analysis, context.part(0.1, 1.0), sink, nothing);
     }
@@ -260,8 +271,8 @@ namespace {
 
 } // namespace
 
-std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings, const RunContext &context,
-                                        const Analysis *previous, const StatisticSink &sink)
+std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings,
+                                        const RunContext &context, const Analysis *previous, const StatisticSink &sink)
 {
     const std::vector<MarkovModel> models = makeModels(settings.model, frames->grid());
     if (models.size() == 1)
@@ -274,8 +285,9 @@ std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const An
     return analysis;
 }
 
-std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,
-                                        const RunContext &context, const StatisticSink &sink)
+std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model,
+                                        const AnalysisSettings &settings, const RunContext &context,
+                                        const StatisticSink &sink)
 {
     return analyseOneModel(std::move(frames), model, settings, context, nullptr, sink);
 }

@@ -22,17 +22,21 @@ enum class AnalysisDepth { Whole, Tracks };
 /// Every caller, window, command line and library, comes through here. `previous`, if given, lends what is still valid.
 /// Streams: memory is bounded for any recording length. Throws Error, Cancelled.
 /// A first estimate of the threshold is there sooner and is not the last word; nothing else of the run differs.
-std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context = {},
-                                  const Analysis *previous = nullptr, const StatisticSink &sink = {}, const PictureSink &pictures = {},
-                                  CalibrationDepth calibrationDepth = CalibrationDepth::Refined, AnalysisDepth depth = AnalysisDepth::Whole);
+std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
+                                  const RunContext &context = {}, const Analysis *previous = nullptr,
+                                  const StatisticSink &sink = {}, const PictureSink &pictures = {},
+                                  CalibrationDepth calibrationDepth = CalibrationDepth::Refined,
+                                  AnalysisDepth depth = AnalysisDepth::Whole);
 
-/// The same from ready-made frames on any grid, with the settings' own model or bank of models (`previous` lends its picture of the
-/// input and the band of ln K) …
-std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings, const RunContext &context = {},
-                                        const Analysis *previous = nullptr, const StatisticSink &sink = {});
+/// The same from ready-made frames on any grid, with the settings' own model or bank of models (`previous` lends its
+/// picture of the input and the band of ln K) …
+std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const AnalysisSettings &settings,
+                                        const RunContext &context = {}, const Analysis *previous = nullptr,
+                                        const StatisticSink &sink = {});
 
 /// … or with a model of one's own.
-std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model, const AnalysisSettings &settings,
-                                        const RunContext &context = {}, const StatisticSink &sink = {});
+std::shared_ptr<const Analysis> analyse(NormalisedFramesPointer frames, const MarkovModel &model,
+                                        const AnalysisSettings &settings, const RunContext &context = {},
+                                        const StatisticSink &sink = {});
 
 } // namespace faintline

@@ -25,9 +25,10 @@ namespace {
     void check(const Grid &grid, Index frameCount, const FrameBox &box)
     {
         if (grid.axes.size() != 1)
-            throw Error("box", "can be measured only in frames with one axis; the number of axes is " + std::to_string(grid.axes.size()));
-        const bool isThere = box.beginFrame >= 0 && box.beginFrame < box.endFrame && box.endFrame <= frameCount && box.beginCell >= 0
-                             && box.beginCell < box.endCell && box.endCell <= grid.size();
+            throw Error("box", "can be measured only in frames with one axis; the number of axes is "
+                                   + std::to_string(grid.axes.size()));
+        const bool isThere = box.beginFrame >= 0 && box.beginFrame < box.endFrame && box.endFrame <= frameCount
+                             && box.beginCell >= 0 && box.beginCell < box.endCell && box.endCell <= grid.size();
         if (!isThere)
             throw Error("box", "must contain at least one frame and one cell, and lie within the recording");
     }
@@ -39,7 +40,8 @@ namespace {
         Sides(const FrameBox &box, Index cellCount, double binsPerCell)
         {
             const auto gap = static_cast<Index>(std::ceil(gapCells * binsPerCell));
-            const Index width = std::max(box.endCell - box.beginCell, static_cast<Index>(std::ceil(sideCells * binsPerCell)));
+            const Index width =
+                std::max(box.endCell - box.beginCell, static_cast<Index>(std::ceil(sideCells * binsPerCell)));
             firstEnd = std::max<Index>(box.beginCell - gap, 0);
             firstBegin = std::max<Index>(firstEnd - width, 0);
             secondBegin = std::min(box.endCell + gap, cellCount);

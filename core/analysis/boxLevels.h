@@ -30,10 +30,10 @@ struct BoxLevels {
 /// N   mean of the noise: of the cells beside the box, in the same frames, as wide as it on either side (at least 8 resolution
 ///     cells) and 2 resolution cells away; a mean cut off at five times itself, so that other lines count little
 ///
-/// For Σ w² = 1 Parseval gives Σ_f |S|² = k_f·T_FT·Σ|w·x|², so r is the line's SNR in one cell of a rectangular window for any
-/// window's shape, as long as its main lobe is in the box: the snrDb of scenarios and injected lines (toneAmplitude). Oracle: a
-/// simulated line. Its standard error on noise alone is about √(cells / (k_f·T)).
-/// Of more than 4096 frames as many, spread evenly. Frames on one axis; throws Error on others, Cancelled. Thread-safe.
+/// For Σ w² = 1 Parseval gives Σ_f |S|² = k_f·T_FT·Σ|w·x|², so r is the line's SNR in one cell of a rectangular window
+/// for any window's shape, as long as its main lobe is in the box: the snrDb of scenarios and injected lines
+/// (toneAmplitude). Oracle: a simulated line. Its standard error on noise alone is about √(cells / (k_f·T)). Of more
+/// than 4096 frames as many, spread evenly. Frames on one axis; throws Error on others, Cancelled. Thread-safe.
 BoxLevels boxLevels(const Analysis &analysis, const FrameBox &box, const RunContext &context = {});
 
 } // namespace faintline

@@ -20,23 +20,28 @@ namespace {
         scene.isComplex = true;
         scene.noise.deviation = 1.0;
         scene.seed = 1000 + number;
-        const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), bare.spectrogram);
-        return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, bare.noise), bare.noise);
+        const auto spectrogram =
+            std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), bare.spectrogram);
+        return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, bare.noise),
+                                                       bare.noise);
     }
 
 } // namespace
 
-std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context, CalibrationDepth depth)
+std::shared_ptr<const Calibration> calibrate(const AnalysisSettings &settings, const RunContext &context,
+                                             CalibrationDepth depth)
 {
     const AnalysisSettings bare = dimensionless(settings);
     if (depth == CalibrationDepth::FirstEstimate && !isScoreOfPaths(settings.detector))
         return calibrate(settings, context);
     const CalibrationEffort effort = effortOf(depth);
     const auto result = keptCalibration(calibrationKey(bare, depth), [&] {
-        const double perSegment = static_cast<double>(segmentWindows) * bare.spectrogram.stepsPerWindow
+        const double perSegment =
+            static_cast<double>(segmentWindows) * bare.spectrogram.stepsPerWindow
             * static_cast<double>(Fft::fastLength(calibrationWindowSamples * bare.spectrogram.binsPerCell));
         const int segments = std::max(4, static_cast<int>(std::ceil(effort.cellFrames / perSegment)));
-        const NoiseSegment segment = rememberedSegments([&](int number) { return noiseSegment(bare, number); }, segments);
+        const NoiseSegment segment =
+            rememberedSegments([&](int number) { return noiseSegment(bare, number); }, segments);
         return calibrateOn(segment, segments, makeModel(bare.model, segment(0)->grid()), bare, effort, context);
     });
     return result ? result : calibrate(settings, context);

@@ -23,7 +23,8 @@ namespace {
         const std::size_t before = rates.levels.size() - std::min<std::size_t>(4, rates.levels.size());
         result->eventRate = std::exp(rates.lnRateAt(result->anchorNats));
         result->relativeError = rates.relativeErrorAt(result->anchorNats);
-        result->tailSlope = (rates.lnRates[before] - rates.lnRates.back()) / (rates.levels.back() - rates.levels[before]);
+        result->tailSlope =
+            (rates.lnRates[before] - rates.lnRates.back()) / (rates.levels.back() - rates.levels[before]);
         return result;
     }
 
@@ -35,15 +36,16 @@ namespace {
         for (std::size_t i = 0; i < rates.levels.size(); ++i) {
             const double level = rates.levels[i];
             rates.lnRates[i] += std::min(0.0, band.lnRateAt(level) - closed.lnRateAt(level));
-            rates.relativeErrors[i] =
-                std::hypot(rates.relativeErrors[i], std::hypot(band.relativeErrorAt(level), closed.relativeErrorAt(level)));
+            rates.relativeErrors[i] = std::hypot(
+                rates.relativeErrors[i], std::hypot(band.relativeErrorAt(level), closed.relativeErrorAt(level)));
         }
         return withShareOfEnds(wide, narrow, 1.0);
     }
 
 } // namespace
 
-std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins, const RunContext &context, CalibrationDepth depth)
+std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &settings, Index bins,
+                                                 const RunContext &context, CalibrationDepth depth)
 {
     constexpr Index wideEnough = 256;   // less than a twentieth of the false alarms is lost at the ends
     constexpr Index endsDoNotMeet = 64; // from here on the ends take away as much, whatever lies between them
@@ -57,13 +59,18 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
     const AnalysisSettings bare = dimensionless(settings);
     const Index simulated = std::min(bins, endsDoNotMeet);
     const SplittingSettings splitting = effortOf(depth).splitting;
-    const auto narrow = keptCalibration("band of " + std::to_string(simulated) + " " + calibrationKey(bare, depth), [&]() -> std::shared_ptr<const Calibration> {
-        const RareRates closed = followBand(bare, wide->lnK, 0, true, splitting, context.part(0.6, 0.8));
-        const RareRates band = closed.isEmpty() ? closed : followBand(bare, wide->lnK, simulated, false, splitting, context.part(0.8, 1.0));
-        return band.isEmpty() ? wide : narrowed(*wide, band, closed);
-    });
-    return bins == simulated ? narrow
-                             : withShareOfEnds(*wide, *narrow, static_cast<double>(simulated) / static_cast<double>(bins));
+    const auto narrow = keptCalibration(
+        "band of " + std::to_string(simulated) + " " + calibrationKey(bare, depth),
+        [&]() -> std::shared_ptr<const Calibration> {
+            const RareRates closed = followBand(bare, wide->lnK, 0, true, splitting, context.part(0.6, 0.8));
+            const RareRates band =
+                closed.isEmpty() ? closed
+                                 : followBand(bare, wide->lnK, simulated, false, splitting, context.part(0.8, 1.0));
+            return band.isEmpty() ? wide : narrowed(*wide, band, closed);
+        });
+    return bins == simulated
+               ? narrow
+               : withShareOfEnds(*wide, *narrow, static_cast<double>(simulated) / static_cast<double>(bins));
 }
 
 } // namespace faintline

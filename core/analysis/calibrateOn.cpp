@@ -46,7 +46,8 @@ namespace {
         const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
         double above = total;
         for (std::size_t i = 0; i < counts.size() && above > 0.0; ++i) {
-            result.levels.push_back(static_cast<double>(levels.lowest) + static_cast<double>(levels.step) * static_cast<double>(i));
+            result.levels.push_back(static_cast<double>(levels.lowest)
+                                    + static_cast<double>(levels.step) * static_cast<double>(i));
             result.exceedance.push_back(above / total);
             above -= counts[i];
         }
@@ -71,7 +72,8 @@ NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount)
 }
 
 std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
-                                               const AnalysisSettings &settings, const CalibrationEffort &effort, const RunContext &context)
+                                               const AnalysisSettings &settings, const CalibrationEffort &effort,
+                                               const RunContext &context)
 {
     // Whose chain will be asked, with thresholds to be found.
     AnalysisPlan trial;
@@ -94,7 +96,8 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int 
     const int roughCount = roughCountOf(segmentCount);
     NoiseTail rough;
     inRounds(
-        roughCount, context.part(0.1, 0.2), [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
+        roughCount, context.part(0.1, 0.2),
+        [&](int number) { return measureTail(*segment(number), *makeDetector(trial), levels); },
         [&](const NoiseTail &part) { add(part, rough); });
     fillExceedance(rough.counts, levels, *result);
     const double cells = static_cast<double>(first->grid().size());
@@ -114,7 +117,8 @@ std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int 
             std::vector<std::unique_ptr<DetectionChain>> chains;
             for (const double threshold : thresholds) {
                 own.threshold = threshold;
-                const bool isLeftOut = !rare.isEmpty() && chains.empty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
+                const bool isLeftOut =
+                    !rare.isEmpty() && chains.empty() && (effort.isFirstEstimate || number % crowdedEvery != 0);
                 chains.push_back(isLeftOut ? nullptr : makeChain(own, makePathDetector(own), false));
             }
             return countEvents(*own.frames, chains);

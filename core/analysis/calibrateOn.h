@@ -19,6 +19,7 @@ NoiseSegment rememberedSegments(NoiseSegment segment, int segmentCount);
 
 /// A calibration on noise: K, then the tail, roughly and by splitting, then events.
 std::shared_ptr<const Calibration> calibrateOn(const NoiseSegment &segment, int segmentCount, const MarkovModel &model,
-                                               const AnalysisSettings &settings, const CalibrationEffort &effort, const RunContext &context);
+                                               const AnalysisSettings &settings, const CalibrationEffort &effort,
+                                               const RunContext &context);
 
 } // namespace faintline

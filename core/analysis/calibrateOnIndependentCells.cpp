@@ -1,7 +1,7 @@
 #include "analysis/calibrateOn.h"
 #include "analysis/keptCalibration.h"
-#include "base/Random.h"
 #include "base/Field.h"
+#include "base/Random.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,8 @@ MarkovModel calibrationSubgrid(const MarkovModel &model)
     return {StateSpace(std::move(axes)), model.likelihood, model.transitionScale};
 }
 
-std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &whole, const AnalysisSettings &settings,
+std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel &whole,
+                                                               const AnalysisSettings &settings,
                                                                const RunContext &context, double cellFrames)
 {
     const MarkovModel model = calibrationSubgrid(whole);
@@ -61,7 +62,8 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
         grid.axes.push_back({axis.name, "", 0.0, 1.0, axis.cells, axis.cyclic});
     // Sonar's hundred rates a cell cost more than they teach: their paths overlap.
     constexpr double mostStates = 1.2e8; ///< a segment
-    const double longest = std::min(4e6 / static_cast<double>(grid.size()), mostStates / static_cast<double>(model.space.stateCount()));
+    const double longest =
+        std::min(4e6 / static_cast<double>(grid.size()), mostStates / static_cast<double>(model.space.stateCount()));
     const auto frames = static_cast<Index>(std::clamp(longest, 600.0, 4000.0));
     const auto segment = [&](int number) -> NormalisedFramesPointer {
         Random random(1000, static_cast<std::uint64_t>(number));
@@ -80,7 +82,7 @@ std::shared_ptr<const Calibration> calibrateOnIndependentCells(const MarkovModel
     bare.decide = withoutThreshold(bare.decide);
     bare.track.bothWays = TrackSettings{}.bothWays;
     return keptCalibration(nameOf(model) + settingsToJson(bare) + formatNumber(cellFrames),
-                [&] { return calibrateOn(segment, segments, model, settings, {cellFrames}, context); });
+                           [&] { return calibrateOn(segment, segments, model, settings, {cellFrames}, context); });
 }
 
 } // namespace faintline

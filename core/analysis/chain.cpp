@@ -14,36 +14,43 @@ namespace {
 
     constexpr double shoulderNats = 8.0;
     constexpr double noiseOnShoulder = 1e-3; ///< of the cells of a frame that decides
-    constexpr Index manyStates = 1'000'000; ///< of so many, tracing a path back over tens of frames takes seconds
+    constexpr Index manyStates = 1'000'000;  ///< of so many, tracing a path back over tens of frames takes seconds
     constexpr Index onsetFramesOfMany = 16;
 
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
     {
         std::vector<Index> result;
         for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
-            result.push_back(values.empty() ? 0 : static_cast<Index>(std::llround(values[std::min(axis, values.size() - 1)])));
+            result.push_back(
+                values.empty() ? 0 : static_cast<Index>(std::llround(values[std::min(axis, values.size() - 1)])));
         return result;
     }
 
-    /// Bins over which a line of power y leaks more than half the noise into its neighbours, by the window's side lobes.
+    /// Bins over which a line of power y leaks more than half the noise into its neighbours, by the window's side
+    /// lobes.
     std::function<Index(double)> leakageExtentOf(const Spectrogram &spectrogram)
     {
         constexpr int largestDb = 140;
         std::vector<Index> bins;
         Index reach = 0;
         for (int db = 0; db <= largestDb; ++db) {
-            while (ratioFromDb(db) * leakageBound(spectrogram.settings().window, static_cast<double>(reach) / spectrogram.binsPerCell()) > 0.5
+            while (ratioFromDb(db)
+                           * leakageBound(spectrogram.settings().window,
+                                          static_cast<double>(reach) / spectrogram.binsPerCell())
+                       > 0.5
                    && reach < spectrogram.frequency().count)
                 ++reach;
             bins.push_back(reach);
         }
         return [bins](double y) {
-            return bins[static_cast<std::size_t>(std::clamp(std::ceil(dbFromRatio(std::max(y, 1.0))), 0.0, static_cast<double>(largestDb)))];
+            return bins[static_cast<std::size_t>(
+                std::clamp(std::ceil(dbFromRatio(std::max(y, 1.0))), 0.0, static_cast<double>(largestDb)))];
         };
     }
 
-    /// A real recording's spectrum overlaps with its mirror image at 0 Hz, where there is often a constant as well, and at half
-    /// the rate: y has other statistics there (χ² of one degree of freedom) and a line none to itself. Not so in a band that was asked for.
+    /// A real recording's spectrum overlaps with its mirror image at 0 Hz, where there is often a constant as well, and
+    /// at half the rate: y has other statistics there (χ² of one degree of freedom) and a line none to itself. Not so
+    /// in a band that was asked for.
     std::vector<std::vector<Index>> excludedPlaces(const Spectrogram &spectrogram, Index inhibitBins)
     {
         const SelectionSettings &selection = spectrogram.selection();
@@ -58,9 +65,9 @@ namespace {
         return plan.frames->spectrogram() ? frameGeometry(plan.settings.spectrogram) : FrameGeometry{};
     }
 
-    /// Where an excursion ends. The score of paths, in nats, is forgotten down to 8 nat below the threshold: what lies so near has branched
-    /// off the path that crossed it, and would cross in its turn. Of any other statistic: at the level that noise exceeds in one cell of
-    /// a thousand, in its own unit.
+    /// Where an excursion ends. The score of paths, in nats, is forgotten down to 8 nat below the threshold: what lies
+    /// so near has branched off the path that crossed it, and would cross in its turn. Of any other statistic: at the
+    /// level that noise exceeds in one cell of a thousand, in its own unit.
     double shoulderOf(const AnalysisPlan &plan)
     {
         const double threshold = plan.threshold;
@@ -143,10 +150,12 @@ std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan)
 {
     if (const auto *smd = std::get_if<SmdSettings>(&plan.settings.detector))
         return makeSmd(plan, *smd);
-    return std::make_unique<GuidedDetector>(makeDetector(plan), plan.model, ResetRule{ResetLaw::Fixed, plan.calibration->lnK});
+    return std::make_unique<GuidedDetector>(makeDetector(plan), plan.model,
+                                            ResetRule{ResetLaw::Fixed, plan.calibration->lnK});
 }
 
-std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_ptr<PathDetector> detector, bool looksBack)
+std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_ptr<PathDetector> detector,
+                                          bool looksBack)
 {
     std::vector<MarkovModel> models;
     for (std::size_t i = 0; i < plan.modelCount(); ++i)

@@ -21,9 +21,10 @@ std::unique_ptr<Detector> makeDetector(const AnalysisPlan &plan);
 /// The same with paths for tracks to start from: a detector without any is guided by one that has them.
 std::unique_ptr<PathDetector> makePathDetector(const AnalysisPlan &plan);
 
-/// The chain around a detector that may have settled on noise. `looksBack`: whether tracks are traced back to their onset, which a caller
-/// that only counts them does not need.
-std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_ptr<PathDetector> detector, bool looksBack = true);
+/// The chain around a detector that may have settled on noise. `looksBack`: whether tracks are traced back to their
+/// onset, which a caller that only counts them does not need.
+std::unique_ptr<DetectionChain> makeChain(const AnalysisPlan &plan, std::unique_ptr<PathDetector> detector,
+                                          bool looksBack = true);
 
 /// The cells of a line of frames where no signal is looked for.
 std::vector<CellBox> excludedBoxes(const AnalysisPlan &plan);

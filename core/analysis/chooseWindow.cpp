@@ -12,7 +12,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr double factor = 4.0;       ///< from one window to the next
+    constexpr double factor = 4.0;        ///< from one window to the next
     constexpr double tooFast = 1.0 / 3.0; ///< below it the longer window loses what moves
     constexpr double asGood = 0.85;       ///< from there on it loses next to nothing
     constexpr double fewestCells = 24.0;
@@ -44,17 +44,21 @@ namespace {
     class WindowSearch
     {
     public:
-        WindowSearch(RecordingPointer recording, const AnalysisSettings &asked, CalibrationDepth calibrationDepth, RunContext context)
-            : m_recording(std::move(recording)), m_asked(asked), m_calibrationDepth(calibrationDepth), m_context(std::move(context))
+        WindowSearch(RecordingPointer recording, const AnalysisSettings &asked, CalibrationDepth calibrationDepth,
+                     RunContext context)
+            : m_recording(std::move(recording)), m_asked(asked), m_calibrationDepth(calibrationDepth),
+              m_context(std::move(context))
         {
         }
 
         /// Of the window chosen; of another than T0 without pictures. Leaves the rest to `choice`.
         std::shared_ptr<Analysis> run(const Analysis *previous, const PictureSink &pictures)
         {
-            const std::shared_ptr<Analysis> automatic = analyse(m_recording, m_asked, nextPart(), previous, {}, pictures, m_calibrationDepth);
+            const std::shared_ptr<Analysis> automatic =
+                analyse(m_recording, m_asked, nextPart(), previous, {}, pictures, m_calibrationDepth);
             m_windowSeconds = windowSecondsOf(*automatic);
-            m_cells = static_cast<double>(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
+            m_cells =
+                static_cast<double>(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = static_cast<double>(automatic->time().count);
             note(m_asked, *automatic);
             const std::shared_ptr<Analysis> best = shorter(automatic);
@@ -69,8 +73,9 @@ namespace {
     private:
         std::size_t numberOf(double windowSeconds) const
         {
-            return static_cast<std::size_t>(std::count_if(m_trials.begin(), m_trials.end(),
-                                                          [&](const WindowTrial &trial) { return trial.windowSeconds < windowSeconds; }));
+            return static_cast<std::size_t>(
+                std::count_if(m_trials.begin(), m_trials.end(),
+                              [&](const WindowTrial &trial) { return trial.windowSeconds < windowSeconds; }));
         }
 
         /// A trial may be the last one: each takes half of what is left.
@@ -84,7 +89,8 @@ namespace {
         std::shared_ptr<Analysis> shorter(const std::shared_ptr<Analysis> &automatic)
         {
             std::shared_ptr<Analysis> best = automatic;
-            for (double step = 1.0 / factor; m_cells * step >= fewestCells && m_trials.size() < mostTrials; step /= factor) {
+            for (double step = 1.0 / factor; m_cells * step >= fewestCells && m_trials.size() < mostTrials;
+                 step /= factor) {
                 auto trial = tried(step, laws::glide());
                 const double kept = shareKept(*trial, *best);
                 m_trials.front().kept = kept;
@@ -100,7 +106,8 @@ namespace {
         {
             RecordingInfo endless = m_recording->info();
             endless.sampleCount = std::numeric_limits<Index>::max();
-            return m_frames / step >= fewestFrames && step * m_windowSeconds <= Spectrogram::automaticWindowSeconds(endless);
+            return m_frames / step >= fewestFrames
+                   && step * m_windowSeconds <= Spectrogram::automaticWindowSeconds(endless);
         }
 
         std::shared_ptr<Analysis> longer(std::shared_ptr<Analysis> best)
@@ -121,14 +128,16 @@ namespace {
             AnalysisSettings settings = m_asked;
             settings.spectrogram.windowSeconds = step * m_windowSeconds;
             settings.model = withLaw(m_asked.model, law);
-            auto analysis = analyse(m_recording, settings, nextPart(), nullptr, {}, {}, m_calibrationDepth, AnalysisDepth::Tracks);
+            auto analysis =
+                analyse(m_recording, settings, nextPart(), nullptr, {}, {}, m_calibrationDepth, AnalysisDepth::Tracks);
             note(settings, *analysis);
             return analysis;
         }
 
         void note(const AnalysisSettings &settings, const Analysis &analysis)
         {
-            const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks), std::numeric_limits<double>::quiet_NaN()};
+            const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks),
+                                    std::numeric_limits<double>::quiet_NaN()};
             m_trials.insert(m_trials.begin() + static_cast<Index>(numberOf(trial.windowSeconds)), trial);
         }
 
@@ -157,7 +166,8 @@ namespace {
     /// Whether nothing has changed that a window is chosen by.
     bool asksForTheSame(const AnalysisSettings &a, const AnalysisSettings &b)
     {
-        return a.selection == b.selection && a.spectrogram == b.spectrogram && a.noise == b.noise && a.model == b.model && a.detector == b.detector;
+        return a.selection == b.selection && a.spectrogram == b.spectrogram && a.noise == b.noise && a.model == b.model
+               && a.detector == b.detector;
     }
 
 } // namespace
@@ -165,8 +175,9 @@ namespace {
 bool leavesWindowToRecording(const AnalysisSettings &settings)
 {
     const ModelSettings &model = settings.model;
-    return settings.spectrogram.windowSeconds == 0.0 && std::holds_alternative<SmdSettings>(settings.detector) && settings.track.bothWays
-        && model.motion == Motion::Slopes && model.likelihood != LikelihoodKind::Linear && model == withLaw(model, ModelSettings());
+    return settings.spectrogram.windowSeconds == 0.0 && std::holds_alternative<SmdSettings>(settings.detector)
+           && settings.track.bothWays && model.motion == Motion::Slopes && model.likelihood != LikelihoodKind::Linear
+           && model == withLaw(model, ModelSettings());
 }
 
 AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
@@ -183,13 +194,15 @@ AnalysisSettings inWindowOf(const Analysis &analysis, const AnalysisSettings &se
     return isOther ? inWindowOf(choice->trials[choice->chosen], settings) : settings;
 }
 
-std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings, const RunContext &context,
-                                                      const Analysis *previous, const PictureSink &pictures, CalibrationDepth calibrationDepth)
+std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
+                                                      const RunContext &context, const Analysis *previous,
+                                                      const PictureSink &pictures, CalibrationDepth calibrationDepth)
 {
     if (!leavesWindowToRecording(settings))
         return analyse(recording, settings, context, previous, {}, pictures, calibrationDepth);
-    const bool isChosen = previous && previous->recording == recording && previous->choice && !previous->calibration->isFirstEstimate
-        && asksForTheSame(previous->choice->asked, settings);
+    const bool isChosen = previous && previous->recording == recording && previous->choice
+                          && !previous->calibration->isFirstEstimate
+                          && asksForTheSame(previous->choice->asked, settings);
     WindowChoice choice;
     std::shared_ptr<Analysis> found;
     if (isChosen) {
@@ -201,7 +214,8 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         choice = search.choice(*found);
     }
     if (isChosen || !found->statistic) {
-        const AnalysisSettings used = choice.chosen == choice.automatic ? settings : inWindowOf(choice.trials[choice.chosen], settings);
+        const AnalysisSettings used =
+            choice.chosen == choice.automatic ? settings : inWindowOf(choice.trials[choice.chosen], settings);
         const RunContext rest = isChosen ? context : context.part(0.7, 1.0);
         found = analyse(recording, used, rest, isChosen ? previous : found.get(), {}, pictures, calibrationDepth);
     }

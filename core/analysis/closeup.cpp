@@ -10,7 +10,8 @@ namespace {
 
     constexpr Index blockValues = Index(1) << 18;
 
-    PeakPyramid emptyPicture(const Analysis &analysis, const FrameStretch &stretch, ByteScale::Kind kind, std::size_t byteBudget)
+    PeakPyramid emptyPicture(const Analysis &analysis, const FrameStretch &stretch, ByteScale::Kind kind,
+                             std::size_t byteBudget)
     {
         Axis time = analysis.time();
         time.first = time.value(static_cast<double>(stretch.begin));
@@ -19,13 +20,15 @@ namespace {
     }
 
     /// Calls `take` with blocks of frames, in order.
-    template <class Take> void readFrames(const Analysis &analysis, const FrameStretch &frames, const RunContext &context, const Take &take)
+    template <class Take>
+    void readFrames(const Analysis &analysis, const FrameStretch &frames, const RunContext &context, const Take &take)
     {
         const Index cells = analysis.grid().size();
         const Index most = std::max<Index>(1, blockValues / cells);
         std::vector<float> block;
         for (Index first = frames.begin; first < frames.end; first += most) {
-            const double share = static_cast<double>(first - frames.begin) / static_cast<double>(frames.end - frames.begin);
+            const double share =
+                static_cast<double>(first - frames.begin) / static_cast<double>(frames.end - frames.begin);
             context.checkpoint(share, "computing the close-up");
             const Index count = std::min(most, frames.end - first);
             block.resize(static_cast<std::size_t>(count * cells));
@@ -44,7 +47,8 @@ Index framesPerRowWithin(std::size_t byteBudget, Index frames, Index cells)
     return merged;
 }
 
-FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visible, double framesPerPixel, std::size_t byteBudget)
+FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visible, double framesPerPixel,
+                            std::size_t byteBudget)
 {
     const Index perRow = picture.framesPerRow(0);
     if (perRow == 1 || framesPerPixel >= static_cast<double>(perRow) || visible.isEmpty())
@@ -53,7 +57,9 @@ FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visi
         const Index begin = std::clamp<Index>(visible.begin - by, 0, picture.frameCount());
         return FrameStretch{begin - begin % perRow, std::clamp<Index>(visible.end + by, 0, picture.frameCount())};
     };
-    const auto mergedIn = [&](const FrameStretch &one) { return framesPerRowWithin(byteBudget, one.end - one.begin, picture.cells()); };
+    const auto mergedIn = [&](const FrameStretch &one) {
+        return framesPerRowWithin(byteBudget, one.end - one.begin, picture.cells());
+    };
     constexpr Index atTheSides = 2; // pixels there may begin or end a frame farther out
     const FrameStretch least = widened(atTheSides);
     if (least.isEmpty() || mergedIn(least) >= perRow)
@@ -62,8 +68,8 @@ FrameStretch closeupStretch(const PeakPyramid &picture, const FrameStretch &visi
     return mergedIn(more) == mergedIn(least) ? more : least;
 }
 
-std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const FrameStretch &stretch, std::size_t byteBudget,
-                                                const RunContext &context)
+std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const FrameStretch &stretch,
+                                                std::size_t byteBudget, const RunContext &context)
 {
     auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::PowerDb, byteBudget));
     readFrames(analysis, stretch, context, [&](Index, std::span<const float> block) { picture->append(block); });
@@ -71,10 +77,11 @@ std::shared_ptr<const PeakPyramid> inputCloseup(const Analysis &analysis, const 
     return picture;
 }
 
-std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, const FrameStretch &stretch, std::size_t byteBudget,
-                                                    const RunContext &context)
+std::shared_ptr<const PeakPyramid> statisticCloseup(const Analysis &analysis, const FrameStretch &stretch,
+                                                    std::size_t byteBudget, const RunContext &context)
 {
-    auto picture = std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::ScoreNats, byteBudget));
+    auto picture =
+        std::make_shared<PeakPyramid>(emptyPicture(analysis, stretch, ByteScale::Kind::ScoreNats, byteBudget));
     const std::unique_ptr<DetectionChain> chain = makeScoringChain(analysis);
     FrameStretch way{0, stretch.end};
     if (const Index latest = analysis.checkpoints.latest(stretch.begin); latest > 0) {

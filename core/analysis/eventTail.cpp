@@ -14,17 +14,20 @@ namespace faintline {
 namespace {
 
     constexpr std::size_t leastMaxima = 40;
-    /// Block maxima above the thresholds where events are counted, per cell and frame; clustering and inhibition leave a quarter of them as
-    /// events. A tail that splitting follows is counted where events crowd each other out, in a tenth of the noise, and where they do not
-    /// (800 and 400 events in the usual 8·10⁷ cells × frames). One that is continued along a line is counted at two thresholds far apart.
+    /// Block maxima above the thresholds where events are counted, per cell and frame; clustering and inhibition leave
+    /// a quarter of them as events. A tail that splitting follows is counted where events crowd each other out, in a
+    /// tenth of the noise, and where they do not (800 and 400 events in the usual 8·10⁷ cells × frames). One that is
+    /// continued along a line is counted at two thresholds far apart.
     constexpr std::array<double, 2> ratesBeforeSplitting{1e-3, 2e-5};
     constexpr std::array<double, 2> ratesOfLine{2e-5, 2.5e-6};
-    constexpr double leastExpected = 300.0; ///< maxima at 2·10⁻⁵, of which a line takes a third; in small volumes the rates are higher
+    constexpr double leastExpected =
+        300.0; ///< maxima at 2·10⁻⁵, of which a line takes a third; in small volumes the rates are higher
     constexpr double leastEvents = 20.0;
 
 } // namespace
 
-std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames, bool isLine)
+std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFramesPerBlock, double cellFrames,
+                                        bool isLine)
 {
     // A detector that decides in blocks of its own has blocks of ours without a decision.
     const auto blocks = static_cast<double>(maxima.size());
@@ -35,8 +38,11 @@ std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFr
     const double perMaximum = cellFramesPerBlock * blocks / static_cast<double>(maxima.size());
     constexpr double lower = 0.5;
     constexpr double upper = 0.95;
-    const auto quantile = [&](double p) { return static_cast<double>(maxima[static_cast<std::size_t>(p * static_cast<double>(maxima.size()))]); };
-    const double theta = std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
+    const auto quantile = [&](double p) {
+        return static_cast<double>(maxima[static_cast<std::size_t>(p * static_cast<double>(maxima.size()))]);
+    };
+    const double theta =
+        std::log(std::log(lower) / std::log(upper)) / std::max(1e-6, quantile(upper) - quantile(lower));
     std::vector<double> thresholds;
     const double expected = isLine ? leastExpected / 3.0 : leastExpected;
     const double scale = std::max(1.0, expected / (ratesOfLine.front() * cellFrames));
@@ -45,7 +51,8 @@ std::vector<double> thresholdsForEvents(std::vector<float> maxima, double cellFr
     return thresholds;
 }
 
-void fitEventRate(std::span<const double> thresholds, std::span<const double> events, double cellFrames, Calibration &result)
+void fitEventRate(std::span<const double> thresholds, std::span<const double> events, double cellFrames,
+                  Calibration &result)
 {
     const double total = std::accumulate(events.begin(), events.end(), 0.0);
     if (total < leastEvents)
@@ -59,12 +66,14 @@ void fitEventRate(std::span<const double> thresholds, std::span<const double> ev
             w.push_back(std::exp(-theta * (threshold - anchor)));
         return w;
     };
-    // With the rate at its best for each θ, the likelihood is that of a multinomial: Σ nᵢ ln(wᵢ/Σw), Σ nᵢ(Tᵢ - anchor) = 0.
+    // With the rate at its best for each θ, the likelihood is that of a multinomial: Σ nᵢ ln(wᵢ/Σw), Σ nᵢ(Tᵢ - anchor)
+    // = 0.
     const auto minusLogLikelihood = [&](double theta) {
         const std::vector<double> w = weights(theta);
         return total * std::log(std::accumulate(w.begin(), w.end(), 0.0));
     };
-    const double range = *std::max_element(thresholds.begin(), thresholds.end()) - *std::min_element(thresholds.begin(), thresholds.end());
+    const double range = *std::max_element(thresholds.begin(), thresholds.end())
+                         - *std::min_element(thresholds.begin(), thresholds.end());
     const double theta = boost::math::tools::brent_find_minima(minusLogLikelihood, 0.0, 40.0 / range, 40).first;
     const std::vector<double> w = weights(theta);
     const double sum = std::accumulate(w.begin(), w.end(), 0.0);
@@ -78,7 +87,8 @@ void fitEventRate(std::span<const double> thresholds, std::span<const double> ev
     result.eventRate = total / sum / cellFrames;
 }
 
-void anchorTail(const RareRates &rare, std::span<const double> thresholds, const EventCounts &counts, Calibration &result)
+void anchorTail(const RareRates &rare, std::span<const double> thresholds, const EventCounts &counts,
+                Calibration &result)
 {
     std::vector<double> levels; // where there are enough events to tell, ascending
     std::vector<double> offsets;

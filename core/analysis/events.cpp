@@ -25,7 +25,8 @@ namespace {
         for (std::size_t i = 0; i < track.points.size(); ++i) {
             const TrackPoint &point = track.points[i];
             const double t = static_cast<double>(point.frame - track.points.front().frame) * time.step;
-            double f = axis.value(isLast ? track.lastPosition(i, axis) : static_cast<double>(point.cell / grid.stride(along) % axis.count));
+            double f = axis.value(isLast ? track.lastPosition(i, axis)
+                                         : static_cast<double>(point.cell / grid.stride(along) % axis.count));
             if (axis.cyclic && i > 0) {
                 const double turn = axis.step * static_cast<double>(axis.count);
                 f += turn * std::round((before - f) / turn);
@@ -51,7 +52,8 @@ namespace {
         }
         event.snrDb = dbFromRatio(level);
         event.bandWidth = band * analysis.grid().axes.back().step;
-        const double cellFrames = static_cast<double>(analysis.grid().size()) * static_cast<double>(analysis.time().count);
+        const double cellFrames =
+            static_cast<double>(analysis.grid().size()) * static_cast<double>(analysis.time().count);
         event.noiseProbability = -std::expm1(-analysis.calibration->eventRateAt(event.statistic) * cellFrames);
     }
 

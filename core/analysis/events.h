@@ -13,18 +13,22 @@ struct Event {
     double onsetSeconds = 0.0;
     double detectSeconds = 0.0;
     double endSeconds = 0.0;
-    std::vector<double> position;   ///< at detection, one per axis (Hz; or m, degrees)
-    double driftPerSecond = 0.0;    ///< straight-line slope of the track along the last axis
-    double statistic = 0.0;         ///< in the detector's unit: the path's largest where it is its score, else that of the detection
+    std::vector<double> position; ///< at detection, one per axis (Hz; or m, degrees)
+    double driftPerSecond = 0.0;  ///< straight-line slope of the track along the last axis
+    double statistic =
+        0.0; ///< in the detector's unit: the path's largest where it is its score, else that of the detection
     bool isConfirmed = false;
     bool isOpen = false;
     std::vector<double> ratesPerSecond; ///< as driftPerSecond, along every axis
-    std::size_t model = 0;          ///< of a bank, the one that found it
+    std::size_t model = 0;              ///< of a bank, the one that found it
 
     // Of tracks that were looked at from both ends (secondLook.h); NaN of others:
-    double snrDb = std::numeric_limits<double>::quiet_NaN();     ///< mean power along the track over the noise's in one frame
-    double bandWidth = std::numeric_limits<double>::quiet_NaN(); ///< of the 5-95 % band of its position, mean, in units of the last axis
-    /// That noise alone brings an event as significant as this in this recording: 1 - exp(-rate(statistic)·cells·frames).
+    double snrDb =
+        std::numeric_limits<double>::quiet_NaN(); ///< mean power along the track over the noise's in one frame
+    double bandWidth = std::numeric_limits<
+        double>::quiet_NaN(); ///< of the 5-95 % band of its position, mean, in units of the last axis
+    /// That noise alone brings an event as significant as this in this recording: 1 -
+    /// exp(-rate(statistic)·cells·frames).
     double noiseProbability = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -21,10 +21,10 @@ namespace {
         return latest;
     }
 
-    /// The chain as it stands after the given frame, with all of its past that it would remember there, and of trackers what they know since
-    /// `begin`. The statistic of that frame is left in `statistic`.
-    std::unique_ptr<DetectionChain> runTo(const Analysis &analysis, Index begin, Index frame, std::vector<float> &statistic,
-                                          const RunContext &context)
+    /// The chain as it stands after the given frame, with all of its past that it would remember there, and of trackers
+    /// what they know since `begin`. The statistic of that frame is left in `statistic`.
+    std::unique_ptr<DetectionChain> runTo(const Analysis &analysis, Index begin, Index frame,
+                                          std::vector<float> &statistic, const RunContext &context)
     {
         auto chain = makeChain(analysis);
         std::vector<float> y(static_cast<std::size_t>(analysis.grid().size()));
@@ -32,7 +32,8 @@ namespace {
         const Index first = resumeBefore(*chain, analysis, std::min(begin, frame + 1 - chain->longestPath()));
         for (Index t = first; t <= frame; ++t) {
             if (t % 64 == 0)
-                context.checkpoint(static_cast<double>(t - first) / static_cast<double>(frame + 1 - first), "replaying the recording");
+                context.checkpoint(static_cast<double>(t - first) / static_cast<double>(frame + 1 - first),
+                                   "replaying the recording");
             analysis.frames->read(t, 1, y);
             chain->update(t, y, statistic);
         }
@@ -77,13 +78,14 @@ namespace {
         return {chain.detectorPathInto(state, model), false, model, 0};
     }
 
-    /// The chain frame by frame, and what the states it is about to go on from have: what no path can tell of its competitors.
+    /// The chain frame by frame, and what the states it is about to go on from have: what no path can tell of its
+    /// competitors.
     class Competitors
     {
     public:
         Competitors(const Analysis &analysis, std::size_t model)
-            : m_analysis(analysis), m_model(analysis.modelAt(model)), m_chain(makeScoringChain(analysis)), m_number(model),
-              m_y(static_cast<std::size_t>(analysis.grid().size())), m_statistic(m_y.size())
+            : m_analysis(analysis), m_model(analysis.modelAt(model)), m_chain(makeScoringChain(analysis)),
+              m_number(model), m_y(static_cast<std::size_t>(analysis.grid().size())), m_statistic(m_y.size())
         {
         }
 
@@ -152,7 +154,8 @@ namespace {
     };
 
     /// Why the path was reset on its way into its first step, and how narrowly the detector's own steps were won.
-    void findCompetitors(Explanation &explanation, const Analysis &analysis, std::size_t ownSteps, const RunContext &context)
+    void findCompetitors(Explanation &explanation, const Analysis &analysis, std::size_t ownSteps,
+                         const RunContext &context)
     {
         Competitors competitors(analysis, explanation.model);
         for (std::size_t i = 0; i < ownSteps; ++i) {
@@ -168,20 +171,23 @@ namespace {
             competitors.goTo(step.frame + 1, context);
             const double lnK = competitors.lnK();
             const bool isForgotten = ways.track && ways.remembered + lnK > 0.0;
-            explanation.reset = isForgotten ? ResetCause{ResetCause::Kind::Forgotten, ways.remembered + lnK, *ways.track}
-                                            : ResetCause{ResetCause::Kind::Background, -(ways.best + lnK), 0};
+            explanation.reset = isForgotten
+                                    ? ResetCause{ResetCause::Kind::Forgotten, ways.remembered + lnK, *ways.track}
+                                    : ResetCause{ResetCause::Kind::Background, -(ways.best + lnK), 0};
         }
     }
 
     /// The second best state of the cell.
-    void findOther(Explanation &explanation, const Analysis &analysis, const DetectionChain &chain, Index frame, Index cell)
+    void findOther(Explanation &explanation, const Analysis &analysis, const DetectionChain &chain, Index frame,
+                   Index cell)
     {
         const StateSpace &space = analysis.modelAt(explanation.model).space;
         const StateScores scores = scoresNow(analysis, chain, frame, explanation.model);
         const Index own = explanation.steps.back().state;
         double best = minusInfinity;
         for (Index state = cell; state < space.stateCount(); state += space.cellCount())
-            if (const auto score = static_cast<double>(scores.values[static_cast<std::size_t>(state)]); state != own && score > best) {
+            if (const auto score = static_cast<double>(scores.values[static_cast<std::size_t>(state)]);
+                state != own && score > best) {
                 best = score;
                 explanation.otherState = state;
             }
@@ -196,7 +202,8 @@ namespace {
         for (const Track &track : analysis.tracks) {
             const Index at = frame - track.onsetFrame;
             if (at >= 0 && at < std::ssize(track.points)
-                && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(track.points[static_cast<std::size_t>(at)].cell)))
+                && inhibition.box.contains(
+                    analysis.grid(), analysis.grid().coordinates(track.points[static_cast<std::size_t>(at)].cell)))
                 return track.id;
         }
         return -1;
@@ -204,12 +211,14 @@ namespace {
 
 } // namespace
 
-Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position, const RunContext &context)
+Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position,
+                    const RunContext &context)
 {
     const Axis &time = analysis.time();
     const double half = 0.5 * time.step;
     if (!(seconds >= time.first - half && seconds <= time.last() + half))
-        throw Error("time " + formatNumber(seconds) + " s", "must lie in " + formatNumber(time.first) + " … " + formatNumber(time.last()) + " s");
+        throw Error("time " + formatNumber(seconds) + " s",
+                    "must lie in " + formatNumber(time.first) + " … " + formatNumber(time.last()) + " s");
     const Index frame = time.nearest(seconds);
     std::vector<Index> coordinates;
     for (std::size_t axis = 0; axis < position.size(); ++axis) {
@@ -219,7 +228,8 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
         if (const double at = along.position(position[axis]);
             !along.cyclic && !(at >= -0.5 && at <= static_cast<double>(along.count) - 0.5))
             throw Error(along.name + " " + formatNumber(position[axis]) + " " + along.unit,
-                        "must lie in " + formatNumber(along.first) + " … " + formatNumber(along.last()) + " " + along.unit);
+                        "must lie in " + formatNumber(along.first) + " … " + formatNumber(along.last()) + " "
+                            + along.unit);
         coordinates.push_back(along.nearest(position[axis]));
     }
     const Index cell = analysis.grid().cell(coordinates);
@@ -249,8 +259,9 @@ Explanation explain(const Analysis &analysis, double seconds, const std::vector<
     findOther(explanation, detailed, *chain, frame, cell);
     // The box of a track that starts in this frame keeps data from the detector from the next one on.
     const auto isNew = [&](int track) {
-        return std::any_of(chain->trackers().begin(), chain->trackers().end(),
-                           [track](const HmmTracker &tracker) { return tracker.track().id == track && tracker.age() == 1; });
+        return std::any_of(chain->trackers().begin(), chain->trackers().end(), [track](const HmmTracker &tracker) {
+            return tracker.track().id == track && tracker.age() == 1;
+        });
     };
     for (const DetectionChain::Inhibition &inhibition : chain->inhibitions())
         if (!isNew(inhibition.track) && inhibition.box.contains(analysis.grid(), analysis.grid().coordinates(cell)))

@@ -23,23 +23,26 @@ struct ResetCause {
 /// Why a cell has the statistic it has: the best path that ends there, term by term.
 struct Explanation {
     double seconds = 0.0;
-    std::vector<double> position;  ///< of the cell, one per axis
-    std::vector<PathStep> steps;   ///< from the last reset on
-    double offset = 0.0;           ///< added to all of the detector's scores: K(t) under the mean law, less a bank's o_i
-    double statistic = 0.0;        ///< the sum of all terms and the offset, nat above background
-    double displayed = 0.0;        ///< what the analysis shows there: the same, in single precision
+    std::vector<double> position; ///< of the cell, one per axis
+    std::vector<PathStep> steps;  ///< from the last reset on
+    double offset = 0.0;          ///< added to all of the detector's scores: K(t) under the mean law, less a bank's o_i
+    double statistic = 0.0;       ///< the sum of all terms and the offset, nat above background
+    double displayed = 0.0;       ///< what the analysis shows there: the same, in single precision
     double threshold = 0.0;
-    std::size_t model = 0;         ///< of a bank, the one whose path it is: it numbers the steps' states
-    ResetCause reset;              ///< before the first step
-    /// The best of the other states of the cell and how far it lies behind, nat; absent for a model with one rate per cell.
+    std::size_t model = 0; ///< of a bank, the one whose path it is: it numbers the steps' states
+    ResetCause reset;      ///< before the first step
+    /// The best of the other states of the cell and how far it lies behind, nat; absent for a model with one rate per
+    /// cell.
     std::optional<Index> otherState;
     double otherMargin = 0.0;
-    std::optional<int> inhibitedFor; ///< the track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later
-    bool isTracked = false;        ///< a tracker follows this cell; its path runs on without reset
+    std::optional<int>
+        inhibitedFor; ///< the track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later
+    bool isTracked = false; ///< a tracker follows this cell; its path runs on without reset
 };
 
-/// Runs an analysis's chain again up to the frame nearest to `seconds` and traces the path to the cell nearest to `position`.
-/// Throws Error where the time lies outside of the recording; Cancelled.
-Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position, const RunContext &context = {});
+/// Runs an analysis's chain again up to the frame nearest to `seconds` and traces the path to the cell nearest to
+/// `position`. Throws Error where the time lies outside of the recording; Cancelled.
+Explanation explain(const Analysis &analysis, double seconds, const std::vector<double> &position,
+                    const RunContext &context = {});
 
 } // namespace faintline

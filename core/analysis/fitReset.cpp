@@ -33,7 +33,8 @@ namespace {
         return {sumLnK / counted, sum / counted};
     }
 
-    ResetFit measureReset(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model, const ResetRule &rule)
+    ResetFit measureReset(const std::vector<NormalisedFramesPointer> &noise, const MarkovModel &model,
+                          const ResetRule &rule)
     {
         ResetFit mean;
         for (const NormalisedFramesPointer &field : noise) {
@@ -56,12 +57,14 @@ namespace {
         }
         const double end = low > -largest ? largest : -largest;
         const bool isInside = low > -largest && high < largest;
-        const double percent = isInside ? 50.0 : 100.0 * measureReset(noise, model, {ResetLaw::Fixed, end}).continuedFraction;
+        const double percent =
+            isInside ? 50.0 : 100.0 * measureReset(noise, model, {ResetLaw::Fixed, end}).continuedFraction;
         if (isInside || std::isnan(percent)) // of a few frames nothing is measured
             return 0.5 * (low + high);
         throw fieldError("model.snr", formatNumber(model.likelihood.snr()),
-                    "permits no ln K at which half of the states continue on noise: at " + formatNumber(end) + " nat "
-                        + formatNumber(std::round(10.0 * percent) / 10.0) + " % do; choose a " + (end > 0.0 ? "lower" : "higher") + " one");
+                         "permits no ln K at which half of the states continue on noise: at " + formatNumber(end)
+                             + " nat " + formatNumber(std::round(10.0 * percent) / 10.0) + " % do; choose a "
+                             + (end > 0.0 ? "lower" : "higher") + " one");
     }
 
 } // namespace

@@ -62,8 +62,8 @@ RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, c
     return measureRareRates(make, makeNoise, effort.splitting, context);
 }
 
-RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic, const SplittingSettings &splitting,
-                     const RunContext &context)
+RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic,
+                     const SplittingSettings &splitting, const RunContext &context)
 {
     constexpr int least = 32;
     int samples = least;
@@ -81,7 +81,8 @@ RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool 
         return {};
     const auto *smd = std::get_if<SmdSettings>(&bare.detector);
     const auto make = [&] {
-        return makeDetector(bare.detector, model, grid, frameGeometry(bare.spectrogram), smd ? resetRule(*smd, lnK) : ResetRule{});
+        return makeDetector(bare.detector, model, grid, frameGeometry(bare.spectrogram),
+                            smd ? resetRule(*smd, lnK) : ResetRule{});
     };
     return measureRareRates(make, makeNoise, splitting, context);
 }

@@ -10,12 +10,13 @@ namespace faintline {
 
 // Splitting on noise like that of a calibration.
 
-/// How rare excursions of noise of known level are, on a small band that closes on itself, along which all cells are alike.
+/// How rare excursions of noise of known level are, on a small band that closes on itself, along which all cells are
+/// alike.
 RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, const AnalysisSettings &settings,
                      const Calibration &calibration, const CalibrationEffort &effort, const RunContext &context);
 
 /// As `followTail`, in `bins` bins with two ends, or in a band that closes on itself.
-RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic, const SplittingSettings &splitting,
-                     const RunContext &context);
+RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool isCyclic,
+                     const SplittingSettings &splitting, const RunContext &context);
 
 } // namespace faintline

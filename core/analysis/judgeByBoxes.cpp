@@ -17,8 +17,8 @@ namespace {
         const double shorter = std::min(box.endSeconds - box.startSeconds, event.endSeconds - event.onsetSeconds);
         if (to < from || to - from < leastShare * shorter)
             return false;
-        const auto track =
-            std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [&](const Track &one) { return one.id == event.id; });
+        const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(),
+                                        [&](const Track &one) { return one.id == event.id; });
         if (track == analysis.tracks.end() || !box.lowHz)
             return track != analysis.tracks.end();
         const Axis &frequency = analysis.grid().axes.front();

@@ -35,7 +35,8 @@ std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth)
     return settingsToJson(bare) + formatNumber(effortOf(depth).cellFrames);
 }
 
-std::shared_ptr<const Calibration> keptCalibration(const std::string &key, const std::function<std::shared_ptr<const Calibration>()> &make)
+std::shared_ptr<const Calibration> keptCalibration(const std::string &key,
+                                                   const std::function<std::shared_ptr<const Calibration>()> &make)
 {
     static std::mutex mutex;
     static std::map<std::string, std::shared_ptr<const Calibration>> known;

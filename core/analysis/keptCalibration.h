@@ -21,6 +21,7 @@ AnalysisSettings dimensionless(AnalysisSettings settings);
 std::string calibrationKey(const AnalysisSettings &bare, CalibrationDepth depth);
 
 /// Null only where `make` answers that.
-std::shared_ptr<const Calibration> keptCalibration(const std::string &key, const std::function<std::shared_ptr<const Calibration>()> &make);
+std::shared_ptr<const Calibration> keptCalibration(const std::string &key,
+                                                   const std::function<std::shared_ptr<const Calibration>()> &make);
 
 } // namespace faintline

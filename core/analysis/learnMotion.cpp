@@ -32,14 +32,18 @@ namespace {
         for (const Track &track : analysis.tracks)
             if (!track.smoothed.empty() && track.peakStatistic >= sureStatistic(analysis))
                 tracks.push_back(&track);
-        std::stable_sort(tracks.begin(), tracks.end(), [](const Track *a, const Track *b) { return a->peakStatistic > b->peakStatistic; });
+        std::stable_sort(tracks.begin(), tracks.end(),
+                         [](const Track *a, const Track *b) { return a->peakStatistic > b->peakStatistic; });
         std::size_t frames = 0;
-        const auto end = std::find_if(tracks.begin(), tracks.end(), [&](const Track *track) { return (frames += track->points.size()) > mostFrames; });
+        const auto end = std::find_if(tracks.begin(), tracks.end(), [&](const Track *track) {
+            return (frames += track->points.size()) > mostFrames;
+        });
         tracks.erase(tracks.empty() ? end : std::max(end, tracks.begin() + 1), tracks.end());
         return tracks;
     }
 
-    std::vector<PathStrip> stripsOf(const Analysis &analysis, const std::vector<const Track *> &tracks, const RunContext &context)
+    std::vector<PathStrip> stripsOf(const Analysis &analysis, const std::vector<const Track *> &tracks,
+                                    const RunContext &context)
     {
         std::vector<PathStrip> strips;
         for (const Track *track : tracks) {
@@ -71,8 +75,8 @@ namespace {
         return law;
     }
 
-    std::vector<double> changesUnder(const std::vector<double> &law, const Analysis &analysis, const std::vector<PathStrip> &strips,
-                                     const RunContext &context)
+    std::vector<double> changesUnder(const std::vector<double> &law, const Analysis &analysis,
+                                     const std::vector<PathStrip> &strips, const RunContext &context)
     {
         ModelSettings settings = analysis.settings.model;
         settings.slopeChange = law;
@@ -96,8 +100,9 @@ namespace {
 
 bool canLearnMotion(const Analysis &analysis)
 {
-    return analysis.grid().axes.size() == 1 && analysis.settings.model.motion == Motion::Slopes && analysis.settings.model.slopeChange.size() > 1
-        && analysis.frames->spectrogram() && !sureTracks(analysis).empty();
+    return analysis.grid().axes.size() == 1 && analysis.settings.model.motion == Motion::Slopes
+           && analysis.settings.model.slopeChange.size() > 1 && analysis.frames->spectrogram()
+           && !sureTracks(analysis).empty();
 }
 
 LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
@@ -109,7 +114,8 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
     const std::vector<PathStrip> strips = stripsOf(analysis, tracks, context.part(0.0, 0.2));
     LearnedMotion motion;
     motion.present = analysis.settings.model.slopeChange;
-    motion.learned.assign(motion.present.size(), 0.5 * (1.0 - firstStaying) / static_cast<double>(motion.present.size() - 1));
+    motion.learned.assign(motion.present.size(),
+                          0.5 * (1.0 - firstStaying) / static_cast<double>(motion.present.size() - 1));
     motion.learned.front() = firstStaying;
     std::vector<double> changes;
     for (int step = 0; step < steps; ++step) {

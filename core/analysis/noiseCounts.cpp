@@ -79,7 +79,8 @@ NoiseTail measureTail(const NormalisedFrames &noise, Detector &detector, const S
             return;
         for (float value : statistic) {
             const float position = (value - levels.lowest) / levels.step;
-            tail.counts[static_cast<std::size_t>(std::clamp(position, 0.0f, static_cast<float>(levelCount - 1)))] += 1.0;
+            tail.counts[static_cast<std::size_t>(std::clamp(position, 0.0f, static_cast<float>(levelCount - 1)))] +=
+                1.0;
         }
         if (inBlock == 0)
             std::fill(maxima.begin(), maxima.end(), -std::numeric_limits<float>::infinity());
@@ -111,9 +112,9 @@ EventCounts countEvents(const NormalisedFrames &noise, const std::vector<std::un
         double events = 0.0;
         if (chain) {
             chain->finish();
-            events = static_cast<double>(std::count_if(chain->tracks().begin(), chain->tracks().end(), [](const Track &track) {
-                return track.detectFrame >= settlingFrames;
-            }));
+            events = static_cast<double>(
+                std::count_if(chain->tracks().begin(), chain->tracks().end(),
+                              [](const Track &track) { return track.detectFrame >= settlingFrames; }));
         }
         counts.events.push_back(events);
         counts.cellFrames.push_back(chain ? countedCellFrames(noise) : 0.0);
@@ -133,7 +134,8 @@ void add(const EventCounts &part, EventCounts &whole)
     whole.events.resize(part.events.size());
     whole.cellFrames.resize(part.events.size());
     std::transform(part.events.begin(), part.events.end(), whole.events.begin(), whole.events.begin(), std::plus<>());
-    std::transform(part.cellFrames.begin(), part.cellFrames.end(), whole.cellFrames.begin(), whole.cellFrames.begin(), std::plus<>());
+    std::transform(part.cellFrames.begin(), part.cellFrames.end(), whole.cellFrames.begin(), whole.cellFrames.begin(),
+                   std::plus<>());
 }
 
 } // namespace faintline

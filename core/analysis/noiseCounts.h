@@ -11,7 +11,7 @@ namespace faintline {
 
 // What detectors and chains do on noise, segment by segment: counts that add up.
 
-inline constexpr int settlingFrames = 300; ///< of a segment, that do not count
+inline constexpr int settlingFrames = 300;     ///< of a segment, that do not count
 inline constexpr Index noiseBlockFrames = 128; ///< of the blocks whose maxima are kept …
 inline constexpr Index noiseBlockCells = 64;   ///< … and their cells
 inline constexpr std::size_t levelCount = 2000;
@@ -31,7 +31,7 @@ struct NoiseTail {
 
 /// What chains with their thresholds do.
 struct EventCounts {
-    std::vector<double> events; ///< of each chain …
+    std::vector<double> events;     ///< of each chain …
     std::vector<double> cellFrames; ///< … and in how much noise
 };
 

@@ -60,7 +60,8 @@ namespace {
     /// Where, going away from a track, the power along it comes down to the noise's.
     Index endOfSkirt(const std::vector<double> &sums, Index least, Index frames)
     {
-        const double highest = (noiseMean + 2.0 * overlap / std::sqrt(static_cast<double>(frames))) * static_cast<double>(frames);
+        const double highest =
+            (noiseMean + 2.0 * overlap / std::sqrt(static_cast<double>(frames))) * static_cast<double>(frames);
         Index end = least;
         while (end + 1 < std::ssize(sums)
                && (sums[static_cast<std::size_t>(end)] > highest || sums[static_cast<std::size_t>(end + 1)] > highest))
@@ -86,14 +87,16 @@ std::string NoiseLaw::warning() const
 std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext &context)
 {
     const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector);
-    const bool isFixed = smd && (smd->reset == SmdSettings::Reset::Calibrated || smd->reset == SmdSettings::Reset::Fixed);
+    const bool isFixed =
+        smd && (smd->reset == SmdSettings::Reset::Calibrated || smd->reset == SmdSettings::Reset::Fixed);
     const NormalisedFrames &frames = *analysis.frames;
     const Index count = frames.time().count;
     const Index cells = frames.grid().size();
     if (!isFixed || !analysis.recording || !analysis.calibration || count < settlingFrames + leastCounted)
         return {};
     const Index length = std::min(stretchFrames, count);
-    const auto stretches = std::clamp<Index>(static_cast<Index>(mostCellFrames / static_cast<double>(length * cells)), 1, count / length);
+    const auto stretches =
+        std::clamp<Index>(static_cast<Index>(mostCellFrames / static_cast<double>(length * cells)), 1, count / length);
     const int binsPerCell = analysis.settings.spectrogram.binsPerCell;
     const auto least = static_cast<Index>(std::ceil(analysis.settings.decide.inhibitCells.front() * binsPerCell));
     const auto widest = std::max(least + 1, widestSkirt * binsPerCell);
@@ -118,8 +121,10 @@ std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext
                 auto &[piece, cell] = it->second;
                 for (Index offset = 0; offset < widest; ++offset) {
                     const auto at = static_cast<std::size_t>(offset);
-                    piece->below[at] += static_cast<double>(y[static_cast<std::size_t>(std::max<Index>(0, cell - offset))]);
-                    piece->above[at] += static_cast<double>(y[static_cast<std::size_t>(std::min(cells - 1, cell + offset))]);
+                    piece->below[at] +=
+                        static_cast<double>(y[static_cast<std::size_t>(std::max<Index>(0, cell - offset))]);
+                    piece->above[at] +=
+                        static_cast<double>(y[static_cast<std::size_t>(std::min(cells - 1, cell + offset))]);
                 }
             }
         }
@@ -129,7 +134,8 @@ std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext
         }
         Smd detector(analysis.model, resetRule(*smd, analysis.calibration->lnK));
         for (Index frame = first; frame < first + length; ++frame) {
-            context.checkpoint(static_cast<double>(stretch * length + frame - first) / static_cast<double>(stretches * length),
+            context.checkpoint(static_cast<double>(stretch * length + frame - first)
+                                   / static_cast<double>(stretches * length),
                                "checking the noise outside tracks");
             frames.read(frame, 1, y);
             const auto [from, to] = points.equal_range(frame);

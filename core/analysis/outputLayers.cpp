@@ -12,7 +12,8 @@ namespace {
 
     constexpr float unreached = -std::numeric_limits<float>::infinity();
     constexpr std::int32_t notKnown = 1 << 30; ///< an age: so many frames and those since it was said
-    constexpr Index ageOfSome = 512; ///< of noise's paths, of which most are reset after a few frames, the oldest of many
+    constexpr Index ageOfSome =
+        512; ///< of noise's paths, of which most are reset after a few frames, the oldest of many
 
     /// Of a rate of one cell a frame along an axis.
     double rateUnit(const Analysis &analysis, std::size_t axis)
@@ -27,8 +28,9 @@ namespace {
         for (std::size_t model = 0; model < rates.size(); ++model) {
             const StateSpace &space = analysis.modelAt(model).space;
             for (Index plane = 0; plane < space.planeCount(); ++plane)
-                rates[model].push_back(
-                    axis < space.axes().size() ? static_cast<float>(space.ratesOfPlane(plane)[axis] * rateUnit(analysis, axis)) : 0.0f);
+                rates[model].push_back(axis < space.axes().size() ? static_cast<float>(space.ratesOfPlane(plane)[axis]
+                                                                                       * rateUnit(analysis, axis))
+                                                                  : 0.0f);
         }
         return rates;
     }
@@ -76,7 +78,8 @@ void LayerReplay::walk(Index begin, Index frame, const RunContext &context)
     seek(begin);
     const Index first = m_replay.next();
     while (m_replay.next() <= frame) {
-        context.checkpoint(static_cast<double>(m_replay.next() - first) / static_cast<double>(frame + 1 - first), "following all paths");
+        context.checkpoint(static_cast<double>(m_replay.next() - first) / static_cast<double>(frame + 1 - first),
+                           "following all paths");
         step();
     }
 }
@@ -113,7 +116,8 @@ std::vector<float> LayerReplay::scoresBefore(std::size_t model) const
     const Index cells = analysis()->grid().size();
     for (const CellBox &box : m_replay.chain().forgotten())
         box.forEachCell(analysis()->grid(), [&](Index cell) {
-            for (auto state = static_cast<std::size_t>(cell); state < scores.size(); state += static_cast<std::size_t>(cells))
+            for (auto state = static_cast<std::size_t>(cell); state < scores.size();
+                 state += static_cast<std::size_t>(cells))
                 scores[state] = std::min(scores[state], background);
         });
     return scores;
@@ -147,7 +151,8 @@ void LayerReplay::step()
 
 std::size_t LayerReplay::Ages::bytes() const
 {
-    constexpr std::size_t stateBytes = sizeof(TrackerAges::mapped_type::value_type) + 2 * sizeof(void *); // a node and its bucket
+    constexpr std::size_t stateBytes =
+        sizeof(TrackerAges::mapped_type::value_type) + 2 * sizeof(void *); // a node and its bucket
     std::size_t total = sizeof *this;
     for (const std::vector<std::int32_t> &ages : states)
         total += sizeof ages + ages.capacity() * sizeof(std::int32_t);
@@ -212,7 +217,8 @@ void LayerReplay::followPaths(std::size_t model, Index frame)
 {
     std::swap(m_paths.scores, m_before[model]);
     std::swap(m_paths.ages, m_ages.states[model]);
-    for (std::size_t axis = m_models[model].space.axes().size(); axis-- > 0;) { // the last one first: rates of the first decide ties
+    for (std::size_t axis = m_models[model].space.axes().size();
+         axis-- > 0;) { // the last one first: rates of the first decide ties
         move(m_models[model], axis, frame, m_paths, m_moved);
         std::swap(m_paths, m_moved);
     }
@@ -276,7 +282,8 @@ void LayerReplay::project(std::span<const float> statistic)
             if (isFirst)
                 shown->second = static_cast<double>(shownScore(*analysis(), chain, m_layers.model[cell], best[cell]));
             Index candidate = 0;
-            if (const double score = tracker.scoreAt(static_cast<Index>(cell), &candidate); candidate == state && score > shown->second) {
+            if (const double score = tracker.scoreAt(static_cast<Index>(cell), &candidate);
+                candidate == state && score > shown->second) {
                 shown->second = score;
                 m_layers.model[cell] = static_cast<unsigned char>(tracker.track().model);
                 m_layers.plane[cell] = static_cast<std::int32_t>(static_cast<std::size_t>(state) / cells);
@@ -285,7 +292,8 @@ void LayerReplay::project(std::span<const float> statistic)
             }
         }
     for (const CellBox &box : chain.inhibited())
-        box.forEachCell(analysis()->grid(), [&](Index cell) { m_layers.isInhibited[static_cast<std::size_t>(cell)] = 1; });
+        box.forEachCell(analysis()->grid(),
+                        [&](Index cell) { m_layers.isInhibited[static_cast<std::size_t>(cell)] = 1; });
 }
 
 const std::vector<float> &LayerPicture::values(OutputLayer layer) const
@@ -328,8 +336,12 @@ namespace {
             const Index endColumn = std::min(window.endColumn, columns);
             const Index beginRow = std::clamp<Index>(window.beginRow, 0, endRow);
             const Index beginColumn = std::clamp<Index>(window.beginColumn, 0, endColumn);
-            const auto per = [](Index length, Index most) { return std::max<Index>(1, (length + most - 1) / std::max<Index>(1, most)); };
-            const auto count = [](Index begin, Index end, Index by) { return end > begin ? (end - 1) / by - begin / by + 1 : 0; };
+            const auto per = [](Index length, Index most) {
+                return std::max<Index>(1, (length + most - 1) / std::max<Index>(1, most));
+            };
+            const auto count = [](Index begin, Index end, Index by) {
+                return end > begin ? (end - 1) / by - begin / by + 1 : 0;
+            };
             picture.perRow = per(endRow - beginRow, window.mostRows);
             picture.perColumn = per(endColumn - beginColumn, window.mostColumns);
             picture.firstRow = beginRow / picture.perRow;
@@ -347,13 +359,17 @@ namespace {
         Index endRow() const { return std::min((picture.firstRow + picture.rows) * picture.perRow, m_rows); }
 
         Index firstColumn() const { return picture.firstColumn * picture.perColumn; }
-        Index endColumn() const { return std::min((picture.firstColumn + picture.columns) * picture.perColumn, m_columns); }
+        Index endColumn() const
+        {
+            return std::min((picture.firstColumn + picture.columns) * picture.perColumn, m_columns);
+        }
 
         /// One row of the window, whose first cell is `first` of the layers.
         void paintRow(Index row, const CellLayers &layers, Index first)
         {
             for (Index column = firstColumn(); column < endColumn(); ++column)
-                paint(static_cast<std::size_t>(picture.pixelAt(row, column)), layers, static_cast<std::size_t>(first + column));
+                paint(static_cast<std::size_t>(picture.pixelAt(row, column)), layers,
+                      static_cast<std::size_t>(first + column));
         }
 
         LayerPicture picture;
@@ -391,7 +407,8 @@ LayerPicture layerPicture(LayerReplay &replay, const LayerWindow &window, const 
     for (Index frame = first; frame < end; ++frame) {
         const double done = static_cast<double>(frame - first) / static_cast<double>(end - first);
         context.checkpoint(done, "layers");
-        painter.paintRow(frame, replay.at(frame, context.part(done, done), {painter.firstColumn(), painter.endColumn()}), 0);
+        painter.paintRow(frame,
+                         replay.at(frame, context.part(done, done), {painter.firstColumn(), painter.endColumn()}), 0);
     }
     return std::move(painter.picture);
 }
@@ -429,8 +446,9 @@ CellReading readCell(const Analysis &analysis, const CellLayers &layers, Index c
 CellReading readPixel(const LayerPicture &picture, Index pixel)
 {
     const auto i = static_cast<std::size_t>(pixel);
-    return {static_cast<double>(picture.rate[i]), static_cast<double>(picture.secondRate[i]), static_cast<double>(picture.age[i]),
-            picture.inhibited[i] > 0.0f, static_cast<double>(picture.statistic[i])};
+    return {static_cast<double>(picture.rate[i]), static_cast<double>(picture.secondRate[i]),
+            static_cast<double>(picture.age[i]), picture.inhibited[i] > 0.0f,
+            static_cast<double>(picture.statistic[i])};
 }
 
 } // namespace faintline

@@ -23,23 +23,27 @@ struct CellLayers {
     std::vector<float> statistic;     ///< D, as the run showed it
     std::vector<unsigned char> model; ///< of a bank, the one whose state is best
     std::vector<std::int32_t> plane;  ///< of the best state; the lowest among equals
-    std::vector<std::int32_t> age;    ///< frames since the last reset of the best path, where asked for; 0: it was reset in this frame
+    std::vector<std::int32_t>
+        age; ///< frames since the last reset of the best path, where asked for; 0: it was reset in this frame
     std::vector<float> resetFraction; ///< of the cell's states, those that were reset in this frame
     std::vector<char> isInhibited;    ///< inhibited in this frame for a track, or excluded
 };
 
-/// Goes through an analysis's chain again and tells of every cell which state won and for how long its path has gone on.
+/// Goes through an analysis's chain again and tells of every cell which state won and for how long its path has gone
+/// on.
 ///
 ///   age(n, t) = 0 where path n was reset in frame t, else 1 + age(m, t-1), m the predecessor that won
 ///
-/// Who won is read off two successive frames' scores, m = argmax [ln P(n|m) + u(m, t-1)], reset where ln K + that ≤ 0, ties as the
-/// recursion decides them: the recursion itself runs once, in the chain. Axes move independently, so the maximum is taken one axis after
-/// the other, and a path's age goes along with its score. A tracker's paths go on from those it was seeded with, without reset. Of a bank,
-/// each model's paths are its own. Oracle: tracePath (age + 1 = steps of its path). Lines and pings alike.
+/// Who won is read off two successive frames' scores, m = argmax [ln P(n|m) + u(m, t-1)], reset where ln K + that ≤ 0,
+/// ties as the recursion decides them: the recursion itself runs once, in the chain. Axes move independently, so the
+/// maximum is taken one axis after the other, and a path's age goes along with its score. A tracker's paths go on from
+/// those it was seeded with, without reset. Of a bank, each model's paths are its own. Oracle: tracePath (age + 1 =
+/// steps of its path). Lines and pings alike.
 ///
-/// It begins at a checkpoint of the run, where no path's age is known; a path that was reset since then has one. While some that are asked
-/// for have none it begins again twice as far back. Cost: the detector's and several times that a frame, over at most twice the age of the
-/// oldest path asked for and an interval of checkpoints (ChainReplay). One object per thread.
+/// It begins at a checkpoint of the run, where no path's age is known; a path that was reset since then has one. While
+/// some that are asked for have none it begins again twice as far back. Cost: the detector's and several times that a
+/// frame, over at most twice the age of the oldest path asked for and an interval of checkpoints (ChainReplay). One
+/// object per thread.
 class LayerReplay
 {
 public:
@@ -57,7 +61,8 @@ public:
     const CellLayers &at(Index frame, const RunContext &context = {}) { return at(frame, context, {}); }
 
 private:
-    using TrackerAges = std::map<int, std::unordered_map<Index, std::int32_t>>; ///< by the track's number, then the state
+    using TrackerAges =
+        std::map<int, std::unordered_map<Index, std::int32_t>>; ///< by the track's number, then the state
     struct Ages {
         std::vector<std::vector<std::int32_t>> states; ///< of each model
         TrackerAges trackers;
@@ -104,10 +109,11 @@ enum class OutputLayer {
     Reset,      ///< fraction of the cell's states that were reset
     Inhibited   ///< 1 where the detector was kept from the data, else 0
 };
-inline constexpr std::array<std::string_view, 6> outputLayerNames{"statistic", "rate", "bearing-rate", "age", "reset", "inhibited"};
+inline constexpr std::array<std::string_view, 6> outputLayerNames{"statistic", "rate",  "bearing-rate",
+                                                                  "age",       "reset", "inhibited"};
 
-/// What is looked at, in rows and columns, and how many of either the picture may have at most. Of a recording a row is a frame, a column a
-/// cell; of one ping a row is a cell of the first axis, a column one of the second.
+/// What is looked at, in rows and columns, and how many of either the picture may have at most. Of a recording a row is
+/// a frame, a column a cell; of one ping a row is a cell of the first axis, a column one of the second.
 struct LayerWindow {
     Index beginRow = 0, endRow = 0;
     Index beginColumn = 0, endColumn = 0;
@@ -115,9 +121,9 @@ struct LayerWindow {
     bool operator==(const LayerWindow &) const = default;
 };
 
-/// Layers of a window, made coarser where it has more rows or columns than the picture may have: a pixel stands for `perRow` × `perColumn`
-/// of them, counted from 0, and shows the values of the cell whose D is largest among them, so that a line of one bin survives.
-/// Inhibited: whether any of them is.
+/// Layers of a window, made coarser where it has more rows or columns than the picture may have: a pixel stands for
+/// `perRow` × `perColumn` of them, counted from 0, and shows the values of the cell whose D is largest among them, so
+/// that a line of one bin survives. Inhibited: whether any of them is.
 struct LayerPicture {
     Index perRow = 1, perColumn = 1;
     Index firstRow = 0, firstColumn = 0;
@@ -144,7 +150,7 @@ double largestRate(const Analysis &analysis, std::size_t axis);
 
 /// Of one cell.
 struct CellReading {
-    double ratePerSecond = 0.0; ///< of its best state, along the first axis
+    double ratePerSecond = 0.0;       ///< of its best state, along the first axis
     double secondRatePerSecond = 0.0; ///< along the second one, where there is one
     double ageSeconds = 0.0;
     bool isInhibited = false;

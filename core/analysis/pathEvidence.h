@@ -26,12 +26,12 @@ struct PathEvidence {
 
 /// Σ λ(y) and mean y over the cells of a path, λ the analysis's own likelihood (of a bank, its first model's).
 ///
-/// Along the detector's path this is the λ part of its statistic; ln P and ln K are what the detector adds. Oracle: explain's steps.
-/// Frames or cells that do not exist throw Error. Cost: one transform a frame. Thread-safe.
+/// Along the detector's path this is the λ part of its statistic; ln P and ln K are what the detector adds. Oracle:
+/// explain's steps. Frames or cells that do not exist throw Error. Cost: one transform a frame. Thread-safe.
 PathEvidence evidenceAlong(const Analysis &analysis, std::span<const PathCell> path, const RunContext &context = {});
 
-/// The frames and cells a polyline of (seconds, hz) goes through, vertices in ascending time; linear between them, ends included.
-/// What lies outside of the picture is left out. Of frames on one axis.
+/// The frames and cells a polyline of (seconds, hz) goes through, vertices in ascending time; linear between them, ends
+/// included. What lies outside of the picture is left out. Of frames on one axis.
 struct PolylinePoint {
     double seconds = 0.0;
     double hz = 0.0;

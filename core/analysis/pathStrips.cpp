@@ -24,9 +24,11 @@ namespace {
 
 } // namespace
 
-void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const RunContext &context, std::string_view what)
+void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const RunContext &context,
+                std::string_view what)
 {
-    std::stable_sort(strips.begin(), strips.end(), [](const PathStrip *a, const PathStrip *b) { return a->firstFrame < b->firstFrame; });
+    std::stable_sort(strips.begin(), strips.end(),
+                     [](const PathStrip *a, const PathStrip *b) { return a->firstFrame < b->firstFrame; });
     const NormalisedFrames &frames = *analysis.frames;
     const Index cells = frames.grid().size();
     const Index frameCount = frames.time().count;
@@ -40,16 +42,19 @@ void readStrips(const Analysis &analysis, std::vector<PathStrip *> strips, const
         const Index count = std::min(block, frameCount - first);
         for (; next < strips.size() && strips[next]->firstFrame < first + count; ++next) {
             PathStrip &strip = *strips[next];
-            strip.y.assign(static_cast<std::size_t>(strip.frameCount() * strip.width()), std::numeric_limits<float>::quiet_NaN());
+            strip.y.assign(static_cast<std::size_t>(strip.frameCount() * strip.width()),
+                           std::numeric_limits<float>::quiet_NaN());
             open.push_back(&strip);
         }
-        std::erase_if(open, [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
+        std::erase_if(open,
+                      [first](const PathStrip *strip) { return strip->firstFrame + strip->frameCount() <= first; });
         if (open.empty())
             continue;
         values.resize(static_cast<std::size_t>(count * cells));
         frames.read(first, count, values);
         for (Index i = 0; i < count; ++i) {
-            const std::span<float> y = std::span(values).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>(cells));
+            const std::span<float> y =
+                std::span(values).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>(cells));
             for (const CellBox &box : excluded)
                 box.forEachCell(frames.grid(), [&](Index cell) { y[static_cast<std::size_t>(cell)] = 0.0f; });
             for (PathStrip *strip : open)

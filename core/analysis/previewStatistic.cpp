@@ -27,7 +27,8 @@ namespace {
             const Index cells = m_source.grid().size();
             const auto size = static_cast<std::size_t>(count * cells);
             if (m_kept)
-                return std::span(m_kept->values).subspan(static_cast<std::size_t>((frame - m_kept->first) * cells), size);
+                return std::span(m_kept->values)
+                    .subspan(static_cast<std::size_t>((frame - m_kept->first) * cells), size);
             m_block.resize(size);
             m_source.read(frame, count, m_block);
             return m_block;
@@ -40,7 +41,8 @@ namespace {
     };
 
     /// ln K with which half of the states go on, from the first frames of the range.
-    double settledLnK(const MarkovModel &model, double lnK, const FrameRange &range, Blocks &blocks, const RunContext &context)
+    double settledLnK(const MarkovModel &model, double lnK, const FrameRange &range, Blocks &blocks,
+                      const RunContext &context)
     {
         Smd smd(model, {ResetLaw::Half, lnK, 0.0, settlingGain});
         smd.useThreads(context.threads);
@@ -62,7 +64,8 @@ namespace {
 
 } // namespace
 
-std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Index first, Index count, const RunContext &context)
+std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Index first, Index count,
+                                             const RunContext &context)
 {
     auto kept = std::make_shared<KeptFrames>();
     const Index cells = source->grid().size();
@@ -71,7 +74,8 @@ std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Ind
         context.checkpoint(static_cast<double>(done) / static_cast<double>(count), "reading the visible part");
         const Index block = std::min(blockFrames, count - done);
         source->read(first + done, block,
-                     std::span(kept->values).subspan(static_cast<std::size_t>(done * cells), static_cast<std::size_t>(block * cells)));
+                     std::span(kept->values)
+                         .subspan(static_cast<std::size_t>(done * cells), static_cast<std::size_t>(block * cells)));
     }
     kept->source = std::move(source);
     kept->first = first;
@@ -86,7 +90,8 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
         return {};
     FrameRange range;
     range.first = std::clamp<Index>(first, 0, count - 1);
-    range.readFirst = std::max<Index>(0, range.first - (frames.grid().axes.size() == 1 ? settlingFrames : settlingPings));
+    range.readFirst =
+        std::max<Index>(0, range.first - (frames.grid().axes.size() == 1 ? settlingFrames : settlingPings));
     range.end = std::clamp<Index>(last, range.first, count - 1) + 1;
     const Index cells = (range.end - range.readFirst) * frames.grid().size();
     range.isKeepable = static_cast<std::size_t>(cells) * sizeof(float) <= memoryShares::previewFrames;
@@ -96,12 +101,12 @@ FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last)
 bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings)
 {
     return (before.grid().axes.size() > 1 || settings.model.motion == Motion::Slopes)
-        && firstStale(before.settings, settings) == Stage::Detector
-        && !(before.settings.model == settings.model && before.settings.detector == settings.detector);
+           && firstStale(before.settings, settings) == Stage::Detector
+           && !(before.settings.model == settings.model && before.settings.detector == settings.detector);
 }
 
-StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range, const KeptFrames *kept,
-                                  const RunContext &context)
+StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range,
+                                  const KeptFrames *kept, const RunContext &context)
 {
     checkSettings(settings);
     Analysis trial;
@@ -121,19 +126,23 @@ StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings
     trial.calibration = calibration;
     for (std::size_t i = 0; i < models.size() && models.size() > 1; ++i) {
         const bool isKnown = i < before.bank.size();
-        trial.bank.push_back({models[i], isKnown ? before.bank[i].calibration : trial.calibration, isKnown ? before.bank[i].offset : 0.0});
+        trial.bank.push_back({models[i], isKnown ? before.bank[i].calibration : trial.calibration,
+                              isKnown ? before.bank[i].offset : 0.0});
     }
 
     const auto detector = makeDetector(trial);
     detector->useThreads(context.threads);
     const Index cells = before.grid().size();
     const Axis &time = before.time();
-    const auto statistic = std::make_shared<PeakPyramid>(
-        Axis{time.name, time.unit, time.value(static_cast<double>(range.first)), time.step, range.end - range.first, false}, cells,
-        ByteScale(ByteScale::Kind::ScoreNats), memoryShares::closeup);
+    const auto statistic =
+        std::make_shared<PeakPyramid>(Axis{time.name, time.unit, time.value(static_cast<double>(range.first)),
+                                           time.step, range.end - range.first, false},
+                                      cells, ByteScale(ByteScale::Kind::ScoreNats), memoryShares::closeup);
     std::vector<float> scores;
     for (Index frame = range.readFirst; frame < range.end;) {
-        context.checkpoint(static_cast<double>(frame - range.readFirst) / static_cast<double>(range.end - range.readFirst), "previewing");
+        context.checkpoint(static_cast<double>(frame - range.readFirst)
+                               / static_cast<double>(range.end - range.readFirst),
+                           "previewing");
         const Index stop = frame < range.first ? range.first : range.end;
         const Index block = std::min(blockFrames, stop - frame);
         scores.resize(static_cast<std::size_t>(block * cells));

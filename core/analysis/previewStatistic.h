@@ -22,17 +22,19 @@ struct KeptFrames {
 };
 
 /// Reads them. Throws Cancelled.
-std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Index first, Index count, const RunContext &context = {});
+std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Index first, Index count,
+                                             const RunContext &context = {});
 
 /// What a changed detector makes of a few frames, before anything has been calibrated for it.
 struct StatisticPreview {
-    std::shared_ptr<const PeakPyramid> statistic; ///< D of the frames shown, its time axis begins with the first of them
-    double lnK = 0.0;                             ///< in force; of detectors without K as before
+    std::shared_ptr<const PeakPyramid>
+        statistic;    ///< D of the frames shown, its time axis begins with the first of them
+    double lnK = 0.0; ///< in force; of detectors without K as before
 };
 
-/// The frames that are needed to show `first … last`: these, and some before them for the detector to settle on. Empty where they hold more
-/// than 7·10⁷ cells, on which a preview would take as long as everything else. Of pings, whose frames have as many states as a recording's
-/// minute, 16 before those shown.
+/// The frames that are needed to show `first … last`: these, and some before them for the detector to settle on. Empty
+/// where they hold more than 7·10⁷ cells, on which a preview would take as long as everything else. Of pings, whose
+/// frames have as many states as a recording's minute, 16 before those shown.
 struct FrameRange {
     Index readFirst = 0;
     Index first = 0;
@@ -43,15 +45,16 @@ struct FrameRange {
 };
 FrameRange previewRange(const NormalisedFrames &frames, Index first, Index last);
 
-/// Runs the detector that the settings describe over a range of frames, kept ones where there are: the same recursion, but no threshold,
-/// no trackers and none of their feedback, so where something was detected D goes on growing.
+/// Runs the detector that the settings describe over a range of frames, kept ones where there are: the same recursion,
+/// but no threshold, no trackers and none of their feedback, so where something was detected D goes on growing.
 ///
-/// K, where it would be calibrated to 50 % of noise states continued, is found on these frames themselves: regulated toward that over
-/// the first of them (ResetLaw::Half) and held from then on. Most cells are noise, so it lies near the calibrated one; it is a preview's.
-/// Depends on nothing but the frames and settings. Cost: one pass of the recursion; no simulation. Oracle: Smd run with the same ln K.
-/// A bank's models keep the offsets that make their false alarms equal. Precondition: `kept` is null or holds the range.
-StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range, const KeptFrames *kept,
-                                  const RunContext &context = {});
+/// K, where it would be calibrated to 50 % of noise states continued, is found on these frames themselves: regulated
+/// toward that over the first of them (ResetLaw::Half) and held from then on. Most cells are noise, so it lies near the
+/// calibrated one; it is a preview's. Depends on nothing but the frames and settings. Cost: one pass of the recursion;
+/// no simulation. Oracle: Smd run with the same ln K. A bank's models keep the offsets that make their false alarms
+/// equal. Precondition: `kept` is null or holds the range.
+StatisticPreview previewStatistic(const Analysis &before, const AnalysisSettings &settings, const FrameRange &range,
+                                  const KeptFrames *kept, const RunContext &context = {});
 
 /// Whether a change of settings is worth a preview: the detector or its model, and nothing before it.
 bool isWorthAPreview(const Analysis &before, const AnalysisSettings &settings);

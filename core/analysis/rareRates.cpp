@@ -248,8 +248,8 @@ namespace {
                                      : std::log(static_cast<double>(m_entered.size()) / (total * cells));
         }
 
-        /// From one of the entered states, with fresh noise, to the next level or back to the base; answers the highest D, ∞ where there is no
-        /// end to it.
+        /// From one of the entered states, with fresh noise, to the next level or back to the base; answers the highest
+        /// D, ∞ where there is no end to it.
         double walk(Walker &walker, Random &random, double next, std::optional<Particle> *outcome) const
         {
             const auto number =

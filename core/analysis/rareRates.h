@@ -29,8 +29,8 @@ public:
 /// Independent exponential cells.
 std::unique_ptr<NoiseStream> independentNoise(Index cells);
 
-/// The spectrogram of complex white noise on `windowSamples` samples, a full band: neighbouring frames and bins are correlated
-/// as those of a recording are. The background is known, not estimated.
+/// The spectrogram of complex white noise on `windowSamples` samples, a full band: neighbouring frames and bins are
+/// correlated as those of a recording are. The background is known, not estimated.
 std::unique_ptr<NoiseStream> spectralNoise(const SpectrogramSettings &settings, int windowSamples);
 
 /// How often a detector's statistic rises to a level, for levels that simulation alone would hardly ever reach.
@@ -63,9 +63,9 @@ struct SplittingSettings {
     std::uint64_t seed = 3000;
 };
 
-/// `makeDetector` and `makeNoise` are called once a thread. Results do not depend on the number of threads. Empty where the detector cannot
-/// tell its state, where that is too large, and where all trials soon descend from a few large cells, as those of a short window do (P out
-/// of N): the scatter of the runs exceeds a half before rates are rare.
+/// `makeDetector` and `makeNoise` are called once a thread. Results do not depend on the number of threads. Empty where
+/// the detector cannot tell its state, where that is too large, and where all trials soon descend from a few large
+/// cells, as those of a short window do (P out of N): the scatter of the runs exceeds a half before rates are rare.
 RareRates measureRareRates(const std::function<std::unique_ptr<Detector>()> &makeDetector,
                            const std::function<std::unique_ptr<NoiseStream>()> &makeNoise,
                            const SplittingSettings &settings, const RunContext &context = {});

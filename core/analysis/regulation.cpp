@@ -27,7 +27,8 @@ NoiseBand regulationBand(const MarkovModel &model, const ResetRule &rule, const 
             lnK.push_back(detector.regulation().lnK);
     }
     NoiseBand band = noiseBand(lnK);
-    band.deviation *= std::sqrt(static_cast<double>(piece.space.cellCount()) / static_cast<double>(model.space.cellCount()));
+    band.deviation *=
+        std::sqrt(static_cast<double>(piece.space.cellCount()) / static_cast<double>(model.space.cellCount()));
     return band;
 }
 

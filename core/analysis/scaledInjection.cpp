@@ -8,7 +8,7 @@
 namespace faintline {
 
 InjectedLine scaledInjection(LineSettings line, const RecordingPointer &recording, const AnalysisSettings &settings,
-                         const RunContext &context)
+                             const RunContext &context)
 {
     const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
     const RecordingInfo &info = recording->info();

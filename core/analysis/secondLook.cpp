@@ -77,8 +77,9 @@ namespace {
     public:
         SecondLook(const Analysis &analysis, const RunContext &context)
             : m_analysis(analysis), m_context(context), m_frames(*analysis.frames), m_cells(m_frames.grid().size()),
-              m_spectrogram(*m_frames.spectrogram()),
-              m_explanations(m_cells, [&](double bins) { return leakageBound(m_spectrogram.settings().window, bins / m_spectrogram.binsPerCell()); })
+              m_spectrogram(*m_frames.spectrogram()), m_explanations(m_cells, [&](double bins) {
+                  return leakageBound(m_spectrogram.settings().window, bins / m_spectrogram.binsPerCell());
+              })
         {
             m_model.axis = &analysis.model.space.axes().front();
             m_model.likelihood = analysis.model.likelihood;
@@ -88,7 +89,8 @@ namespace {
 
         std::vector<Track> run(std::vector<Track> found)
         {
-            std::stable_sort(found.begin(), found.end(), [](const Track &a, const Track &b) { return a.peakStatistic > b.peakStatistic; });
+            std::stable_sort(found.begin(), found.end(),
+                             [](const Track &a, const Track &b) { return a.peakStatistic > b.peakStatistic; });
             std::vector<Piece> pieces;
             for (const Track &track : found)
                 cut(track, pieces);
@@ -100,11 +102,14 @@ namespace {
                     bytes += sizeof(float) * static_cast<std::size_t>(strip.frameCount() * strip.width());
                 }
                 const std::span<Piece> some = std::span(pieces).subspan(first, end - first);
-                const auto done = [&](std::size_t piece) { return static_cast<double>(piece) / static_cast<double>(pieces.size()); };
+                const auto done = [&](std::size_t piece) {
+                    return static_cast<double>(piece) / static_cast<double>(pieces.size());
+                };
                 std::vector<PathStrip *> strips;
                 for (Piece &piece : some)
                     strips.push_back(&piece.strip);
-                readStrips(m_analysis, std::move(strips), m_context.part(done(first), 0.5 * (done(first) + done(end))), following);
+                readStrips(m_analysis, std::move(strips), m_context.part(done(first), 0.5 * (done(first) + done(end))),
+                           following);
                 for (Piece &piece : some) {
                     m_context.checkpoint(done(end), following);
                     lookAt(piece);
@@ -112,7 +117,8 @@ namespace {
                 first = end;
             }
             std::stable_sort(m_tracks.begin(), m_tracks.end(), [](const Track &a, const Track &b) {
-                return a.detectFrame != b.detectFrame ? a.detectFrame < b.detectFrame : a.points.front().cell < b.points.front().cell;
+                return a.detectFrame != b.detectFrame ? a.detectFrame < b.detectFrame
+                                                      : a.points.front().cell < b.points.front().cell;
             });
             for (std::size_t i = 0; i < m_tracks.size(); ++i)
                 m_tracks[i].id = static_cast<int>(i) + 1;
@@ -131,14 +137,15 @@ namespace {
             }
         }
 
-        /// An empty strip around a piece of a path, which goes on for some frames at either end: as the track does, or beyond its ends as it
-        /// begins and ends.
+        /// An empty strip around a piece of a path, which goes on for some frames at either end: as the track does, or
+        /// beyond its ends as it begins and ends.
         PathStrip stripRound(const Piece &piece) const
         {
             PathStrip strip;
             const std::vector<TrackPoint> &points = piece.track->points;
             const auto goesOn = [&](const TrackPoint &end, double slope, Index frame) {
-                strip.centres.push_back(end.cell + static_cast<Index>(std::lround(slope * static_cast<double>(frame - end.frame))));
+                strip.centres.push_back(
+                    end.cell + static_cast<Index>(std::lround(slope * static_cast<double>(frame - end.frame))));
             };
             const std::size_t count = std::min(points.size(), static_cast<std::size_t>(slopeFrames));
             const std::size_t from = piece.from - std::min(piece.from, static_cast<std::size_t>(pieceOverlap));
@@ -184,13 +191,15 @@ namespace {
             if (!divideByFloor(strip))
                 return true;
             const double left = strongestIn(strip, m_model);
-            return left >= m_analysis.threshold || track.peakStatistic - (strongestIn(before, m_model) - left) >= m_analysis.threshold;
+            return left >= m_analysis.threshold
+                   || track.peakStatistic - (strongestIn(before, m_model) - left) >= m_analysis.threshold;
         }
 
         void lookAt(Piece &piece)
         {
             PathStrip &strip = piece.strip;
-            m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame, m_analysis.lnK.begin() + strip.firstFrame + strip.frameCount());
+            m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame,
+                               m_analysis.lnK.begin() + strip.firstFrame + strip.frameCount());
             if (takeFloorOff(*piece.track, strip)) {
                 const BothWays seen = lookBothWays(strip, m_model);
                 for (const Stretch &stretch : stretchesOf(piece, seen))
@@ -207,7 +216,8 @@ namespace {
             ExplainedSignal signal = explain(piece.strip, seen, stretch);
             if (m_candidates.empty() || m_candidates.back().track.endFrame + 1 != track.onsetFrame) {
                 if (!piece.isLast()) { // it is going to be long: no room beyond that
-                    track.points.reserve(piece.track->points.size() - piece.from + 2 * static_cast<std::size_t>(extraFrames));
+                    track.points.reserve(piece.track->points.size() - piece.from
+                                         + 2 * static_cast<std::size_t>(extraFrames));
                     track.smoothed.reserve(track.points.capacity());
                 }
                 m_candidates.push_back({std::move(track), {std::move(signal)}, stretch.gain, stretch.evidence});
@@ -226,7 +236,8 @@ namespace {
         /// Of a track's stretches the one whose gain is largest, and every other with enough evidence of its own.
         void accept()
         {
-            const auto best = std::max_element(m_candidates.begin(), m_candidates.end(), [](const Candidate &a, const Candidate &b) { return a.gain < b.gain; });
+            const auto best = std::max_element(m_candidates.begin(), m_candidates.end(),
+                                               [](const Candidate &a, const Candidate &b) { return a.gain < b.gain; });
             for (auto candidate = m_candidates.begin(); candidate != m_candidates.end(); ++candidate) {
                 if (candidate != best && candidate->evidence < m_analysis.threshold)
                     continue;
@@ -244,7 +255,8 @@ namespace {
         {
             const std::vector<TrackPoint> &points = piece.track->points;
             const Index from = piece.isFirst() ? 0 : points[piece.from].frame - piece.strip.firstFrame;
-            const Index to = piece.isLast() ? piece.strip.frameCount() : points[piece.to].frame - piece.strip.firstFrame;
+            const Index to =
+                piece.isLast() ? piece.strip.frameCount() : points[piece.to].frame - piece.strip.firstFrame;
             const std::vector<float> &present = seen.presence.present;
             const float least = std::min(0.5f, 0.5f * *std::max_element(present.begin(), present.end()));
             std::vector<Stretch> stretches;
@@ -281,8 +293,10 @@ namespace {
                 const auto i = static_cast<std::size_t>(at);
                 const double position = std::clamp(seen.positions[i], 0.0, static_cast<double>(m_cells - 1));
                 const TrackPoint &before = pointAt(found, strip.firstFrame + at);
-                track.points.push_back({strip.firstFrame + at, static_cast<Index>(std::lround(position)), before.plane, before.statistic});
-                track.smoothed.push_back({position, seen.presence.low[i], seen.presence.high[i], seen.presence.present[i], static_cast<float>(seen.levels[i])});
+                track.points.push_back(
+                    {strip.firstFrame + at, static_cast<Index>(std::lround(position)), before.plane, before.statistic});
+                track.smoothed.push_back({position, seen.presence.low[i], seen.presence.high[i],
+                                          seen.presence.present[i], static_cast<float>(seen.levels[i])});
             }
             return track;
         }
@@ -296,7 +310,8 @@ namespace {
                 const auto i = static_cast<std::size_t>(at);
                 double power = seen.levels[i] + 1.0;
                 for (Index d = -near; d <= near; ++d)
-                    if (const float y = strip.valueAt(at, static_cast<Index>(std::lround(seen.positions[i])) + d); !std::isnan(y))
+                    if (const float y = strip.valueAt(at, static_cast<Index>(std::lround(seen.positions[i])) + d);
+                        !std::isnan(y))
                         power = std::max(power, static_cast<double>(y));
                 signal.positions.push_back(seen.positions[i]);
                 signal.levels.push_back(static_cast<float>(power - 1.0));
@@ -307,8 +322,10 @@ namespace {
             return signal;
         }
 
-        /// What lies beside the path in units of its level, the lower of both sides, falling outwards; as far as it is significant.
-        static std::vector<float> skirtOf(const PathStrip &strip, const ExplainedSignal &signal, Index from, Index first)
+        /// What lies beside the path in units of its level, the lower of both sides, falling outwards; as far as it is
+        /// significant.
+        static std::vector<float> skirtOf(const PathStrip &strip, const ExplainedSignal &signal, Index from,
+                                          Index first)
         {
             const Index end = std::min(std::ssize(signal.positions), first + ExplainedSignal::skirtFrames);
             const auto count = static_cast<double>(end - first);
@@ -319,7 +336,8 @@ namespace {
                 double sum = 0.0;
                 double observed = 0.0;
                 for (Index i = first; i < end; ++i) {
-                    const auto cell = static_cast<Index>(std::lround(signal.positions[static_cast<std::size_t>(i)])) + distance;
+                    const auto cell =
+                        static_cast<Index>(std::lround(signal.positions[static_cast<std::size_t>(i)])) + distance;
                     if (const float y = strip.valueAt(from + i, cell); !std::isnan(y)) {
                         sum += static_cast<double>(y) - 1.0;
                         observed += 1.0;
@@ -354,9 +372,8 @@ namespace {
 bool looksTwice(const Analysis &analysis)
 {
     return analysis.settings.track.bothWays && analysis.grid().axes.size() == 1 && !analysis.isBank()
-        && std::holds_alternative<SmdSettings>(analysis.settings.detector)
-        && analysis.settings.model.likelihood != LikelihoodKind::Linear
-        && analysis.frames->spectrogram();
+           && std::holds_alternative<SmdSettings>(analysis.settings.detector)
+           && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.frames->spectrogram();
 }
 
 std::vector<Track> lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context)

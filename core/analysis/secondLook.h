@@ -6,15 +6,16 @@
 
 namespace faintline {
 
-/// Whether complete tracks are looked at a second time: those of the sequential Markov detector's paths through a spectrogram, if asked for. Not
-/// under the linear likelihood, which rescales scores for a fixed level and says nothing of a track's own.
+/// Whether complete tracks are looked at a second time: those of the sequential Markov detector's paths through a
+/// spectrogram, if asked for. Not under the linear likelihood, which rescales scores for a fixed level and says nothing
+/// of a track's own.
 bool looksTwice(const Analysis &analysis);
 
 /// What was found, seen from both ends: each signal only while it was there, and where it was to a fraction of a bin.
 ///
-/// The chain decides causally what is found; its statistic stays as it is, and so do times of detection, but for those that lie outside of where the
-/// signal turned out to be: they are put at its nearer end. Each of the chain's tracks, the strongest first, is looked at in a strip of frames
-/// around its path (bothWays.h):
+/// The chain decides causally what is found; its statistic stays as it is, and so do times of detection, but for those
+/// that lie outside of where the signal turned out to be: they are put at its nearer end. Each of the chain's tracks,
+/// the strongest first, is looked at in a strip of frames around its path (bothWays.h):
 ///
 ///   1. y is divided by the floor that stronger tracks raise (explanation.h);
 ///   2. a track that the detector would not have found over that floor was theirs: it goes;
@@ -22,7 +23,8 @@ bool looksTwice(const Analysis &analysis);
 ///      every other whose own evidence reaches the threshold, which is then its statistic;
 ///   4. what stays is explained: it raises the floor for weaker ones.
 ///
-/// `found`: by detection, as is the answer, numbered anew. Reads all frames once; memory goes with the tracks' length. Deterministic.
+/// `found`: by detection, as is the answer, numbered anew. Reads all frames once; memory goes with the tracks' length.
+/// Deterministic.
 std::vector<Track> lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context);
 
 } // namespace faintline

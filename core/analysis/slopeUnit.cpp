@@ -44,13 +44,15 @@ ModelSettings withSlopesIn(SlopeUnit unit, ModelSettings model, double hzPerSeco
 AnalysisSettings withSlopesInBins(AnalysisSettings settings, const RecordingInfo &info)
 {
     if (settings.model.slopeUnit != SlopeUnit::BinsPerFrame)
-        settings.model = withSlopesIn(SlopeUnit::BinsPerFrame, settings.model, hzPerSecondOfABinAFrame(settings.spectrogram, info));
+        settings.model =
+            withSlopesIn(SlopeUnit::BinsPerFrame, settings.model, hzPerSecondOfABinAFrame(settings.spectrogram, info));
     return settings;
 }
 
 AnalysisSettings withSlopesInBins(AnalysisSettings settings, const NormalisedFrames &frames)
 {
-    settings.model = withSlopesIn(SlopeUnit::BinsPerFrame, settings.model, frames.grid().axes.back().step / frames.time().step);
+    settings.model =
+        withSlopesIn(SlopeUnit::BinsPerFrame, settings.model, frames.grid().axes.back().step / frames.time().step);
     return settings;
 }
 

@@ -4,8 +4,8 @@
 
 namespace faintline {
 
-/// The statistic from which on a track is about a hundred times rarer on noise than ordered, nat: 3.3 above the threshold, ln 100 over a typical
-/// slope of the tail.
+/// The statistic from which on a track is about a hundred times rarer on noise than ordered, nat: 3.3 above the
+/// threshold, ln 100 over a typical slope of the tail.
 inline double sureStatistic(const Analysis &analysis)
 {
     constexpr double margin = 3.3;

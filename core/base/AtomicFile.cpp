@@ -58,10 +58,13 @@ namespace {
     /// "NAME.PID-N.part"
     bool isTemporaryOf(std::string_view name, std::string_view temporary)
     {
-        if (!temporary.starts_with(name) || !temporary.substr(name.size()).starts_with('.') || !temporary.ends_with(".part"))
+        if (!temporary.starts_with(name) || !temporary.substr(name.size()).starts_with('.')
+            || !temporary.ends_with(".part"))
             return false;
-        const std::string_view middle = temporary.substr(name.size() + 1, temporary.size() - name.size() - std::string_view("..part").size());
-        return middle.find('-') != std::string_view::npos && middle.find_first_not_of("0123456789-") == std::string_view::npos;
+        const std::string_view middle =
+            temporary.substr(name.size() + 1, temporary.size() - name.size() - std::string_view("..part").size());
+        return middle.find('-') != std::string_view::npos
+               && middle.find_first_not_of("0123456789-") == std::string_view::npos;
     }
 
     /// Whoever writes one keeps it locked; a killed program's locks are gone.
@@ -83,7 +86,8 @@ namespace {
         }
     }
 
-    /// A name that a folder was given is on the disk only when the folder is. Where it cannot be opened or has no such thing, so be it.
+    /// A name that a folder was given is on the disk only when the folder is. Where it cannot be opened or has no such
+    /// thing, so be it.
     void syncFolder(const std::string &path)
     {
         namespace fs = std::filesystem;
@@ -107,8 +111,8 @@ AtomicFile::AtomicFile(const std::string &path, Durability durability) : m_path(
 }
 
 AtomicFile::AtomicFile(AtomicFile &&other) noexcept
-    : m_path(std::move(other.m_path)), m_temporaryPath(std::move(other.m_temporaryPath)), m_durability(other.m_durability),
-      m_descriptor(std::exchange(other.m_descriptor, -1))
+    : m_path(std::move(other.m_path)), m_temporaryPath(std::move(other.m_temporaryPath)),
+      m_durability(other.m_durability), m_descriptor(std::exchange(other.m_descriptor, -1))
 {
     other.m_path = m_path; // it may be asked for after the commit
 }
@@ -116,7 +120,8 @@ AtomicFile::AtomicFile(AtomicFile &&other) noexcept
 void AtomicFile::makeTemporaryFile(const std::string &path)
 {
     for (int attempt = 0; m_descriptor < 0; ++attempt) {
-        m_temporaryPath = beginningOf(m_path) + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
+        m_temporaryPath =
+            beginningOf(m_path) + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
         m_descriptor = ::open(m_temporaryPath.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (m_descriptor < 0 && (errno != EEXIST || attempt > 1000))
             throw Error(path, "cannot be written: " + systemMessage(errno));
@@ -124,7 +129,9 @@ void AtomicFile::makeTemporaryFile(const std::string &path)
             continue;
         const bool isLocked = ::flock(m_descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
         struct stat status = {};
-        if (!isLocked || (::fstat(m_descriptor, &status) == 0 && status.st_nlink == 0)) { // taken for abandoned before it was locked
+        if (!isLocked
+            || (::fstat(m_descriptor, &status) == 0
+                && status.st_nlink == 0)) { // taken for abandoned before it was locked
             ::close(m_descriptor);
             m_descriptor = -1;
         }
@@ -154,7 +161,8 @@ void AtomicFile::write(std::span<const std::byte> bytes)
 
 void AtomicFile::commit()
 {
-    if (m_durability == Durability::Machine && ::fsync(m_descriptor) != 0 && errno != EINVAL) // a disk may turn out to be full here
+    if (m_durability == Durability::Machine && ::fsync(m_descriptor) != 0
+        && errno != EINVAL) // a disk may turn out to be full here
         throw Error(m_path, "cannot be written: " + systemMessage(errno), Error::Kind::Failure);
     if (!together)
         return rename();

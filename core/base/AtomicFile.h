@@ -9,14 +9,16 @@
 
 namespace faintline {
 
-/// What a file that was written survives: a crash of the program only, or of the machine as well, which takes some milliseconds.
+/// What a file that was written survives: a crash of the program only, or of the machine as well, which takes some
+/// milliseconds.
 enum class Durability { Program, Machine };
 
 /// A file that appears under its name only when it is complete.
 ///
 /// Bytes go to a temporary neighbour in the same folder; `commit` renames it over the wanted name. Without a commit
-/// (cancelled, an exception) nothing is left behind and what stood there before is untouched; what a killed program left
-/// is removed by the next that writes the same file. Throws Error where the folder is missing, may not be written, or the disk is full.
+/// (cancelled, an exception) nothing is left behind and what stood there before is untouched; what a killed program
+/// left is removed by the next that writes the same file. Throws Error where the folder is missing, may not be written,
+/// or the disk is full.
 class AtomicFile
 {
 public:
@@ -47,8 +49,9 @@ private:
     int m_descriptor = -1;
 };
 
-/// As long as one lives, files that this thread commits are complete but do not appear; `commit` lets all of them, in that order, one right after
-/// the other. Without it none does. So that a result is never there without what tells how it was made: that one is committed before it.
+/// As long as one lives, files that this thread commits are complete but do not appear; `commit` lets all of them, in
+/// that order, one right after the other. Without it none does. So that a result is never there without what tells how
+/// it was made: that one is committed before it.
 class CommitTogether
 {
 public:

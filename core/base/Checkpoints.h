@@ -9,10 +9,12 @@
 
 namespace faintline {
 
-/// States of something that goes from frame to frame, at even distances, within a byte budget that counts what they really take.
+/// States of something that goes from frame to frame, at even distances, within a byte budget that counts what they
+/// really take.
 ///
-/// A state is kept under the frame that comes next. Where the budget is exceeded every second one is dropped and the interval
-/// doubles, so that the distances stay even and what is kept never grows with the number of frames. At least one state is kept.
+/// A state is kept under the frame that comes next. Where the budget is exceeded every second one is dropped and the
+/// interval doubles, so that the distances stay even and what is kept never grows with the number of frames. At least
+/// one state is kept.
 template <class State>
 class Checkpoints
 {

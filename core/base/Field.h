@@ -92,8 +92,8 @@ Field<S> field(bool S::*member, std::string name, std::string sentence)
 
 /// An enumeration whose values 0, 1, … bear the given names.
 template <class S, class E>
-    requires std::is_enum_v<E>
-Field<S> field(E S::*member, std::string name, std::span<const std::string_view> names, std::string sentence)
+requires std::is_enum_v<E> Field<S> field(E S::*member, std::string name, std::span<const std::string_view> names,
+                                          std::string sentence)
 {
     Field<S> result;
     result.name = std::move(name);

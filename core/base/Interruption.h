@@ -9,11 +9,12 @@
 
 namespace faintline {
 
-/// Ctrl+C and SIGTERM, from its construction on: they ask what runs to stop. What has not stopped within the patience (it waits for a pipe, it
-/// reads something large) is ended all the same, with exit code 1, after what is half-written was removed.
+/// Ctrl+C and SIGTERM, from its construction on: they ask what runs to stop. What has not stopped within the patience
+/// (it waits for a pipe, it reads something large) is ended all the same, with exit code 1, after what is half-written
+/// was removed.
 ///
-/// Construct it before any other thread is started: those that come later leave the two signals to the one that waits for them here. Where there
-/// is no room for that one, they end the program as they do by themselves.
+/// Construct it before any other thread is started: those that come later leave the two signals to the one that waits
+/// for them here. Where there is no room for that one, they end the program as they do by themselves.
 class Interruption
 {
 public:

@@ -32,7 +32,8 @@ Interval poissonInterval(std::int64_t count)
     using boost::math::chi_squared;
     using boost::math::quantile;
     const auto n = static_cast<double>(count);
-    return {count == 0 ? 0.0 : 0.5 * quantile(chi_squared(2.0 * n), 0.025), 0.5 * quantile(chi_squared(2.0 * n + 2.0), 0.975)};
+    return {count == 0 ? 0.0 : 0.5 * quantile(chi_squared(2.0 * n), 0.025),
+            0.5 * quantile(chi_squared(2.0 * n + 2.0), 0.975)};
 }
 
 Interval normalInterval(double mean, double standardError)

@@ -10,8 +10,9 @@
 
 namespace faintline {
 
-/// Memory for arrays of many planes, of which an inner loop goes through a piece each: with pages of 4 KiB every piece would cost the
-/// search for its page as well. From a few MiB on the system is asked for pages of 2 MiB; it may decline.
+/// Memory for arrays of many planes, of which an inner loop goes through a piece each: with pages of 4 KiB every piece
+/// would cost the search for its page as well. From a few MiB on the system is asked for pages of 2 MiB; it may
+/// decline.
 template <class T>
 struct HugePageAllocator {
     using value_type = T;
@@ -35,7 +36,10 @@ struct HugePageAllocator {
 #endif
         return static_cast<T *>(memory);
     }
-    void deallocate(T *memory, std::size_t n) { ::operator delete(memory, alignment(n * sizeof(T))); }
+    void deallocate(T *memory, std::size_t n)
+    {
+        ::operator delete(memory, alignment(n * sizeof(T)));
+    }
 
     template <class Other>
     bool operator==(const HugePageAllocator<Other> &) const

@@ -74,7 +74,8 @@ namespace {
             }
     }
 
-    void exponentialBlocks(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::size_t blocks, float *out)
+    void exponentialBlocks(std::uint64_t seed, std::uint64_t stream, std::uint64_t firstBlock, std::size_t blocks,
+                           float *out)
     {
         std::array<std::uint32_t, 4 * lanes> words;
         for (std::size_t done = 0; done < blocks; done += lanes) {

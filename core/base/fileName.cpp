@@ -28,10 +28,12 @@ std::string fileNameFromText(std::string_view text)
     std::string name;
     for (std::size_t i = 0; i < text.size();) {
         const std::string_view character = text.substr(i, std::max<std::size_t>(characterLength(text, i), 1));
-        const bool isByte = character.size() == 4 && character.starts_with("\xf4\x8f") && (static_cast<unsigned char>(character[2]) & 0xfc) == 0xb8
+        const bool isByte = character.size() == 4 && character.starts_with("\xf4\x8f")
+                            && (static_cast<unsigned char>(character[2]) & 0xfc) == 0xb8
                             && (static_cast<unsigned char>(character[2]) & 2) != 0;
         if (isByte)
-            name += static_cast<char>((static_cast<unsigned char>(character[2]) & 3) << 6 | (static_cast<unsigned char>(character[3]) & 0x3f));
+            name += static_cast<char>((static_cast<unsigned char>(character[2]) & 3) << 6
+                                      | (static_cast<unsigned char>(character[3]) & 0x3f));
         else
             name += character;
         i += character.size();
@@ -41,7 +43,9 @@ std::string fileNameFromText(std::string_view text)
 
 bool hasEnding(std::string_view path, std::string_view ending)
 {
-    const auto small = [](char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; };
+    const auto small = [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    };
     return path.size() >= ending.size()
            && std::equal(ending.begin(), ending.end(), path.end() - static_cast<std::ptrdiff_t>(ending.size()),
                          [&](char a, char b) { return small(a) == small(b); });

@@ -25,8 +25,9 @@ namespace {
         return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - lineStart + 1);
     }
 
-    /// Builds a value as the library's own parser does, in a time that grows with the text's length only: objects may have so many keys,
-    /// each of which is looked for among the others. (The library's call-backs look through a whole list for each of its members.)
+    /// Builds a value as the library's own parser does, in a time that grows with the text's length only: objects may
+    /// have so many keys, each of which is looked for among the others. (The library's call-backs look through a whole
+    /// list for each of its members.)
     class BoundedParser : public nlohmann::detail::json_sax_dom_parser<Json>
     {
         using Base = nlohmann::detail::json_sax_dom_parser<Json>;
@@ -59,8 +60,9 @@ namespace {
         bool key(std::string &name)
         {
             if (++m_keys.back() > mostKeys)
-                throw Error(m_where, "has an object of more than " + std::to_string(mostKeys) + " keys, the limit for "
-                                                                                                "any input");
+                throw Error(m_where, "has an object of more than " + std::to_string(mostKeys)
+                                         + " keys, the limit for "
+                                           "any input");
             return Base::key(name);
         }
 
@@ -69,8 +71,9 @@ namespace {
         {
             m_keys.push_back(0);
             if (m_keys.size() > deepest)
-                throw Error(m_where, "is nested more than " + std::to_string(deepest) + " levels deep, the limit for "
-                                                                                        "any input");
+                throw Error(m_where, "is nested more than " + std::to_string(deepest)
+                                         + " levels deep, the limit for "
+                                           "any input");
         }
 
         const std::string &m_where;

@@ -15,7 +15,8 @@
 
 namespace faintline {
 
-/// As many values as `bytes` hold, for loops that are written in vectors; loaded from and stored to wherever a Value may lie.
+/// As many values as `bytes` hold, for loops that are written in vectors; loaded from and stored to wherever a Value
+/// may lie.
 template <class Value, int bytes>
 struct Vector {
     typedef Value Type __attribute__((vector_size(bytes)));
@@ -42,8 +43,8 @@ template <class Body>
 
 #endif
 
-/// body(bytes), compiled for each instruction set, with its widest vectors: the compiler takes wider ones apart value by value. The body
-/// and what it calls are always inlined.
+/// body(bytes), compiled for each instruction set, with its widest vectors: the compiler takes wider ones apart value
+/// by value. The body and what it calls are always inlined.
 template <class Body>
 inline auto withVectors(const Body &body)
 {

@@ -8,21 +8,26 @@ std::size_t characterLength(std::string_view text, std::size_t at)
 {
     const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
     const unsigned first = byte(at);
-    const std::size_t length = first < 0x80 ? 1 : first >= 0xc2 && first < 0xe0 ? 2 : (first & 0xf0) == 0xe0 ? 3 : first >= 0xf0 && first < 0xf5 ? 4 : 0;
+    const std::size_t length = first < 0x80                    ? 1
+                               : first >= 0xc2 && first < 0xe0 ? 2
+                               : (first & 0xf0) == 0xe0        ? 3
+                               : first >= 0xf0 && first < 0xf5 ? 4
+                                                               : 0;
     for (std::size_t i = 1; i < length; ++i)
         if ((byte(at + i) & 0xc0) != 0x80)
             return 0;
     // Overlong forms, surrogates, and beyond the last character.
     const unsigned second = byte(at + 1);
-    const bool isForbidden = (first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) || (first == 0xf0 && second < 0x90)
-                             || (first == 0xf4 && second >= 0x90);
+    const bool isForbidden = (first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0)
+                             || (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90);
     return isForbidden ? 0 : length;
 }
 
 namespace {
 
-    /// What a terminal takes for a command, or what makes text read in another order than it is in: C0 and C1, the marks, embeddings,
-    /// overrides and isolates of bidirectional text, and the two ends of a line or paragraph. Of two or three bytes.
+    /// What a terminal takes for a command, or what makes text read in another order than it is in: C0 and C1, the
+    /// marks, embeddings, overrides and isolates of bidirectional text, and the two ends of a line or paragraph. Of two
+    /// or three bytes.
     bool isControl(std::string_view character)
     {
         const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };

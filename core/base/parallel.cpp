@@ -92,7 +92,7 @@ namespace {
         std::condition_variable_any m_offered;
         std::condition_variable m_left;
         std::list<Job *> m_jobs;
-        std::atomic<Index> m_wanted = 0; ///< by all jobs
+        std::atomic<Index> m_wanted = 0;     ///< by all jobs
         std::vector<std::jthread> m_threads; // last: they stop before the rest goes
     };
 

@@ -11,7 +11,8 @@
 
 namespace faintline {
 
-/// A number that is whole and that the type can hold, which the library's own conversion does not look at; throws Error naming `where`.
+/// A number that is whole and that the type can hold, which the library's own conversion does not look at; throws Error
+/// naming `where`.
 template <std::integral T>
 T wholeNumber(const Json &value, const std::string &where)
 {
@@ -23,7 +24,7 @@ T wholeNumber(const Json &value, const std::string &where)
         && std::in_range<T>(static_cast<std::int64_t>(number)))
         return static_cast<T>(number);
     throw Error(where, "must be a whole number in " + std::to_string(std::numeric_limits<T>::min()) + " … "
-                    + std::to_string(std::numeric_limits<T>::max()));
+                           + std::to_string(std::numeric_limits<T>::max()));
 }
 
 /// The same of what an object holds under a key, or what is given where it holds nothing there.

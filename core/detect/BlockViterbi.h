@@ -20,9 +20,9 @@ struct BlockViterbiSettings {
 ///
 ///   u(n, t0) = λ(n, t0),   u(n, t) = λ(n, t) + max_m [ ln P(n|m) + u(m, t-1) ],   t0 < t < t0 + B
 ///
-/// The recursion of the sequential Markov detector without reset, begun afresh every B frames. The decision falls at a block's
-/// end: D = max over a cell's rates there, and -∞ in the frames between, which decide nothing. Source: Billon 2005 section 2. Oracle: enumeration of all
-/// paths of a block.
+/// The recursion of the sequential Markov detector without reset, begun afresh every B frames. The decision falls at a
+/// block's end: D = max over a cell's rates there, and -∞ in the frames between, which decide nothing. Source: Billon
+/// 2005 section 2. Oracle: enumeration of all paths of a block.
 class BlockViterbi final : public Detector
 {
 public:

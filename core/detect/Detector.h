@@ -39,7 +39,8 @@ public:
     /// Takes one frame of cellCount values; writes the statistic D of every cell, -∞ where this frame decides nothing.
     virtual void update(std::span<const float> y, std::span<float> statistic) = 0;
 
-    /// Takes several frames, one after the other in `y`: the same bytes as one at a time, faster where a detector can look ahead.
+    /// Takes several frames, one after the other in `y`: the same bytes as one at a time, faster where a detector can
+    /// look ahead.
     virtual void updateBlock(std::span<const float> y, std::span<float> statistic, Index cells);
 
     /// How many threads one update may use; changes no byte.
@@ -48,7 +49,8 @@ public:
     /// Forgets the evidence of the past in a box of cells, as if only noise had been there.
     virtual void forget(const Grid &grid, const CellBox &box) = 0;
 
-    /// Names the cells, ascending, that a tracker looks after: until the next call their states do not count in the regulation.
+    /// Names the cells, ascending, that a tracker looks after: until the next call their states do not count in the
+    /// regulation.
     virtual void inhibit(std::span<const Index> /*cells*/) {}
 
     /// All that the next frame depends on. Null: the detector cannot tell.

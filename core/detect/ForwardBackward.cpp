@@ -79,8 +79,8 @@ namespace {
     {
     public:
         Pass(const StateSpace &space, std::span<const double> lambda, const RunContext &context)
-            : m_states(static_cast<std::size_t>(space.stateCount())), m_cells(static_cast<std::size_t>(space.cellCount())),
-              m_frames(lambda.size() / m_cells), m_lambda(lambda)
+            : m_states(static_cast<std::size_t>(space.stateCount())),
+              m_cells(static_cast<std::size_t>(space.cellCount())), m_frames(lambda.size() / m_cells), m_lambda(lambda)
         {
             for (Index phase = 0; phase < std::min(space.phaseCount(), static_cast<Index>(m_frames)); ++phase) {
                 context.checkpoint(0.0, "moves");
@@ -96,8 +96,11 @@ namespace {
                 const std::span<double> now = frame(t);
                 if (t > 0) {
                     const std::span<const double> past = frame(t - 1);
-                    gather(movesInto(t), now, [](const auto &move) { return move.to; },
-                           [past](const auto &move) { return past[static_cast<std::size_t>(move.from)] + move.lnProbability; });
+                    gather(
+                        movesInto(t), now, [](const auto &move) { return move.to; },
+                        [past](const auto &move) {
+                            return past[static_cast<std::size_t>(move.from)] + move.lnProbability;
+                        });
                 } else {
                     for (std::size_t n = 0; n < m_states; ++n)
                         now[n] = initial.empty() ? -std::log(static_cast<double>(m_states)) : std::log(initial[n]);
@@ -119,8 +122,9 @@ namespace {
             for (std::size_t t = m_frames - 1; t > 0; --t) {
                 context.checkpoint(1.0 - static_cast<double>(t) / static_cast<double>(m_frames), "backward");
                 addEvidence(beta, lambda(t));
-                gather(movesInto(t), before, [](const auto &move) { return move.from; },
-                       [&beta](const auto &move) { return beta[static_cast<std::size_t>(move.to)] + move.lnProbability; });
+                gather(
+                    movesInto(t), before, [](const auto &move) { return move.from; },
+                    [&beta](const auto &move) { return beta[static_cast<std::size_t>(move.to)] + move.lnProbability; });
                 std::swap(beta, before);
                 const std::span<double> now = frame(t - 1);
                 for (std::size_t n = 0; n < m_states; ++n)
@@ -146,7 +150,8 @@ namespace {
 
 } // namespace
 
-Posterior forwardBackward(const StateSpace &space, std::span<const double> initial, std::span<const double> lambda, const RunContext &context)
+Posterior forwardBackward(const StateSpace &space, std::span<const double> initial, std::span<const double> lambda,
+                          const RunContext &context)
 {
     Posterior posterior;
     Pass pass(space, lambda, context);

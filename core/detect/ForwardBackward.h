@@ -19,12 +19,13 @@ struct Posterior {
 ///   α_1(n) = P_1(n) e^{λ_1(n)},   α_t(n) = e^{λ_t(n)} Σ_m P(n|m) α_{t-1}(m),   β_T = 1,   β_{t-1}(m) = Σ_n P(n|m) e^{λ_t(n)} β_t(n)
 ///   γ_t(n) = α_t(n) β_t(n) / Σ,   lnEvidence = ln Σ_n α_T(n)
 ///
-/// `initial`: P_1 of every state, empty for 1/states; `lambda`: λ of frames × cells, finite or -∞; the step into frame t is step number t. The law
-/// is taken as it stands: probability that leaves the axes is lost. In logarithms throughout: evidence of any size neither overflows nor makes a
-/// path disappear that later frames prefer. `presenceIn` (track) is the same along a corridor, with a state "off".
-/// Source: Baum and others 1970; Rabiner 1989. Oracle: enumeration of all paths.
-/// Cost: two exponentials for each of states × moves a frame. Memory: that of the answer and of the moves of each phase. Throws Error where no path has a probability
-/// above 0, and where there would be more than 2²⁷ moves; Cancelled.
+/// `initial`: P_1 of every state, empty for 1/states; `lambda`: λ of frames × cells, finite or -∞; the step into frame
+/// t is step number t. The law is taken as it stands: probability that leaves the axes is lost. In logarithms
+/// throughout: evidence of any size neither overflows nor makes a path disappear that later frames prefer. `presenceIn`
+/// (track) is the same along a corridor, with a state "off". Source: Baum and others 1970; Rabiner 1989. Oracle:
+/// enumeration of all paths. Cost: two exponentials for each of states × moves a frame. Memory: that of the answer and
+/// of the moves of each phase. Throws Error where no path has a probability above 0, and where there would be more than
+/// 2²⁷ moves; Cancelled.
 Posterior forwardBackward(const StateSpace &space, std::span<const double> initial, std::span<const double> lambda,
                           const RunContext &context = {});
 

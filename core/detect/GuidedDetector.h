@@ -6,8 +6,8 @@
 
 namespace faintline {
 
-/// A detector without paths beside a sequential Markov detector that has them: the first one decides, the second one tells which path
-/// led there, so that tracks can be started from any detector's events.
+/// A detector without paths beside a sequential Markov detector that has them: the first one decides, the second one
+/// tells which path led there, so that tracks can be started from any detector's events.
 ///
 /// The statistic is the first detector's; scores and regulation are the second one's.
 class GuidedDetector final : public PathDetector

@@ -15,7 +15,8 @@ struct IntegratorSettings {
     static constexpr std::array<std::string_view, 2> shapeNames{"boxcar", "exponential"};
 
     Shape shape = Shape::Boxcar;
-    double durationWindows = 100.0; ///< length, or time constant, in windows of the spectrogram (frames on ready-made frames)
+    double durationWindows =
+        100.0; ///< length, or time constant, in windows of the spectrogram (frames on ready-made frames)
 
     static const std::vector<Field<IntegratorSettings>> &fields();
     bool operator==(const IntegratorSettings &) const = default;
@@ -26,8 +27,9 @@ struct IntegratorSettings {
 ///   boxcar        D(t, f) = (1/n) Σ y(t', f), t-n < t' ≤ t
 ///   exponential   D(t, f) = (1-a)·y(t, f) + a·D(t-1, f),   a = e^{-1/n}
 ///
-/// with n frames; frames before the first count as 0, as does the exponential's D before it. A single frame (n = 1, boxcar) is
-/// the energy detector. Source: Billon 2005 section 5. Oracle: direct sums; Marcum's Q. Sums are kept in double precision.
+/// with n frames; frames before the first count as 0, as does the exponential's D before it. A single frame (n = 1,
+/// boxcar) is the energy detector. Source: Billon 2005 section 5. Oracle: direct sums; Marcum's Q. Sums are kept in
+/// double precision.
 class Integrator final : public Detector
 {
 public:
@@ -37,7 +39,10 @@ public:
     /// The past of the cells becomes that of noise: D = 1.
     void forget(const Grid &grid, const CellBox &box) override;
     /// None where nothing of the past counts: with a single frame.
-    std::shared_ptr<const DetectorState> state() const override { return m_past.size() == 1 ? nullptr : copiedState(*this); }
+    std::shared_ptr<const DetectorState> state() const override
+    {
+        return m_past.size() == 1 ? nullptr : copiedState(*this);
+    }
     void setState(const DetectorState &state) override { setCopiedState(*this, state); }
     std::size_t bytes() const; ///< that it takes
 

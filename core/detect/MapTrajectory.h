@@ -22,9 +22,10 @@ struct MapTrajectory {
 ///
 ///   F_1(n) = ln P_1(n) + λ_1(n),   F_k(n) = λ_k(n) + max_m [ F_{k-1}(m) + ln P(n|m) ],   x_K = argmax F_K, x_{k-1} = argmax_m of step k
 ///
-/// No back-pointers: the argmax is taken again along the one trajectory that is wanted. Where the scores of all stages exceed 32 MiB,
-/// only those of every √K-th stage are kept and the stages between are run a second time. Ties: the lowest state, rates before
-/// cells. Source: Grossi and Lops 2006, Algorithm 3.2. Oracle: enumeration of all trajectories. One object per thread.
+/// No back-pointers: the argmax is taken again along the one trajectory that is wanted. Where the scores of all stages
+/// exceed 32 MiB, only those of every √K-th stage are kept and the stages between are run a second time. Ties: the
+/// lowest state, rates before cells. Source: Grossi and Lops 2006, Algorithm 3.2. Oracle: enumeration of all
+/// trajectories. One object per thread.
 class MapEstimator
 {
 public:

@@ -10,11 +10,11 @@ namespace faintline {
 ///
 ///   D(t, cell) = max_i [ D_i(t, cell) - o_i ],   o_i = T_i - T
 ///
-/// T_i is the threshold at which model i alone has the wanted false-alarm probability, T the one the bank shows: a crossing of
-/// T by the bank is a crossing of T_i by model i, whichever is the easier. With m models the bank's false-alarm
-/// probability lies between one model's and m times it. Decision: D > T. Ties go to the first model.
-/// Source: Parsons 2008, section 5 ("the use of multiple target manoeuvre models in parallel"). Oracle: its members run alone.
-/// Cost and memory: the sum of the members'.
+/// T_i is the threshold at which model i alone has the wanted false-alarm probability, T the one the bank shows: a
+/// crossing of T by the bank is a crossing of T_i by model i, whichever is the easier. With m models the bank's
+/// false-alarm probability lies between one model's and m times it. Decision: D > T. Ties go to the first model.
+/// Source: Parsons 2008, section 5 ("the use of multiple target manoeuvre models in parallel"). Oracle: its members run
+/// alone. Cost and memory: the sum of the members'.
 class ModelBank final : public PathDetector
 {
 public:

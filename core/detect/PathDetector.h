@@ -7,8 +7,8 @@
 
 namespace faintline {
 
-/// A detector that scores the states of a model by the paths into them: the best one, which can be traced (tracePath) and followed on, or
-/// the sum over all of them. Or several models in parallel, each with states of its own.
+/// A detector that scores the states of a model by the paths into them: the best one, which can be traced (tracePath)
+/// and followed on, or the sum over all of them. Or several models in parallel, each with states of its own.
 class PathDetector : public Detector
 {
 public:
@@ -25,7 +25,8 @@ public:
     struct Regulation {
         double lnK = 0.0;               ///< what the law gave for the last frame
         double continuedFraction = 0.0; ///< of the states, those whose path went on rather than being reset
-        double stepLnK = 0.0;           ///< what was added on the way into the last frame (under Mean, the ln K of the frame before)
+        double stepLnK =
+            0.0; ///< what was added on the way into the last frame (under Mean, the ln K of the frame before)
     };
     virtual Regulation regulation(std::size_t model = 0) const = 0;
 

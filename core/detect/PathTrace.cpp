@@ -195,9 +195,11 @@ namespace {
         }
     }
 
-    /// Goes from frame `first` to `last`, from the scores of all states after `first` or, where there are none, with paths that start then.
-    CorridorScores runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record, const Corridor &corridor,
-                               Index first, std::span<const float> firstScores, Index last, Storage &storage)
+    /// Goes from frame `first` to `last`, from the scores of all states after `first` or, where there are none, with
+    /// paths that start then.
+    CorridorScores runCorridor(const MarkovModel &model, const Grid &grid, const RecursionRecord &record,
+                               const Corridor &corridor, Index first, std::span<const float> firstScores, Index last,
+                               Storage &storage)
     {
         const Index cells = corridor.space.cellCount();
         Recursion<MaxPlus<float>> recursion(corridor.space, model.transitionScale);
@@ -256,18 +258,21 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
     bool isReset = false;
     for (Index length = shortestCorridor; !isReset;) {
         const Index known = frame - record.firstFrame + 1;
-        const RecursionRecord::Checkpoint checkpoint = record.checkpoint ? record.checkpoint(frame) : RecursionRecord::Checkpoint{};
+        const RecursionRecord::Checkpoint checkpoint =
+            record.checkpoint ? record.checkpoint(frame) : RecursionRecord::Checkpoint{};
         const bool isFromCheckpoint = checkpoint.frame >= std::max(record.firstFrame, frame - 2 * length);
         const Index used = isFromCheckpoint ? frame - checkpoint.frame + 1 : std::min(length, known);
         const Index first = frame - used + 1;
         const Corridor corridor(model, grid, state, used - 1);
-        const CorridorScores history = runCorridor(model, grid, record, corridor, first,
-                                                   isFromCheckpoint ? checkpoint.scores : std::span<const float>{}, frame, storage);
+        const CorridorScores history =
+            runCorridor(model, grid, record, corridor, first,
+                        isFromCheckpoint ? checkpoint.scores : std::span<const float>{}, frame, storage);
 
         Index local = corridor.toLocal(model.space, state);
         // Paths that start outside of the corridor are missing in it: what it finds is at most the detector's score.
         if (!isFromCheckpoint && used < known
-            && static_cast<double>(history.at(frame)[static_cast<std::size_t>(local)]) < detectorScore - scoreTolerance) {
+            && static_cast<double>(history.at(frame)[static_cast<std::size_t>(local)])
+                   < detectorScore - scoreTolerance) {
             length *= 2;
             continue;
         }
@@ -278,7 +283,8 @@ std::vector<PathStep> tracePath(const MarkovModel &model, const Grid &grid, cons
             step.frame = frame;
             step.state = corridor.toGlobal(model.space, local);
             const Index cell = model.space.cellOf(step.state);
-            step.logLikelihoodRatio = model.likelihood.at(static_cast<double>(record.frame(frame)[static_cast<std::size_t>(cell)]));
+            step.logLikelihoodRatio =
+                model.likelihood.at(static_cast<double>(record.frame(frame)[static_cast<std::size_t>(cell)]));
             const Index before = frame == first ? -1
                                                 : origin(model, corridor, history.at(frame - 1), frame, local,
                                                          record.lnK(frame), step.lnTransition);

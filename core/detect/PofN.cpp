@@ -23,10 +23,12 @@ namespace {
 
     constexpr Index mostLanes = 16;
 
-    /// The mean and the smallest of each cell's P largest, from the window's rows, oldest first; `n` a multiple of the lanes. Only the
-    /// shorter end of the order is sorted out: the P largest, or the N-P+1 smallest, whose last one is the P-th largest too.
+    /// The mean and the smallest of each cell's P largest, from the window's rows, oldest first; `n` a multiple of the
+    /// lanes. Only the shorter end of the order is sorted out: the P largest, or the N-P+1 smallest, whose last one is
+    /// the P-th largest too.
     template <int bytes>
-    [[gnu::always_inline]] inline void largestBy(std::span<const float *const> rows, int p, Index n, float *means, float *smallest)
+    [[gnu::always_inline]] inline void largestBy(std::span<const float *const> rows, int p, Index n, float *means,
+                                                 float *smallest)
     {
         using Lanes = typename Vector<float, bytes>::Type;
         constexpr Index laneCount = Vector<float, bytes>::lanes;
@@ -83,8 +85,9 @@ const std::vector<Field<PofNSettings>> &PofNSettings::fields()
     static const std::vector<Field<S>> table{
         field(&S::p, "p", "frames", 1.0, maximumFrames, "Number of frames that must have an event."),
         field(&S::n, "n", "frames", 1.0, maximumFrames, "Number of frames in the window."),
-        field(&S::r1, "r1", "", 0.0, 1e6, "A frame has an event if the largest y in the band exceeds this value; noise "
-                                          "has mean 1."),
+        field(&S::r1, "r1", "", 0.0, 1e6,
+              "A frame has an event if the largest y in the band exceeds this value; noise "
+              "has mean 1."),
         field(&S::r2, "r2", "", 0.0, 1e6, "Second threshold, on the mean of the P largest; 0: none."),
         field(&S::widthCells, "widthCells", "cells", 0.0, 1000.0, "Bandwidth of the window in resolution cells."),
     };
@@ -92,11 +95,13 @@ const std::vector<Field<PofNSettings>> &PofNSettings::fields()
 }
 
 PofN::PofN(const Grid &grid, const PofNSettings &settings, double binsPerCell)
-    : m_rowLength(grid.axes.back().count), m_width(std::max<Index>(1, static_cast<Index>(std::lround(settings.widthCells * binsPerCell)))),
+    : m_rowLength(grid.axes.back().count),
+      m_width(std::max<Index>(1, static_cast<Index>(std::lround(settings.widthCells * binsPerCell)))),
       m_settings(settings)
 {
     if (settings.p > settings.n)
-        throw fieldError("pOfN.p", std::to_string(settings.p), "must not exceed pOfN.n = " + std::to_string(settings.n));
+        throw fieldError("pOfN.p", std::to_string(settings.p),
+                         "must not exceed pOfN.n = " + std::to_string(settings.n));
     m_means.resize(static_cast<std::size_t>((grid.size() + mostLanes - 1) / mostLanes * mostLanes));
     m_smallest.resize(m_means.size());
     m_maxima.assign(static_cast<std::size_t>(settings.n), std::vector<float>(m_means.size(), 0.0f));
@@ -107,19 +112,22 @@ void PofN::update(std::span<const float> y, std::span<float> statistic)
     const auto cells = static_cast<Index>(y.size());
     std::vector<float> &newest = m_maxima[m_next];
     m_next = (m_next + 1) % m_maxima.size();
-    std::transform(y.begin(), y.end(), newest.begin(), [](float value) { return value == value ? value : 0.0f; }); // not observed: no event
+    std::transform(y.begin(), y.end(), newest.begin(),
+                   [](float value) { return value == value ? value : 0.0f; }); // not observed: no event
     for (Index shift = -(m_width - 1) / 2; shift <= m_width / 2; ++shift) {
         const Index overlap = m_rowLength - std::abs(shift);
         if (shift != 0 && overlap > 0)
             for (Index row = 0; row < cells; row += m_rowLength)
-                raise(newest.data() + row + std::max<Index>(0, -shift), y.data() + row + std::max<Index>(0, shift), overlap);
+                raise(newest.data() + row + std::max<Index>(0, -shift), y.data() + row + std::max<Index>(0, shift),
+                      overlap);
     }
 
     std::vector<const float *> rows; // from the oldest, so that rounding does not depend on where they stand in memory
     for (std::size_t i = 0; i < m_maxima.size(); ++i)
         rows.push_back(m_maxima[(m_next + i) % m_maxima.size()].data());
     largest(rows, m_settings.p, std::ssize(m_means), m_means.data(), m_smallest.data());
-    decide(m_means.data(), m_smallest.data(), static_cast<float>(m_settings.r1), static_cast<float>(m_settings.r2), cells, statistic.data());
+    decide(m_means.data(), m_smallest.data(), static_cast<float>(m_settings.r1), static_cast<float>(m_settings.r2),
+           cells, statistic.data());
 }
 
 void PofN::forget(const Grid &grid, const CellBox &box)

@@ -24,8 +24,8 @@ struct PofNSettings {
 ///   m(t, f) = max{ y(t, g) : f - ⌊(w-1)/2⌋ ≤ g ≤ f + ⌊w/2⌋ },   w the window's bandwidth in cells
 ///   D(t, f) = mean of the P largest m(t', f), t-N < t' ≤ t, if the P-th largest exceeds r1 and the mean exceeds r2; else 0
 ///
-/// Cells off the axis and frames before the first count as empty. On a grid of several axes the band lies along the last.
-/// Source: Billon 2005 sections 1 and 5. Oracle: sorting every window. Cost: N·min(P, N-P+1) operations a cell.
+/// Cells off the axis and frames before the first count as empty. On a grid of several axes the band lies along the
+/// last. Source: Billon 2005 sections 1 and 5. Oracle: sorting every window. Cost: N·min(P, N-P+1) operations a cell.
 class PofN final : public Detector
 {
 public:
@@ -42,7 +42,8 @@ private:
     Index m_rowLength; ///< cells along the last axis
     Index m_width;
     PofNSettings m_settings;
-    std::vector<std::vector<float>> m_maxima; ///< of the last N frames, padded; the oldest one, m_next, is overwritten next
+    std::vector<std::vector<float>>
+        m_maxima; ///< of the last N frames, padded; the oldest one, m_next, is overwritten next
     std::size_t m_next = 0;
     std::vector<float> m_means;    ///< of the P largest, padded to whole vectors
     std::vector<float> m_smallest; ///< of them

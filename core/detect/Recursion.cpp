@@ -14,11 +14,12 @@ namespace {
 
     constexpr Index tileCells = 1024;     ///< of each plane of a tile
     constexpr Index longTileCells = 2048; ///< the same where a single axis needs no second step
-    constexpr Index fewestCells = 256;    ///< the same where planes are so many that the next tile's would not fit into the cache beside them
-    constexpr Index tileBytes = 1 << 19;  ///< of all planes of a tile, read and written
+    constexpr Index fewestCells =
+        256; ///< the same where planes are so many that the next tile's would not fit into the cache beside them
+    constexpr Index tileBytes = 1 << 19; ///< of all planes of a tile, read and written
     constexpr Index vectorCells = 32;
-    constexpr Index manyFrames = 16;      ///< gone through at a time: then the memory has become as good as free
-    constexpr std::size_t fewest = 4;     ///< rates whose maximum is worth sharing
+    constexpr Index manyFrames = 16;        ///< gone through at a time: then the memory has become as good as free
+    constexpr std::size_t fewest = 4;       ///< rates whose maximum is worth sharing
     constexpr Index worthAThread = 1 << 19; ///< states × frames
 
     template <class Semiring>
@@ -31,7 +32,8 @@ namespace {
     }
 
     template <class Semiring>
-    void joinSources(typename Semiring::Real *to, Index n, std::span<const ShiftedPlane<typename Semiring::Real>> sources)
+    void joinSources(typename Semiring::Real *to, Index n,
+                     std::span<const ShiftedPlane<typename Semiring::Real>> sources)
     {
         if constexpr (Semiring::logarithmic)
             joinMax(to, n, sources);
@@ -48,7 +50,8 @@ namespace {
             multiplyEach(to, departures, n);
     }
 
-    /// Asks for memory that the next tile will read or write: planes are many, and pieces of them too short for the processor to foresee.
+    /// Asks for memory that the next tile will read or write: planes are many, and pieces of them too short for the
+    /// processor to foresee.
     template <bool toWrite>
     void fetch(const void *begin, Index bytes)
     {
@@ -75,13 +78,13 @@ namespace {
 
 template <class Semiring>
 struct Recursion<Semiring>::Scratch {
-    std::vector<Real> slides;                  ///< each maximum's rows of a tile
-    std::vector<Real> tile;                    ///< a group's planes of a tile, after an axis's step
+    std::vector<Real> slides; ///< each maximum's rows of a tile
+    std::vector<Real> tile;   ///< a group's planes of a tile, after an axis's step
     std::vector<Real> otherTile;
     std::vector<Real> copies;
-    std::vector<const Real *> planes;          ///< what the next axis starts from
+    std::vector<const Real *> planes; ///< what the next axis starts from
     std::vector<Source> sources;
-    std::vector<std::size_t> firstSource;      ///< of each target, and one beyond the last
+    std::vector<std::size_t> firstSource; ///< of each target, and one beyond the last
     std::vector<TargetPlane> targets;
     std::vector<float> lambda;
 
@@ -130,7 +133,7 @@ void Recursion<Semiring>::addPhase(const StateSpace &space, Index number, double
 {
     Phase phase;
     Index inner = space.cellCount();
-    Index before = 1; // rate combinations within a group: of the later axes before this one …
+    Index before = 1;          // rate combinations within a group: of the later axes before this one …
     Index after = m_groupSize; // … and after it
     for (std::size_t axis = 0; axis < space.axes().size(); ++axis) {
         const KinematicAxis &a = space.axes()[axis];
@@ -170,7 +173,8 @@ typename Recursion<Semiring>::AxisStep Recursion<Semiring>::laterAxis(const Kine
                                                                       Index inner, Index before, Index after,
                                                                       double transitionScale) const
 {
-    AxisStep step{axis.cells, inner, axis.cyclic, std::vector<std::vector<Shift>>(static_cast<std::size_t>(m_groupSize))};
+    AxisStep step{axis.cells, inner, axis.cyclic,
+                  std::vector<std::vector<Shift>>(static_cast<std::size_t>(m_groupSize))};
     const std::vector<KinematicAxis::Move> moves = axis.moves(number);
     for (Index b = 0; b < before; ++b)
         for (const KinematicAxis::Move &move : moves)
@@ -178,7 +182,9 @@ typename Recursion<Semiring>::AxisStep Recursion<Semiring>::laterAxis(const Kine
                 const auto plane = [&](Index rate) { return (b * axis.rateCount + rate) * after + c; };
                 Shift shift{plane(move.fromRate), move.cells, weightOf<Semiring>(move.lnProbability * transitionScale)};
                 if (move.cells != 0) {
-                    const auto same = [&](const Shift &copy) { return copy.from == shift.from && copy.cells == shift.cells; };
+                    const auto same = [&](const Shift &copy) {
+                        return copy.from == shift.from && copy.cells == shift.cells;
+                    };
                     const auto found = std::find_if(step.copies.begin(), step.copies.end(), same);
                     const Index copyNumber = m_groupSize + (found - step.copies.begin());
                     if (found == step.copies.end())
@@ -190,8 +196,8 @@ typename Recursion<Semiring>::AxisStep Recursion<Semiring>::laterAxis(const Kine
     return step;
 }
 
-/// Replaces runs of sources of equal weight, each two rates and a cell on from the one before, by maxima over two and four of them.
-/// They may overlap: a maximum minds no repetition.
+/// Replaces runs of sources of equal weight, each two rates and a cell on from the one before, by maxima over two and
+/// four of them. They may overlap: a maximum minds no repetition.
 template <class Semiring>
 void Recursion<Semiring>::prepareSlides()
 {
@@ -200,8 +206,9 @@ void Recursion<Semiring>::prepareSlides()
     std::vector<Slide> wanted(static_cast<std::size_t>(2 * rates), {-1, 0, 0, 0, 0, 0});
     const auto want = [&](Index number, Index of, Index other, Index back, Index shift) {
         Slide &slide = wanted[static_cast<std::size_t>(number - rates)];
-        slide = slide.number < 0 ? Slide{number, of, other, back, shift, shift}
-                                 : Slide{number, of, other, back, std::min(slide.smallest, shift), std::max(slide.largest, shift)};
+        slide = slide.number < 0
+                    ? Slide{number, of, other, back, shift, shift}
+                    : Slide{number, of, other, back, std::min(slide.smallest, shift), std::max(slide.largest, shift)};
     };
     const auto ofTwo = [&](Index rate, Index shift) {
         want(rates + rate, rate, rate + 2, 1, shift);
@@ -215,7 +222,8 @@ void Recursion<Semiring>::prepareSlides()
     };
     std::vector<std::vector<Shift>> replaced = first.shifts;
     for (std::vector<Shift> &shifts : replaced) {
-        const bool isUniform = std::all_of(shifts.begin(), shifts.end(), [&](const Shift &s) { return s.weight == shifts.front().weight; });
+        const bool isUniform = std::all_of(shifts.begin(), shifts.end(),
+                                           [&](const Shift &s) { return s.weight == shifts.front().weight; });
         if (shifts.size() < fewest || !isUniform)
             continue;
         const std::vector<Shift> all = std::exchange(shifts, {});
@@ -256,7 +264,8 @@ void Recursion<Semiring>::prepareSlides()
         for (const Shift &shift : replaced[rate])
             make(make, shift.from);
     }
-    if (std::none_of(m_slides.begin(), m_slides.end(), [](const std::vector<Slide> &slides) { return !slides.empty(); }))
+    if (std::none_of(m_slides.begin(), m_slides.end(),
+                     [](const std::vector<Slide> &slides) { return !slides.empty(); }))
         return;
     for (std::size_t rate = 0; rate < replaced.size(); ++rate)
         for (const Shift &shift : first.shifts[rate])
@@ -269,7 +278,8 @@ void Recursion<Semiring>::prepareSlides()
 template <class Semiring>
 void Recursion<Semiring>::prepareTiles()
 {
-    const Index fitting = std::clamp(tileBytes / (2 * m_planeCount * static_cast<Index>(sizeof(Real))), fewestCells, tileCells);
+    const Index fitting =
+        std::clamp(tileBytes / (2 * m_planeCount * static_cast<Index>(sizeof(Real))), fewestCells, tileCells);
     const bool isSingle = m_planeCount == m_groups && m_isSingle;
     // Shared maxima need more rows than the tile has: those of a short one would cost too much.
     const Index cells = isSingle ? longTileCells : m_slideRing > 0 ? tileCells : fitting;
@@ -307,8 +317,7 @@ void Recursion<Semiring>::prepareTiles()
 }
 
 template <class Semiring>
-void Recursion<Semiring>::prepareSlantedTiles()
-    requires std::same_as<Semiring, MaxPlus<float>>
+void Recursion<Semiring>::prepareSlantedTiles() requires std::same_as<Semiring, MaxPlus<float>>
 {
     if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
         if (m_isCyclic || m_slideRing > 0 || !m_departures.empty() || !m_rateDepartures.empty() || !m_matrices.empty())
@@ -406,8 +415,9 @@ void Recursion<Semiring>::apply(const MatrixStep &step, std::span<const Real> fr
     for (Index first = 0; first < std::ssize(from); first += block)
         for (Index row = 0; row < step.cells; ++row) {
             for (Index source = 0; source < step.cells; ++source)
-                sources[static_cast<std::size_t>(source)] = {from.data() + first + source * step.inner,
-                                                             step.weights[static_cast<std::size_t>(source * step.cells + row)]};
+                sources[static_cast<std::size_t>(source)] = {
+                    from.data() + first + source * step.inner,
+                    step.weights[static_cast<std::size_t>(source * step.cells + row)]};
             joinSources<Semiring>(to.data() + first + row * step.inner, step.inner, sources);
         }
 }
@@ -420,7 +430,8 @@ void Recursion<Semiring>::apply(const RateDepartures &d, Index step, std::span<R
     const auto forRuns = [&](Index rate, Index cell, auto &&visit) { // of every plane of a rate, the values of a cell
         for (Index plane = rate * d.after; plane < m_planeCount; plane += d.rates * d.after)
             for (Index each = plane; each < plane + d.after; ++each)
-                for (Index first = each * m_planeSize + cell * d.inner; first < (each + 1) * m_planeSize; first += block)
+                for (Index first = each * m_planeSize + cell * d.inner; first < (each + 1) * m_planeSize;
+                     first += block)
                     visit(scores.data() + first);
     };
     for (const auto &turn : phase.turns)
@@ -491,7 +502,8 @@ void Recursion<Semiring>::predict(std::span<const Real> scores, Index step, cons
         });
 }
 
-/// Rows beyond the ends of the first axis, and those near to them: rows -reach … edge+reach and the same at the other end, or all.
+/// Rows beyond the ends of the first axis, and those near to them: rows -reach … edge+reach and the same at the other
+/// end, or all.
 template <class Semiring>
 void Recursion<Semiring>::fillMargins(std::span<const Real> scores)
 {
@@ -529,7 +541,8 @@ void Recursion<Semiring>::fillMargins(std::span<const Real> scores)
 
 /// Where a plane's rows from firstRow on lie, with `reach` more on either side of the tile.
 template <class Semiring>
-const typename Semiring::Real *Recursion<Semiring>::rowsOf(std::span<const Real> scores, Index plane, Index firstRow) const
+const typename Semiring::Real *Recursion<Semiring>::rowsOf(std::span<const Real> scores, Index plane,
+                                                           Index firstRow) const
 {
     const Index cells = m_rows;
     const bool isLow = firstRow < m_edgeRows;
@@ -542,7 +555,8 @@ const typename Semiring::Real *Recursion<Semiring>::rowsOf(std::span<const Real>
     return m_margins.data() + (plane * (isWhole ? rows : 2 * rows) + block + firstRow - begin) * m_inner;
 }
 
-/// Where a maximum is kept: those of the same rates as many targets on as a law reaches take the place of those of before.
+/// Where a maximum is kept: those of the same rates as many targets on as a law reaches take the place of those of
+/// before.
 template <class Semiring>
 Index Recursion<Semiring>::slotOf(Index number, Index group) const
 {
@@ -552,7 +566,8 @@ Index Recursion<Semiring>::slotOf(Index number, Index group) const
 
 /// Makes one maximum for the rows of a tile.
 template <class Semiring>
-void Recursion<Semiring>::slide(std::span<const Real> scores, const Slide &slide, Index group, TileRows rows, Scratch &own) const
+void Recursion<Semiring>::slide(std::span<const Real> scores, const Slide &slide, Index group, TileRows rows,
+                                Scratch &own) const
 {
     if constexpr (Semiring::logarithmic) {
         const Index inner = m_inner;
@@ -584,12 +599,14 @@ void Recursion<Semiring>::listFirst(const AxisStep &first, std::span<const Real>
             const Real *maxima = own.slides.data() + slotOf(shift.from, group) * m_slotSize;
             own.sources.push_back({maxima + (m_largest[number] - shift.cells) * inner, shift.weight});
         } else if (m_isCyclic || (rows.first - shift.cells < m_rows && rows.first + rows.count - shift.cells > 0)) {
-            own.sources.push_back({rowsOf(scores, shift.from * m_groupSize + group, rows.first) - shift.cells * inner, shift.weight});
+            own.sources.push_back(
+                {rowsOf(scores, shift.from * m_groupSize + group, rows.first) - shift.cells * inner, shift.weight});
         }
     }
 }
 
-/// Shifted copies of the planes a later axis starts from; what would come from beyond the axis's ends is neutral, or wrapped round.
+/// Shifted copies of the planes a later axis starts from; what would come from beyond the axis's ends is neutral, or
+/// wrapped round.
 template <class Semiring>
 void Recursion<Semiring>::makeCopies(const AxisStep &step, Index size, Scratch &own) const
 {
@@ -619,7 +636,8 @@ void Recursion<Semiring>::makeCopies(const AxisStep &step, Index size, Scratch &
     }
 }
 
-/// All axes' steps for the rows of a tile. `finish(plane)` is called with the first of the target planes whose sources have been listed.
+/// All axes' steps for the rows of a tile. `finish(plane)` is called with the first of the target planes whose sources
+/// have been listed.
 template <class Semiring>
 template <class Finish>
 void Recursion<Semiring>::goThroughTile(const Phase &phase, std::span<const Real> scores, TileRows rows, Scratch &own,
@@ -684,8 +702,8 @@ Index Recursion<Semiring>::framesAtOnce() const
 
 template <class Semiring>
 Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<float> next, const Frames &frames,
-                                       const Likelihood &likelihood, const FrameJoin &join)
-    requires std::same_as<Semiring, MaxPlus<float>>
+                                       const Likelihood &likelihood,
+                                       const FrameJoin &join) requires std::same_as<Semiring, MaxPlus<float>>
 {
     if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
         RunContext context;
@@ -702,8 +720,8 @@ Continued Recursion<Semiring>::advance(std::span<const float> scores, std::span<
 
 template <class Semiring>
 Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::span<float> next, const Frames &frames,
-                                          const Likelihood &likelihood, const FrameJoin &join, const RunContext &context)
-    requires std::same_as<Semiring, MaxPlus<float>>
+                                          const Likelihood &likelihood, const FrameJoin &join,
+                                          const RunContext &context) requires std::same_as<Semiring, MaxPlus<float>>
 {
     if constexpr (std::same_as<Semiring, MaxPlus<float>>) { // clang 14 makes it for the others as well
         scores = prepare(scores, frames.firstStep);
@@ -727,7 +745,8 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
                 }
                 FrameJoin joined = join;
                 joined.isFresh = firstPlane == 0;
-                const Continued part = finishMax(own.targets, n, 0, firstCell, own.lambda.data(), joined, frames.statistic.data() + firstCell);
+                const Continued part = finishMax(own.targets, n, 0, firstCell, own.lambda.data(), joined,
+                                                 frames.statistic.data() + firstCell);
                 continued.count += part.count;
                 continued.sum += part.sum;
             });
@@ -737,7 +756,8 @@ Continued Recursion<Semiring>::advanceOne(std::span<const float> scores, std::sp
         scratch(static_cast<std::size_t>(context.threads) - 1);
         parallelFor(context.threads, context, "recursion", [&] {
             return [&](Index thread) {
-                for (Index number = thread * count / context.threads; number < (thread + 1) * count / context.threads; ++number)
+                for (Index number = thread * count / context.threads; number < (thread + 1) * count / context.threads;
+                     ++number)
                     doTile(number, *m_scratch[static_cast<std::size_t>(thread)]);
             };
         });

@@ -80,7 +80,9 @@ Continued SlantedTiles::advance(std::span<const float> scores, std::span<float> 
     }
     m_scratch.resize(std::max(m_scratch.size(), stretches.size()));
     parallelFor(std::ssize(stretches), context, "recursion", [&] {
-        return [&](Index i) { goThrough(work, stretches[static_cast<std::size_t>(i)], m_scratch[static_cast<std::size_t>(i)]); };
+        return [&](Index i) {
+            goThrough(work, stretches[static_cast<std::size_t>(i)], m_scratch[static_cast<std::size_t>(i)]);
+        };
     });
     Continued all;
     for (const Stretch &stretch : stretches)
@@ -99,7 +101,8 @@ SlantedTiles::TargetList SlantedTiles::listTargets(const Targets &targets, const
     std::size_t begin = 0;
     for (Index rate = 0; rate < m_rates; ++rate) {
         const std::size_t count = targets[static_cast<std::size_t>(rate)].size();
-        list.targets.push_back({std::span<const ShiftedPlane<float>>(list.sources).subspan(begin, count), to + rate * toStride});
+        list.targets.push_back(
+            {std::span<const ShiftedPlane<float>>(list.sources).subspan(begin, count), to + rate * toStride});
         begin += count;
     }
     return list;
@@ -121,7 +124,8 @@ void SlantedTiles::readScores(const Work &work, Index begin, float *window) cons
 }
 
 /// What the next frame reads and writes; of what the next tile begins with and this one ends with, this frame's share.
-void SlantedTiles::listAhead(const Work &work, Index frame, Index first, Index n, std::vector<const float *> &rows) const
+void SlantedTiles::listAhead(const Work &work, Index frame, Index first, Index n,
+                             std::vector<const float *> &rows) const
 {
     rows.clear();
     const auto add = [&](std::span<const float> all, Index row, Index cell) {
@@ -148,7 +152,9 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
     own.unused.resize(static_cast<std::size_t>(m_tileCells));
     const auto address = static_cast<Index>(reinterpret_cast<std::uintptr_t>(own.windows.data()) / sizeof(float));
     float *const windows = own.windows.data() + (lineFloats - address % lineFloats) % lineFloats + m_margin;
-    const auto windowOf = [&](Index frame) { return windows + (frame + 1) % 2 * m_rates * m_stride; }; // the scores are of frame -1
+    const auto windowOf = [&](Index frame) {
+        return windows + (frame + 1) % 2 * m_rates * m_stride;
+    }; // the scores are of frame -1
 
     std::vector<TargetList> lists;
     for (Index frame = 0; frame < work.frames; ++frame) {
@@ -164,8 +170,9 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
         FrameJoin join = work.join;
         join.isFresh = true;
         join.counting = isLast ? join.counting : Counting::Nothing;
-        work.likelihood.apply(work.y.subspan(static_cast<std::size_t>(frame * m_cells + from), static_cast<std::size_t>(end - from)),
-                              own.lambda);
+        work.likelihood.apply(
+            work.y.subspan(static_cast<std::size_t>(frame * m_cells + from), static_cast<std::size_t>(end - from)),
+            own.lambda);
         // What lies outside of the stretch is the neighbour's to count and to show.
         const std::array<Index, 4> cuts{from, std::clamp(s.from, from, end), std::clamp(s.end, from, end), end};
         for (std::size_t part = 0; part < 3; ++part) {
@@ -200,7 +207,8 @@ void SlantedTiles::goThrough(const Work &work, Stretch &s, Scratch &own) const
             if (from < end)
                 goThroughFrame(frame, begin, from, end);
             for (Index rate = 0; frame + 1 < work.frames && rate < m_rates; ++rate)
-                std::copy_n(window + rate * m_stride + m_tileCells - 2 * m_reach, 2 * m_reach, halo + rate * 2 * m_reach);
+                std::copy_n(window + rate * m_stride + m_tileCells - 2 * m_reach, 2 * m_reach,
+                            halo + rate * 2 * m_reach);
         }
     }
 }

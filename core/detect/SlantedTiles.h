@@ -9,10 +9,12 @@
 
 namespace faintline {
 
-/// The maximum recursion along one bounded axis, several frames at a time, so that T frames cost one reading and one writing of all scores.
+/// The maximum recursion along one bounded axis, several frames at a time, so that T frames cost one reading and one
+/// writing of all scores.
 ///
-/// Tiles slant by the largest displacement R a frame: what one needs of the frame before lies in the tile itself and in the last 2R cells
-/// of the tile before. Two frames of a tile lie in the second-level cache, in turns source and target:
+/// Tiles slant by the largest displacement R a frame: what one needs of the frame before lies in the tile itself and in
+/// the last 2R cells of the tile before. Two frames of a tile lie in the second-level cache, in turns source and
+/// target:
 ///
 ///     frame    cells →
 ///       0      [ tile 0 ][ tile 1 ][ tile 2 ]
@@ -36,8 +38,8 @@ public:
     /// Whether two frames of a tile fit into the cache.
     bool areWorthwhile() const;
 
-    /// u = λ + max(M + ln K, floor) of as many frames as `y` holds, D of each in `statistic`; answers what went on in the last. `firstStep`:
-    /// number of the step into the first of them.
+    /// u = λ + max(M + ln K, floor) of as many frames as `y` holds, D of each in `statistic`; answers what went on in
+    /// the last. `firstStep`: number of the step into the first of them.
     Continued advance(std::span<const float> scores, std::span<float> next, std::span<const float> y,
                       std::span<float> statistic, Index firstStep, const Likelihood &likelihood, const FrameJoin &join,
                       const RunContext &context);
@@ -48,7 +50,7 @@ private:
         std::vector<float> windows; ///< two frames of a tile
         std::vector<float> halo;    ///< of every frame: the last columns of the tile before
         std::vector<float> lambda;
-        std::vector<float> unused;  ///< a statistic that is not used
+        std::vector<float> unused; ///< a statistic that is not used
         std::vector<const float *> ahead;
     };
 

@@ -12,9 +12,9 @@ namespace {
 } // namespace
 
 Smd::Smd(const MarkovModel &model, const ResetRule &rule)
-    : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule), m_recursion(model.space, model.transitionScale),
-      m_scores(static_cast<std::size_t>(model.space.stateCount())), m_next(m_scores.size()),
-      m_lnK(rule.law == ResetLaw::Fixed || rule.law == ResetLaw::Half ? rule.lnK : 0.0)
+    : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule),
+      m_recursion(model.space, model.transitionScale), m_scores(static_cast<std::size_t>(model.space.stateCount())),
+      m_next(m_scores.size()), m_lnK(rule.law == ResetLaw::Fixed || rule.law == ResetLaw::Half ? rule.lnK : 0.0)
 {
 }
 
@@ -60,7 +60,8 @@ void Smd::updateBlock(std::span<const float> y, std::span<float> statistic, Inde
     const auto size = static_cast<std::size_t>(cells);
     const bool isRegulated = m_rule.law == ResetLaw::Mean || m_rule.law == ResetLaw::Half;
     for (std::size_t done = 0; done < y.size();) {
-        const auto frames = static_cast<std::size_t>(std::min<Index>(m_recursion.framesAtOnce(), std::ssize(y) / cells));
+        const auto frames =
+            static_cast<std::size_t>(std::min<Index>(m_recursion.framesAtOnce(), std::ssize(y) / cells));
         const std::size_t count = std::min(frames, (y.size() - done) / size);
         if (m_frames == 0 || isRegulated || count < 2 || !m_inhibited.empty()) {
             update(y.subspan(done, size), statistic.subspan(done, size));

@@ -36,13 +36,13 @@ struct ResetRule {
 ///   u(n, 0) = λ(n, 0)
 ///   u(n, t) = λ(n, t) + max( ln K + max_m [ ln P(n|m) + u(m, t-1) ], 0 )
 ///
-/// u = ln(N Λ), the log-likelihood ratio in nats above the background of a uniform initial law 1/N; a path is *reset* where
-/// the second argument of the outer max wins (only if strictly greater). D(t, cell) = max over the cell's rates.
+/// u = ln(N Λ), the log-likelihood ratio in nats above the background of a uniform initial law 1/N; a path is *reset*
+/// where the second argument of the outer max wins (only if strictly greater). D(t, cell) = max over the cell's rates.
 /// Decision: D > threshold. Under Mean the statistic is u + K(t), which is Parsons' ln Λ, and K(t) applies to the next
-/// frame's predecessors. The reset fraction and the mean that regulate K are taken over the cells that are not inhibited.
-/// Half is integral control, ln K += gain·(½ - fraction continued), whose answer takes some ten frames; gains of 1 and more swing.
-/// Source: Billon 2005 section 3, Parsons 2008 eq. 8 and 10. Oracle: enumeration of all paths;
-/// Lindley's recursion in closed form for one-to-one transitions.
+/// frame's predecessors. The reset fraction and the mean that regulate K are taken over the cells that are not
+/// inhibited. Half is integral control, ln K += gain·(½ - fraction continued), whose answer takes some ten frames;
+/// gains of 1 and more swing. Source: Billon 2005 section 3, Parsons 2008 eq. 8 and 10. Oracle: enumeration of all
+/// paths; Lindley's recursion in closed form for one-to-one transitions.
 class Smd final : public PathDetector
 {
 public:

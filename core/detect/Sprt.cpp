@@ -15,7 +15,8 @@ const std::vector<Field<SprtSettings>> &SprtSettings::fields()
 {
     using S = SprtSettings;
     static const std::vector<Field<S>> table{
-        field(&S::falseAlarm, "falseAlarm", "", 1e-300, 0.5, "Specified probability of accepting a signal on noise, α."),
+        field(&S::falseAlarm, "falseAlarm", "", 1e-300, 0.5,
+              "Specified probability of accepting a signal on noise, α."),
         field(&S::miss, "miss", "", 1e-300, 0.5, "Specified probability of accepting noise with a signal, β."),
         field(&S::cutOffStage, "cutOffStage", "", 0.0, 1e9, "Stage at which a decision is forced; 0: never."),
     };
@@ -31,7 +32,8 @@ void checkSprt(const SprtSettings &settings, const std::string &where)
 
 SprtBoundaries sprtBoundaries(const SprtSettings &settings)
 {
-    return {std::log(settings.miss) - std::log1p(-settings.falseAlarm), std::log1p(-settings.miss) - std::log(settings.falseAlarm)};
+    return {std::log(settings.miss) - std::log1p(-settings.falseAlarm),
+            std::log1p(-settings.miss) - std::log(settings.falseAlarm)};
 }
 
 SprtDecision decide(const SprtSettings &settings, double lnLambda, Index stage)
@@ -47,8 +49,8 @@ SprtDecision decide(const SprtSettings &settings, double lnLambda, Index stage)
 }
 
 LikelihoodRatio::LikelihoodRatio(const SequentialModel &model)
-    : m_cells(model.markov.space.cellCount()), m_initial(model.initialLaw()), m_recursion(model.markov.space, model.markov.transitionScale),
-      m_posterior(m_initial)
+    : m_cells(model.markov.space.cellCount()), m_initial(model.initialLaw()),
+      m_recursion(model.markov.space, model.markov.transitionScale), m_posterior(m_initial)
 {
 }
 
@@ -58,7 +60,8 @@ double LikelihoodRatio::update(std::span<const double> lambda)
     const std::span<const double> predicted =
         m_stages == 0 ? std::span<const double>(m_initial) : m_recursion.predict(m_posterior, m_stages);
     ++m_stages;
-    double highest = minusInfinity; // among the cells that can be reached: the others must not push these below the smallest number
+    double highest =
+        minusInfinity; // among the cells that can be reached: the others must not push these below the smallest number
     for (std::size_t n = 0; n < predicted.size(); ++n)
         if (predicted[n] > 0.0)
             highest = std::max(highest, lambda[n % cells]);
@@ -138,15 +141,16 @@ SprtResult runSprt(const SequentialModel &model, const SprtSettings &settings, I
         context.part(0.5, 1.0));
     result.lnMapScore = map.lnScore;
     for (Index stage = 0; stage < result.stages; ++stage)
-        result.trajectory.push_back(
-            model.reduction.best(evidence.at(stage), model.markov.space.cellOf(map.states[static_cast<std::size_t>(stage)])));
+        result.trajectory.push_back(model.reduction.best(
+            evidence.at(stage), model.markov.space.cellOf(map.states[static_cast<std::size_t>(stage)])));
     return result;
 }
 
 StageSource stagesOf(NormalisedFramesPointer frames, Index firstFrame, Index firstCell, Index cellCount)
 {
     std::vector<float> row(static_cast<std::size_t>(frames->grid().size()));
-    return [frames = std::move(frames), firstFrame, firstCell, cellCount, row](Index stage, std::span<double> y) mutable {
+    return [frames = std::move(frames), firstFrame, firstCell, cellCount, row](Index stage,
+                                                                               std::span<double> y) mutable {
         frames->read(firstFrame + stage, 1, row);
         for (Index cell = 0; cell < cellCount; ++cell)
             y[static_cast<std::size_t>(cell)] = static_cast<double>(row[static_cast<std::size_t>(firstCell + cell)]);

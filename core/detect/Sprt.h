@@ -46,17 +46,18 @@ struct SprtBoundaries {
 };
 SprtBoundaries sprtBoundaries(const SprtSettings &settings);
 
-/// Decision after a stage (1, 2, …): H1 where ln Λ ≥ ln γ1, H0 where ln Λ ≤ ln γ0; at the cut-off stage these first, then H1 where
-/// ln Λ ≥ ½(ln γ0 + ln γ1), otherwise H0. Source: Grossi and Lops 2006 eq. 4 and section 3.4.
+/// Decision after a stage (1, 2, …): H1 where ln Λ ≥ ln γ1, H0 where ln Λ ≤ ln γ0; at the cut-off stage these first,
+/// then H1 where ln Λ ≥ ½(ln γ0 + ln γ1), otherwise H0. Source: Grossi and Lops 2006 eq. 4 and section 3.4.
 SprtDecision decide(const SprtSettings &settings, double lnLambda, Index stage);
 
 /// The likelihood ratio of "a signal since the first stage" to "noise only".
 ///
 ///   F_1(n) = P_1(n) · e^{λ_1(n)},   F_k(n) = e^{λ_k(n)} · Σ_m P(n|m) F_{k-1}(m),   Λ_k = Σ_n F_k(n)
 ///
-/// λ_k(n): ln p1/p0 of the state's cell at stage k. Kept as F/Λ, which is the posterior law of the state, and ln Λ, so that a thousand
-/// stages neither overflow nor lose digits. On noise E[Λ_k] = 1. Source: Grossi and Lops 2006, Algorithm 3.1. Oracle: enumeration of all
-/// trajectories. Cost: the recursion's and one exponential a cell. One object per thread.
+/// λ_k(n): ln p1/p0 of the state's cell at stage k. Kept as F/Λ, which is the posterior law of the state, and ln Λ, so
+/// that a thousand stages neither overflow nor lose digits. On noise E[Λ_k] = 1. Source: Grossi and Lops 2006,
+/// Algorithm 3.1. Oracle: enumeration of all trajectories. Cost: the recursion's and one exponential a cell. One object
+/// per thread.
 class LikelihoodRatio
 {
 public:
@@ -78,17 +79,19 @@ private:
     Index m_stages = 0;
 };
 
-/// Writes the frame of a stage (0, 1, …), reduction.frameCells() values of noise mean 1. Must give the same frame whenever asked.
+/// Writes the frame of a stage (0, 1, …), reduction.frameCells() values of noise mean 1. Must give the same frame
+/// whenever asked.
 using StageSource = std::function<void(Index stage, std::span<double> y)>;
 
 /// How a sequential test went.
 struct SprtResult {
     SprtDecision decision = SprtDecision::Undecided;
-    Index stages = 0;                         ///< taken; the decision fell after the last of them
-    bool isForced = false;                    ///< at the cut-off stage, between the boundaries
-    std::vector<double> lnLambda;             ///< after every stage taken
-    std::vector<std::vector<Index>> trajectory; ///< most probable cell of every stage, one index per frame axis; only where H1 was accepted
-    double lnMapScore = 0.0;                  ///< ln of the trajectory's probability times its likelihood ratio
+    Index stages = 0;             ///< taken; the decision fell after the last of them
+    bool isForced = false;        ///< at the cut-off stage, between the boundaries
+    std::vector<double> lnLambda; ///< after every stage taken
+    std::vector<std::vector<Index>>
+        trajectory; ///< most probable cell of every stage, one index per frame axis; only where H1 was accepted
+    double lnMapScore = 0.0; ///< ln of the trajectory's probability times its likelihood ratio
 };
 
 /// Is shown every stage right after it was taken.

@@ -16,7 +16,8 @@ namespace {
 } // namespace
 
 SumDetector::SumDetector(const MarkovModel &model, const ResetRule &rule)
-    : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule), m_recursion(model.space, model.transitionScale),
+    : m_space(model.space), m_likelihood(model.likelihood), m_rule(rule),
+      m_recursion(model.space, model.transitionScale),
       m_weights(static_cast<std::size_t>(model.space.stateCount()), 1.0), m_scores(m_weights.size())
 {
     if (rule.law != ResetLaw::Fixed && rule.law != ResetLaw::None)
@@ -31,7 +32,8 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
         lambda[cell] = m_likelihood.at(static_cast<double>(y[cell]));
     const auto [least, most] = std::minmax_element(lambda.begin(), lambda.end());
     const double highest = *most;
-    const double background = m_rule.law == ResetLaw::Fixed ? std::abs(m_scale) : 0.0; // how far the fresh paths' 1 lies from the best
+    const double background =
+        m_rule.law == ResetLaw::Fixed ? std::abs(m_scale) : 0.0; // how far the fresh paths' 1 lies from the best
     const bool isWide = std::max(highest - *least, background) > widest;
     if (isWide) {
         updateWide(lambda);
@@ -56,7 +58,9 @@ void SumDetector::update(std::span<const float> y, std::span<float> statistic)
                 weight /= largest;
         }
     }
-    m_lnMean = m_scale + std::log(std::accumulate(m_weights.begin(), m_weights.end(), 0.0) / static_cast<double>(m_weights.size()));
+    m_lnMean =
+        m_scale
+        + std::log(std::accumulate(m_weights.begin(), m_weights.end(), 0.0) / static_cast<double>(m_weights.size()));
 
     std::fill(statistic.begin(), statistic.end(), -std::numeric_limits<float>::infinity());
     for (std::size_t n = 0; n < m_weights.size(); ++n) {
@@ -75,7 +79,8 @@ void SumDetector::updateWide(std::span<const double> lambda)
         const std::span<const double> predicted = m_recursion.predict(m_weights, m_frames);
         for (std::size_t n = 0; n < ln.size(); ++n) {
             const double goesOn = m_scale + (isFixed ? m_rule.lnK : 0.0) + std::log(predicted[n]);
-            ln[n] = isFixed ? std::max(goesOn, 0.0) + std::log1p(std::exp(-std::abs(goesOn))) : goesOn; // with the fresh one's 1
+            ln[n] = isFixed ? std::max(goesOn, 0.0) + std::log1p(std::exp(-std::abs(goesOn)))
+                            : goesOn; // with the fresh one's 1
         }
     }
     for (std::size_t n = 0; n < ln.size(); ++n)

@@ -13,10 +13,11 @@ namespace faintline {
 ///
 ///   A(n, t) = e^{λ(n, t)} · ( K Σ_m P(n|m) A(m, t-1) + r ),   u = ln A
 ///
-/// with r = 1 under a fixed reset law (Shiryaev-Roberts) and r = 0 under none, where ln Σ A/N is the log-likelihood ratio of
-/// "a signal since the first frame" (Grossi and Lops 2006, Algorithm 3.1). Kept as scaled weights, so that a
-/// thousand frames neither overflow nor lose digits; where the evidence of one frame spans more than a double does, they go by their
-/// logarithms (a path more than 700 nats below the best one then counts for no more than a fresh one). Oracle: enumeration of all paths in the linear domain.
+/// with r = 1 under a fixed reset law (Shiryaev-Roberts) and r = 0 under none, where ln Σ A/N is the log-likelihood
+/// ratio of "a signal since the first frame" (Grossi and Lops 2006, Algorithm 3.1). Kept as scaled weights, so that a
+/// thousand frames neither overflow nor lose digits; where the evidence of one frame spans more than a double does,
+/// they go by their logarithms (a path more than 700 nats below the best one then counts for no more than a fresh one).
+/// Oracle: enumeration of all paths in the linear domain.
 class SumDetector final : public PathDetector
 {
 public:

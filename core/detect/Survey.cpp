@@ -2,8 +2,8 @@
 
 namespace faintline {
 
-Survey survey(const SequentialModel &model, const SprtSettings &settings, Index sectors, Index rounds, Index stagesAtMost, Index fixedSize,
-              const SectorSource &source, const RunContext &context)
+Survey survey(const SequentialModel &model, const SprtSettings &settings, Index sectors, Index rounds,
+              Index stagesAtMost, Index fixedSize, const SectorSource &source, const RunContext &context)
 {
     Survey made;
     const Index looks = sectors * rounds;

@@ -22,16 +22,19 @@ struct Survey {
     Index fixedStages = 0;           ///< a test of fixed size would have spent
 
     /// Share of the fixed-size test's stages that was not needed; negative if more were.
-    double saving() const { return fixedStages > 0 ? 1.0 - static_cast<double>(stages) / static_cast<double>(fixedStages) : 0.0; }
+    double saving() const
+    {
+        return fixedStages > 0 ? 1.0 - static_cast<double>(stages) / static_cast<double>(fixedStages) : 0.0;
+    }
 };
 
 /// The stages of one look; may depend on when it begins.
 using SectorSource = std::function<StageSource(const SectorVisit &visit)>;
 
-/// Visits sector after sector, round after round: each is looked at until its test decides or `stagesAtMost` are taken (no decision),
-/// then the beam moves on. Empty sectors, the many, are left early; that is what a sequential test saves against one of `fixedSize` stages
-/// a look. Source: Grossi and Lops 2006, section 4. Throws Error, Cancelled.
-Survey survey(const SequentialModel &model, const SprtSettings &settings, Index sectors, Index rounds, Index stagesAtMost, Index fixedSize,
-              const SectorSource &source, const RunContext &context = {});
+/// Visits sector after sector, round after round: each is looked at until its test decides or `stagesAtMost` are taken
+/// (no decision), then the beam moves on. Empty sectors, the many, are left early; that is what a sequential test saves
+/// against one of `fixedSize` stages a look. Source: Grossi and Lops 2006, section 4. Throws Error, Cancelled.
+Survey survey(const SequentialModel &model, const SprtSettings &settings, Index sectors, Index rounds,
+              Index stagesAtMost, Index fixedSize, const SectorSource &source, const RunContext &context = {});
 
 } // namespace faintline

@@ -37,9 +37,10 @@ StageSource averagedStages(StageSource source, const SequentialModel &model, Ind
         throw Error(where, "requires an exponential likelihood; no other likelihood of the average is implemented");
     const Row row = rowOf(model.reduction);
     if (N < 1 || N >= row.cells)
-        throw Error(where + " = " + std::to_string(N), row.cells < 2 ? "has no neighbours to average"
-                                                                     : "must lie in 1 … " + std::to_string(row.cells - 1)
-                                                                           + ", the other cells of the row");
+        throw Error(where + " = " + std::to_string(N),
+                    row.cells < 2
+                        ? "has no neighbours to average"
+                        : "must lie in 1 … " + std::to_string(row.cells - 1) + ", the other cells of the row");
     return [source = std::move(source), where, row, N, snr = likelihood.snr(),
             line = std::vector<float>(static_cast<std::size_t>(row.cells))](Index stage, std::span<double> y) mutable {
         source(stage, y);
@@ -51,11 +52,13 @@ StageSource averagedStages(StageSource source, const SequentialModel &model, Ind
             if (first % block >= row.stride) // not the first cell of a row
                 continue;
             for (Index i = 0; i < row.cells; ++i)
-                line[static_cast<std::size_t>(i)] = static_cast<float>(y[static_cast<std::size_t>(first + i * row.stride)]);
+                line[static_cast<std::size_t>(i)] =
+                    static_cast<float>(y[static_cast<std::size_t>(first + i * row.stride)]);
             averageCells(line, row.cells, N);
             correctAveraged(line, N, snr);
             for (Index i = 0; i < row.cells; ++i)
-                y[static_cast<std::size_t>(first + i * row.stride)] = static_cast<double>(line[static_cast<std::size_t>(i)]);
+                y[static_cast<std::size_t>(first + i * row.stride)] =
+                    static_cast<double>(line[static_cast<std::size_t>(i)]);
         }
     };
 }

@@ -54,8 +54,8 @@ namespace {
 
 } // namespace
 
-InspectedTest inspectStages(const SequentialModel &model, const SprtSettings &settings, Index stages, const StageSource &source,
-                            const RunContext &context)
+InspectedTest inspectStages(const SequentialModel &model, const SprtSettings &settings, Index stages,
+                            const StageSource &source, const RunContext &context)
 {
     InspectedTest inspected;
     const StateSpace &space = model.markov.space;

@@ -13,7 +13,7 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index lanes = 64; ///< values kept in registers while all sources are joined to them
+    constexpr Index lanes = 64;      ///< values kept in registers while all sources are joined to them
     constexpr Index lineFloats = 16; ///< of a cache line
 
     struct MaxJoin {
@@ -62,7 +62,8 @@ namespace {
 
     /// to[i] = ⊕_k from_k[i] ⊗ weight_k, the sources in their order.
     template <class Real, class Join>
-    [[gnu::always_inline]] inline void joinAll(Real *to, Index n, const ShiftedPlane<Real> *sources, std::size_t count, Join join)
+    [[gnu::always_inline]] inline void joinAll(Real *to, Index n, const ShiftedPlane<Real> *sources, std::size_t count,
+                                               Join join)
     {
         Index i = 0;
         for (; i + lanes <= n; i += lanes) {
@@ -153,7 +154,8 @@ namespace {
         return i;
     }
 
-    /// A target's sources as the inner loop wants them: of three, nearly always, the outer two weigh the same; of fewer, some count twice.
+    /// A target's sources as the inner loop wants them: of three, nearly always, the outer two weigh the same; of
+    /// fewer, some count twice.
     struct Joined {
         const float *first;
         const float *second;
@@ -166,11 +168,13 @@ namespace {
 
     constexpr std::size_t mostAtOnce = 64; ///< targets
 
-    [[gnu::always_inline]] inline Joined joined(const TargetPlane &target, Index sourceOffset, Index targetOffset, float lnK)
+    [[gnu::always_inline]] inline Joined joined(const TargetPlane &target, Index sourceOffset, Index targetOffset,
+                                                float lnK)
     {
         const std::span<const ShiftedPlane<float>> sources = target.sources;
         Joined result{nullptr, nullptr, nullptr, 0.0f, 0.0f, target.to + targetOffset, &target};
-        if (sources.empty() || sources.size() > 3 || (sources.size() == 3 && sources.front().weight != sources.back().weight))
+        if (sources.empty() || sources.size() > 3
+            || (sources.size() == 3 && sources.front().weight != sources.back().weight))
             return result;
         const ShiftedPlane<float> &inner = sources[sources.size() / 2];
         result.first = sources.front().from + sourceOffset;
@@ -213,9 +217,11 @@ namespace {
             const Joined &t = targets[k];
             const auto number = static_cast<Index>(k);
             const bool isLast = k + 1 == targets.size();
-            if ((k > 0 && t.first != targets[k - 1].second) || t.second - one.second != number * (two.second - one.second)
-                || t.to - one.to != number * (two.to - one.to) || (!isLast && t.third - t.second != one.third - one.second)
-                || t.outer != one.outer || t.inner != one.inner)
+            if ((k > 0 && t.first != targets[k - 1].second)
+                || t.second - one.second != number * (two.second - one.second)
+                || t.to - one.to != number * (two.to - one.to)
+                || (!isLast && t.third - t.second != one.third - one.second) || t.outer != one.outer
+                || t.inner != one.inner)
                 return Layout::Threes;
             isUniform = isUniform && t.outer == t.inner;
         }
@@ -232,11 +238,12 @@ namespace {
         return best;
     }
 
-    /// So many cells at a time through all targets: what belongs to the cells stays in registers, as arrays of a plain loop would not.
+    /// So many cells at a time through all targets: what belongs to the cells stays in registers, as arrays of a plain
+    /// loop would not.
     template <int bytes, Index cells, Counting counting, Layout layout>
-    [[gnu::always_inline]] inline Index finishCells(std::span<const Joined> targets, Index i, Index n, Index sourceOffset,
-                                                    const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
-                                                    Continued &continued)
+    [[gnu::always_inline]] inline Index finishCells(std::span<const Joined> targets, Index i, Index n,
+                                                    Index sourceOffset, const float *lambda, const FrameJoin &join,
+                                                    bool isFresh, float *statistic, Continued &continued)
     {
         constexpr bool isChained = layout == Layout::Chained || layout == Layout::Uniform;
         constexpr Index width = Vector<float, bytes>::lanes;
@@ -259,7 +266,8 @@ namespace {
                 if constexpr (isChained)
                     shared[part] = load<bytes>(targets.front().first + i + part * width);
             }
-            const auto finish = [&](Index part, const Floats<bytes> &m, float *to) __attribute__((always_inline)) {
+            const auto finish = [&](Index part, const Floats<bytes> &m, float *to) __attribute__((always_inline))
+            {
                 Floats<bytes> score = larger(m, floor);
                 if constexpr (counting == Counting::StatesAndSum)
                     sum[part] += score;
@@ -278,12 +286,15 @@ namespace {
                 const Floats<bytes> inner = Floats<bytes>{} + one.inner;
                 const float *from = one.second + i;
                 float *to = one.to + i;
-                const auto take = [&](const float *third) __attribute__((always_inline)) {
+                const auto take = [&](const float *third) __attribute__((always_inline))
+                {
 #pragma GCC unroll 8
                     for (Index part = 0; part < parts; ++part) {
                         const Floats<bytes> second = load<bytes>(from + part * width);
                         const Floats<bytes> around = larger(load<bytes>(third + part * width), shared[part]);
-                        finish(part, layout == Layout::Uniform ? larger(second, around) + outer : larger(second + inner, around + outer),
+                        finish(part,
+                               layout == Layout::Uniform ? larger(second, around) + outer
+                                                         : larger(second + inner, around + outer),
                                to);
                         shared[part] = second;
                     }
@@ -324,9 +335,9 @@ namespace {
         return i;
     }
 
-    [[gnu::always_inline]] inline void finishOne(std::span<const TargetPlane> targets, Index i, Index sourceOffset, Index targetOffset,
-                                                 const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
-                                                 Continued &continued)
+    [[gnu::always_inline]] inline void finishOne(std::span<const TargetPlane> targets, Index i, Index sourceOffset,
+                                                 Index targetOffset, const float *lambda, const FrameJoin &join,
+                                                 bool isFresh, float *statistic, Continued &continued)
     {
         statistic[i] = isFresh ? -std::numeric_limits<float>::infinity() : statistic[i];
         for (const TargetPlane &target : targets) {
@@ -345,19 +356,22 @@ namespace {
     }
 
     template <int bytes, Counting counting>
-    [[gnu::always_inline]] inline void finishAll(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset,
-                                                 const float *lambda, const FrameJoin &join, bool isFresh, float *statistic,
-                                                 Continued &continued)
+    [[gnu::always_inline]] inline void finishAll(std::span<const TargetPlane> targets, Index n, Index sourceOffset,
+                                                 Index targetOffset, const float *lambda, const FrameJoin &join,
+                                                 bool isFresh, float *statistic, Continued &continued)
     {
         Joined list[mostAtOnce];
         for (std::size_t k = 0; k < targets.size(); ++k)
             list[k] = joined(targets[k], sourceOffset, targetOffset, join.lnK);
         const std::span<Joined> all(list, targets.size());
         Index i = 0;
-        const auto finish = [&](auto cells, auto layout) __attribute__((always_inline)) {
-            i = finishCells<bytes, cells, counting, layout>(all, i, n, sourceOffset, lambda, join, isFresh, statistic, continued);
+        const auto finish = [&](auto cells, auto layout) __attribute__((always_inline))
+        {
+            i = finishCells<bytes, cells, counting, layout>(all, i, n, sourceOffset, lambda, join, isFresh, statistic,
+                                                            continued);
         };
-        const auto withLayout = [&](auto layout) __attribute__((always_inline)) {
+        const auto withLayout = [&](auto layout) __attribute__((always_inline))
+        {
             finish(std::integral_constant<Index, 32>(), layout);
             if (i + 16 <= n)
                 finish(std::integral_constant<Index, 16>(), layout);
@@ -390,7 +404,8 @@ void joinMax(float *to, Index n, std::span<const ShiftedPlane<float>> sources)
     withVectors([&](auto bytes) __attribute__((always_inline)) {
         Index i = 0;
         if (!sources.empty())
-            i = haveEqualWeights(sources) ? joinVectors<bytes, true>(to, n, sources) : joinVectors<bytes, false>(to, n, sources);
+            i = haveEqualWeights(sources) ? joinVectors<bytes, true>(to, n, sources)
+                                          : joinVectors<bytes, false>(to, n, sources);
         for (; i < n; ++i) {
             float best = -std::numeric_limits<float>::infinity();
             for (const ShiftedPlane<float> &source : sources) {
@@ -452,16 +467,18 @@ void multiplyEach(double *to, const double *factors, Index n)
         to[i] *= factors[i];
 }
 
-Continued finishMax(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset, const float *lambda,
-                    const FrameJoin &join, float *statistic)
+Continued finishMax(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset,
+                    const float *lambda, const FrameJoin &join, float *statistic)
 {
     Continued continued;
     for (std::size_t first = 0; first < targets.size(); first += mostAtOnce) {
         const std::span<const TargetPlane> some = targets.subspan(first, std::min(mostAtOnce, targets.size() - first));
         const bool isFresh = join.isFresh && first == 0;
         withVectors([&](auto bytes) __attribute__((always_inline)) {
-            const auto finish = [&](auto counting) __attribute__((always_inline)) {
-                finishAll<bytes, counting>(some, n, sourceOffset, targetOffset, lambda, join, isFresh, statistic, continued);
+            const auto finish = [&](auto counting) __attribute__((always_inline))
+            {
+                finishAll<bytes, counting>(some, n, sourceOffset, targetOffset, lambda, join, isFresh, statistic,
+                                           continued);
             };
             switch (join.counting) {
             case Counting::Nothing:

@@ -48,20 +48,22 @@ enum class Counting { Nothing, States, StatesAndSum };
 /// What follows M in one frame: u = λ + max(M + ln K, floor).
 struct FrameJoin {
     float lnK = 0.0f;
-    float floor = 0.0f;       ///< 0, or -∞ for no reset
+    float floor = 0.0f; ///< 0, or -∞ for no reset
     Counting counting = Counting::States;
-    bool isFresh = false;     ///< D begins at -∞; else at what it holds
-    std::span<const float *const> ahead{}; ///< rows that will be wanted soon: their cell i is fetched while cell i is joined
+    bool isFresh = false; ///< D begins at -∞; else at what it holds
+    std::span<const float *const>
+        ahead{}; ///< rows that will be wanted soon: their cell i is fetched while cell i is joined
 };
 
-/// The maximum over the sources of every target, joined with the frame at once, cell by cell for all targets, so that λ and D are
-/// read and written once:
+/// The maximum over the sources of every target, joined with the frame at once, cell by cell for all targets, so that λ
+/// and D are read and written once:
 ///
 ///   u_k[i] = λ[i] + max(M_k[i] + ln K, floor),   D[i] = max(D[i], max_k u_k[i])
 ///
-/// Sources are read from `sourceOffset` + i, scores written to `targetOffset` + i, i = 0 … n-1. Counts those with u > λ if asked to. Bits do not
-/// depend on the instruction set; those of the sum depend on where a row is cut into calls. A target without sources has M = -∞.
-Continued finishMax(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset, const float *lambda,
-                    const FrameJoin &join, float *statistic);
+/// Sources are read from `sourceOffset` + i, scores written to `targetOffset` + i, i = 0 … n-1. Counts those with u > λ
+/// if asked to. Bits do not depend on the instruction set; those of the sum depend on where a row is cut into calls. A
+/// target without sources has M = -∞.
+Continued finishMax(std::span<const TargetPlane> targets, Index n, Index sourceOffset, Index targetOffset,
+                    const float *lambda, const FrameJoin &join, float *statistic);
 
 } // namespace faintline

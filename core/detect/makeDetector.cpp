@@ -46,19 +46,22 @@ const std::vector<Field<ShiryaevRobertsSettings>> &ShiryaevRobertsSettings::fiel
 {
     using S = ShiryaevRobertsSettings;
     static const std::vector<Field<S>> table{
-        field(&S::lnK, "lnK", "nat", -100.0, 0.0, "Rate at which old evidence fades; 0 is the classical procedure, "
-                                                  "which is not stationary on noise."),
+        field(&S::lnK, "lnK", "nat", -100.0, 0.0,
+              "Rate at which old evidence fades; 0 is the classical procedure, "
+              "which is not stationary on noise."),
     };
     return table;
 }
 
 DetectorSettings detectorOfKind(std::size_t index)
 {
-    return [index]<std::size_t... I>(std::index_sequence<I...>) {
+    return [index]<std::size_t... I>(std::index_sequence<I...>)
+    {
         DetectorSettings settings;
         ((I == index ? void(settings.emplace<I>()) : void()), ...);
         return settings;
-    }(std::make_index_sequence<std::variant_size_v<DetectorSettings>>());
+    }
+    (std::make_index_sequence<std::variant_size_v<DetectorSettings>>());
 }
 
 Index framesPerDecision(const DetectorSettings &settings, const FrameGeometry &geometry)
@@ -78,10 +81,13 @@ std::unique_ptr<Detector> makeDetector(const DetectorSettings &settings, const M
         Overloaded{
             [&](const SmdSettings &) -> Made { return std::make_unique<Smd>(model, rule); },
             [&](const PofNSettings &s) -> Made { return std::make_unique<PofN>(grid, s, geometry.binsPerCell); },
-            [&](const IntegratorSettings &s) -> Made { return integrator(s.shape, framesOf(s.durationWindows, geometry)); },
+            [&](const IntegratorSettings &s) -> Made {
+                return integrator(s.shape, framesOf(s.durationWindows, geometry));
+            },
             [&](const EnergySettings &) -> Made { return integrator(IntegratorSettings::Shape::Boxcar, 1); },
             [&](const BlockViterbiSettings &s) -> Made {
-                return std::make_unique<BlockViterbi>(model, framesOf(s.durationWindows, geometry), geometry.blockPhase);
+                return std::make_unique<BlockViterbi>(model, framesOf(s.durationWindows, geometry),
+                                                      geometry.blockPhase);
             },
             [&](const ShiryaevRobertsSettings &s) -> Made {
                 return std::make_unique<SumDetector>(model, ResetRule{ResetLaw::Fixed, s.lnK});

@@ -35,21 +35,23 @@ struct EnergySettings {
 
 /// The Shiryaev-Roberts detector: SumDetector with a reset, all paths count.
 struct ShiryaevRobertsSettings {
-    double lnK = -0.1; ///< 0: the classical procedure, whose statistic grows without end on noise where the law loses no probability
+    double lnK =
+        -0.1; ///< 0: the classical procedure, whose statistic grows without end on noise where the law loses no probability
 
     static const std::vector<Field<ShiryaevRobertsSettings>> &fields();
     bool operator==(const ShiryaevRobertsSettings &) const = default;
 };
 
 /// Any detector's settings; the alternatives are named by `detectorNames`, in order.
-using DetectorSettings =
-    std::variant<SmdSettings, PofNSettings, IntegratorSettings, EnergySettings, BlockViterbiSettings, ShiryaevRobertsSettings>;
+using DetectorSettings = std::variant<SmdSettings, PofNSettings, IntegratorSettings, EnergySettings,
+                                      BlockViterbiSettings, ShiryaevRobertsSettings>;
 
 inline constexpr std::array<std::string_view, std::variant_size_v<DetectorSettings>> detectorNames{
     "smd", "pOfN", "integrator", "energy", "blockViterbi", "shiryaevRoberts"};
 
 /// What the statistics of these are measured in: log-likelihoods in nats, mean powers as multiples of the noise's.
-inline constexpr std::array<std::string_view, detectorNames.size()> detectorUnits{"nat", "× noise", "× noise", "× noise", "nat", "nat"};
+inline constexpr std::array<std::string_view, detectorNames.size()> detectorUnits{"nat",     "× noise", "× noise",
+                                                                                  "× noise", "nat",     "nat"};
 
 inline std::string_view statisticUnit(const DetectorSettings &settings)
 {
@@ -63,11 +65,13 @@ DetectorSettings detectorOfKind(std::size_t index);
 struct FrameGeometry {
     double framesPerWindow = 1.0; ///< k_t
     double binsPerCell = 1.0;     ///< k_f
-    Index blockPhase = 0;         ///< frames of a block that have gone by before the first frame, for detectors that decide in blocks
+    Index blockPhase =
+        0; ///< frames of a block that have gone by before the first frame, for detectors that decide in blocks
 };
 
-/// Whether the statistic is the score of a path, in nats, which a tracker follows on. The tracks of the others start from the paths of a
-/// sequential Markov detector beside them (GuidedDetector), whose scores have nothing to do with the statistic.
+/// Whether the statistic is the score of a path, in nats, which a tracker follows on. The tracks of the others start
+/// from the paths of a sequential Markov detector beside them (GuidedDetector), whose scores have nothing to do with
+/// the statistic.
 inline bool isScoreOfPaths(const DetectorSettings &settings)
 {
     return std::holds_alternative<SmdSettings>(settings);

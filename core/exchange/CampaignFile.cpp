@@ -1,5 +1,5 @@
-#include "evaluate/experiments/campaignCurve.h"
 #include "exchange/CampaignFile.h"
+#include "evaluate/experiments/campaignCurve.h"
 
 #include "base/AtomicFile.h"
 #include "base/Error.h"
@@ -32,7 +32,9 @@ namespace {
 
     std::string headOf(const Campaign &campaign)
     {
-        return Json{{versionKey, fileVersion}, {"experiment", toJson(campaign.experiment)}, {"thresholds", campaign.thresholds}}.dump();
+        return Json{
+            {versionKey, fileVersion}, {"experiment", toJson(campaign.experiment)}, {"thresholds", campaign.thresholds}}
+            .dump();
     }
 
     std::string lineOf(const RunOutcome &outcome)
@@ -72,7 +74,8 @@ namespace {
     class Lines
     {
     public:
-        explicit Lines(const std::string &path) : m_path(path), m_descriptor(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC))
+        explicit Lines(const std::string &path)
+            : m_path(path), m_descriptor(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC))
         {
             if (m_descriptor < 0)
                 fail();
@@ -138,7 +141,8 @@ namespace {
     bool isCount(const std::vector<float> &noise)
     {
         constexpr float most = 1e9f; // of either in one run
-        return noise.size() == 2 && std::all_of(noise.begin(), noise.end(), [](float value) { return value >= 0.0f && value <= most; });
+        return noise.size() == 2
+               && std::all_of(noise.begin(), noise.end(), [](float value) { return value >= 0.0f && value <= most; });
     }
 
     /// Every detector and SNR of the experiment must have its answers.
@@ -156,19 +160,22 @@ namespace {
                 isWhole = isWhole && !values.empty();
         }
         if (!isWhole)
-            throw Error(where, "must contain values for each of the " + std::to_string(detectors) + " detectors and " + std::to_string(snrs) + " SNRs");
+            throw Error(where, "must contain values for each of the " + std::to_string(detectors) + " detectors and "
+                                   + std::to_string(snrs) + " SNRs");
     }
 
     std::string sweepCsv(const Campaign &campaign)
     {
-        std::string csv = "parameter,value,pd,pd_low,pd_high,trials,false_alarms,hours,false_alarms_per_hour,false_alarms_low,false_alarms_high,"
+        std::string csv = "parameter,value,pd,pd_low,pd_high,trials,false_alarms,hours,false_alarms_per_hour,false_"
+                          "alarms_low,false_alarms_high,"
                           "latency_s,latency_low,latency_high,threshold\n";
         const std::string &parameter = std::get<SweepExperiment>(campaign.experiment).parameter;
         for (const SweepPoint &point : sweepCurve(campaign)) {
             csv += parameter;
-            for (const double number : {point.value, point.pd, point.pdInterval.low, point.pdInterval.high, static_cast<double>(point.trials),
-                                        static_cast<double>(point.falseAlarms), point.hours, point.falseAlarmsPerHour,
-                                        point.falseAlarmInterval.low, point.falseAlarmInterval.high})
+            for (const double number :
+                 {point.value, point.pd, point.pdInterval.low, point.pdInterval.high, static_cast<double>(point.trials),
+                  static_cast<double>(point.falseAlarms), point.hours, point.falseAlarmsPerHour,
+                  point.falseAlarmInterval.low, point.falseAlarmInterval.high})
                 csv += "," + formatNumber(number);
             for (const double number : {point.latencySeconds, point.latencyInterval.low, point.latencyInterval.high})
                 csv += "," + (point.detections > 0 ? formatNumber(number) : std::string());
@@ -200,7 +207,8 @@ namespace {
                 break;
             rest = rest.substr(comma + 1);
         }
-        if (values.size() != 6 || !values[0] || !values[1] || !values[2] || !values[3] || !(values[4] && *values[4] >= 0.0 && *values[4] <= mostTrials))
+        if (values.size() != 6 || !values[0] || !values[1] || !values[2] || !values[3]
+            || !(values[4] && *values[4] >= 0.0 && *values[4] <= mostTrials))
             throw refusal;
         point.snrDb = *values[0];
         point.pd = *values[1];
@@ -218,8 +226,8 @@ namespace {
         writeTextFile(parts, text);
     }
 
-    /// What a killed run left, without lines that are not as they were written: their runs are made again. Nothing where the first is
-    /// none of ours.
+    /// What a killed run left, without lines that are not as they were written: their runs are made again. Nothing
+    /// where the first is none of ours.
     std::optional<Campaign> readParts(const std::string &parts)
     {
         std::ifstream file(parts);
@@ -254,10 +262,13 @@ Campaign readCampaign(const std::string &path)
     std::string line;
     std::getline(file, line);
     const Json head = parseJson(line, path + ", line 1");
-    if (!head.is_object() || head.value(versionKey, Json()) != fileVersion || !head.contains("experiment") || !head.contains("thresholds"))
-        throw Error(path, "is not a campaign: its first line must contain " + std::string(versionKey) + ", experiment and thresholds");
+    if (!head.is_object() || head.value(versionKey, Json()) != fileVersion || !head.contains("experiment")
+        || !head.contains("thresholds"))
+        throw Error(path, "is not a campaign: its first line must contain " + std::string(versionKey)
+                              + ", experiment and thresholds");
     Campaign campaign{experimentFromJson(head["experiment"], path), {}, {}};
-    campaign.thresholds = readingJson(path + ", line 1: thresholds", [&] { return head["thresholds"].get<std::vector<double>>(); });
+    campaign.thresholds =
+        readingJson(path + ", line 1: thresholds", [&] { return head["thresholds"].get<std::vector<double>>(); });
     for (int number = 2; std::getline(file, line); ++number) {
         if (file.eof())
             break; // no line end: cut off
@@ -266,7 +277,8 @@ Campaign readCampaign(const std::string &path)
             campaign.outcomes.push_back(outcomeFrom(parseJson(line, where), campaign.experiment, where));
             checkShape(campaign, campaign.outcomes.back(), where);
         } catch (const nlohmann::json::exception &) {
-            throw Error(path + ", line " + std::to_string(number), "must be {\"run\": …, \"noise\": [[…]], \"signal\": [[[…]]]}");
+            throw Error(path + ", line " + std::to_string(number),
+                        "must be {\"run\": …, \"noise\": [[…]], \"signal\": [[[…]]]}");
         }
     }
     return campaign;
@@ -286,9 +298,10 @@ void writeCurve(const Campaign &campaign, const std::string &path)
         return writeTextFile(path, sweepCsv(campaign));
     std::string csv = std::string(curveHead) + "\n";
     for (const CurvePoint &point : pdCurve(campaign))
-        csv += csvText(oneLine(point.detector)) + "," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + "," + formatNumber(point.interval.low) + ","
-            + formatNumber(point.interval.high) + "," + std::to_string(point.trials) + ","
-            + (point.threshold ? formatNumber(*point.threshold) : std::string()) + "\n";
+        csv += csvText(oneLine(point.detector)) + "," + formatNumber(point.snrDb) + "," + formatNumber(point.pd) + ","
+               + formatNumber(point.interval.low) + "," + formatNumber(point.interval.high) + ","
+               + std::to_string(point.trials) + "," + (point.threshold ? formatNumber(*point.threshold) : std::string())
+               + "\n";
     writeTextFile(path, csv);
 }
 
@@ -306,7 +319,8 @@ std::vector<CurvePoint> readCurve(const std::string &path)
     return curve;
 }
 
-Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> &runs, const std::string &path, const RunContext &context)
+Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> &runs, const std::string &path,
+                           const RunContext &context)
 {
     const std::string parts = partsPath(path);
     std::optional<Campaign> begun = readParts(parts);
@@ -316,7 +330,8 @@ Campaign carryOutResumably(const Experiment &experiment, const std::vector<int> 
     if (!begun)
         writeParts(campaign, parts);
     Lines lines(parts);
-    carryOut(campaign, runs, context.part(0.1, 1.0), [&](const RunOutcome &outcome) { lines.add(withChecksum(lineOf(outcome))); });
+    carryOut(campaign, runs, context.part(0.1, 1.0),
+             [&](const RunOutcome &outcome) { lines.add(withChecksum(lineOf(outcome))); });
     return campaign;
 }
 

@@ -22,7 +22,8 @@ bool Hdf5Filterbank::recognises(const std::string &path)
     return data && data->number("fch1");
 }
 
-Hdf5Filterbank::Hdf5Filterbank(const std::string &path) : m_file(std::make_unique<Hdf5File>(path)), m_data(m_file->dataset(dataName))
+Hdf5Filterbank::Hdf5Filterbank(const std::string &path)
+    : m_file(std::make_unique<Hdf5File>(path)), m_data(m_file->dataset(dataName))
 {
     if (!m_data || m_data->shape().size() != 3)
         throw Error(path, "holds no dataset \"data\" of frames, polarisations and channels");
@@ -33,7 +34,8 @@ Hdf5Filterbank::Hdf5Filterbank(const std::string &path) : m_file(std::make_uniqu
         throw Error(path, "has " + std::to_string(shape[1]) + " polarisations of " + std::to_string(shape[2])
                               + " channels; 64 of 67 million can be");
     FilterbankHeader header;
-    for (const auto &[value, name] : {std::pair{&header.fch1, "fch1"}, std::pair{&header.foff, "foff"}, std::pair{&header.tsamp, "tsamp"}}) {
+    for (const auto &[value, name] :
+         {std::pair{&header.fch1, "fch1"}, std::pair{&header.foff, "foff"}, std::pair{&header.tsamp, "tsamp"}}) {
         const auto given = m_data->number(name);
         if (!given)
             throw Error(path, "its dataset \"data\" has no number " + std::string(name));
@@ -46,7 +48,10 @@ Hdf5Filterbank::Hdf5Filterbank(const std::string &path) : m_file(std::make_uniqu
     m_descends = header.foff < 0.0;
     m_info.path = path;
     m_info.container = "HDF5 filterbank";
-    m_info.sampleType = (m_data->isFloat() ? "float" : m_data->isSigned() ? "int" : "uint") + std::to_string(m_data->bits());
+    m_info.sampleType = (m_data->isFloat()    ? "float"
+                         : m_data->isSigned() ? "int"
+                                              : "uint")
+                        + std::to_string(m_data->bits());
     m_info.channelCount = static_cast<int>(shape[1]);
 }
 

@@ -5,10 +5,11 @@
 
 namespace faintline {
 
-/// A filterbank in HDF5 (.h5, as blimpy and turboSETI read it): a dataset "data" of shape (frames, IFs, channels) with the attributes of a sigproc header:
-/// fch1, foff (MHz), tsamp (s), tstart (MJD).
+/// A filterbank in HDF5 (.h5, as blimpy and turboSETI read it): a dataset "data" of shape (frames, IFs, channels) with
+/// the attributes of a sigproc header: fch1, foff (MHz), tsamp (s), tstart (MJD).
 ///
-/// Axes, time and notes as of SigprocFile. Packed data is unpacked chunk by chunk, with at most 32 MiB of chunks kept. Thread-safe.
+/// Axes, time and notes as of SigprocFile. Packed data is unpacked chunk by chunk, with at most 32 MiB of chunks kept.
+/// Thread-safe.
 class Hdf5Filterbank final : public PowerFrames
 {
 public:

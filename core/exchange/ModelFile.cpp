@@ -48,7 +48,8 @@ namespace {
     }
 
     template <class Names>
-    std::size_t choice(const Json &object, const std::string &where, const std::string &key, const Names &names, std::size_t otherwise)
+    std::size_t choice(const Json &object, const std::string &where, const std::string &key, const Names &names,
+                       std::size_t otherwise)
     {
         const auto found = object.find(key);
         if (found == object.end())
@@ -76,7 +77,8 @@ namespace {
     void readRates(KinematicAxis &axis, const std::vector<double> &rates, const std::string &where)
     {
         for (std::size_t i = 0; i < rates.size(); ++i)
-            if (rates[i] != std::floor(rates[i]) || std::abs(rates[i]) > 1000.0 || (i > 0 && rates[i] != rates[i - 1] + 1.0))
+            if (rates[i] != std::floor(rates[i]) || std::abs(rates[i]) > 1000.0
+                || (i > 0 && rates[i] != rates[i - 1] + 1.0))
                 throw Error(where + ".rates", "must be consecutive integers, ascending");
         if (rates.empty())
             return;
@@ -97,12 +99,14 @@ namespace {
             return;
         }
         if (!step->is_object())
-            throw Error(where + ".step", "must be a list of probabilities, \"uniform-admissible\" or {\"gaussian\": cells}");
+            throw Error(where + ".step",
+                        "must be a list of probabilities, \"uniform-admissible\" or {\"gaussian\": cells}");
         checkKeys(*step, where + ".step", {"gaussian"});
         constexpr double widest = 1e5; // its law is nine times as long
         const double deviation = number(*step, where + ".step", "gaussian", -1.0);
         if (!(deviation >= 0.0 && deviation <= widest))
-            throw Error(where + ".step.gaussian", "must be a standard deviation of 0 … " + formatNumber(widest) + " cells");
+            throw Error(where + ".step.gaussian",
+                        "must be a standard deviation of 0 … " + formatNumber(widest) + " cells");
         axis.step = gaussianStep(deviation, axis.cyclic ? (axis.cells + 1) / 2 : axis.cells);
     }
 
@@ -125,7 +129,8 @@ namespace {
 
     KinematicAxis readAxis(const Json &json, const std::string &where, bool mayFold = false)
     {
-        std::vector<std::string> known{"name", "cells", "cyclic", "rates", "ratesPerCell", "rateChange", "step", "round", "transition", "renormalised"};
+        std::vector<std::string> known{"name",       "cells", "cyclic", "rates",      "ratesPerCell",
+                                       "rateChange", "step",  "round",  "transition", "renormalised"};
         if (mayFold)
             known.push_back("integrate");
         checkKeys(json, where, known);
@@ -187,7 +192,8 @@ namespace {
         if (kind == LikelihoodKind::Exponential && !object.contains("snr") && !object.contains("r0"))
             throw Error(where, "exponential needs \"snr\", a power ratio");
         if (!(snr > 0.0 && snr < 1e12))
-            throw Error(where + (object.contains("r0") ? ".r0" : ".snr") + " = " + formatNumber(snr), "must be a power ratio above 0");
+            throw Error(where + (object.contains("r0") ? ".r0" : ".snr") + " = " + formatNumber(snr),
+                        "must be a power ratio above 0");
         return Likelihood(kind, snr);
     }
 
@@ -223,7 +229,8 @@ ModelFile modelFromJson(const Json &json, const std::string &path)
     if (scales && !json["likelihood"].contains("r0") && !json["likelihood"].contains("snr"))
         throw Error(path + ": scaleTransitions", "needs \"snr\" in the likelihood");
     try {
-        file.model = {StateSpace(std::move(axes)), likelihood, scales ? (1.0 + likelihood.snr()) / likelihood.snr() : 1.0};
+        file.model = {StateSpace(std::move(axes)), likelihood,
+                      scales ? (1.0 + likelihood.snr()) / likelihood.snr() : 1.0};
     } catch (const Error &error) {
         throw error.in(path);
     }
@@ -238,7 +245,8 @@ ModelFile modelFromJson(const Json &json, const std::string &path)
         file.reset.lnK = number(reset, place, "lnK", 0.0);
         file.reset.k0 = number(reset, place, "K0", 0.0);
         file.reset.gain = number(reset, place, "gain", file.reset.gain);
-        file.isSum = file.isSum || choice(reset, place, "semiring", std::array<std::string_view, 2>{"max", "sum"}, 0) == 1;
+        file.isSum =
+            file.isSum || choice(reset, place, "semiring", std::array<std::string_view, 2>{"max", "sum"}, 0) == 1;
     }
     if (file.isSum && file.reset.law != ResetLaw::Fixed && file.reset.law != ResetLaw::None)
         throw Error(path + ": reset.law", "must be fixed or none if the semiring is sum");
@@ -259,13 +267,15 @@ SequentialModel readSequentialModel(const std::string &path, const FrameCells *f
         cells.push_back(axes.back().cells);
     }
     if (frames && frames->cells != cells)
-        throw Error(path, "has " + cellsText(cells) + " cells, but the frames of " + frames->path + " have " + cellsText(frames->cells));
+        throw Error(path, "has " + cellsText(cells) + " cells, but the frames of " + frames->path + " have "
+                              + cellsText(frames->cells));
     std::vector<double> initial;
     if (json.contains("initial") && json["initial"] != "uniform")
         initial = numbers(json, path, "initial");
     const Likelihood likelihood = readLikelihood(json, path);
     if (json.contains("scaleTransitions") && json["scaleTransitions"] != false)
-        throw Error(path + ": scaleTransitions", "cannot be used in a sequential test, whose likelihood ratio is exact");
+        throw Error(path + ": scaleTransitions",
+                    "cannot be used in a sequential test, whose likelihood ratio is exact");
     try {
         return makeSequentialModel(axes, isFolded, likelihood, std::move(initial));
     } catch (const Error &error) {
@@ -278,18 +288,21 @@ GridFile readGridFile(const std::string &path, const std::vector<Index> &shape)
     const Json json = readJsonFile(path);
     checkKeys(json, path, {"axes", "time", "values"});
     if (!json.contains("axes") || !json["axes"].is_array() || json["axes"].size() + 1 != shape.size())
-        throw Error(path, "needs \"axes\", one for each of the frames' " + std::to_string(shape.size() - 1) + " cell axes");
+        throw Error(path,
+                    "needs \"axes\", one for each of the frames' " + std::to_string(shape.size() - 1) + " cell axes");
     GridFile file;
     for (std::size_t i = 0; i < json["axes"].size(); ++i) {
         const Json &axis = json["axes"][i];
         const std::string where = path + ": axes[" + std::to_string(i) + "]";
         checkKeys(axis, where, {"name", "unit", "first", "step", "count", "cells", "cyclic"});
-        const double count = number(axis, where, "count", number(axis, where, "cells", static_cast<double>(shape[i + 1])));
+        const double count =
+            number(axis, where, "count", number(axis, where, "cells", static_cast<double>(shape[i + 1])));
         if (count != static_cast<double>(shape[i + 1]))
-            throw Error(where + ".count", "is " + formatNumber(count) + ", but the frames have " + std::to_string(shape[i + 1]) + " cells there");
-        file.grid.axes.push_back({text(axis, where, "name", "axis " + std::to_string(i + 1)), text(axis, where, "unit", ""),
-                                  number(axis, where, "first", 0.0), number(axis, where, "step", 1.0), shape[i + 1],
-                                  flag(axis, where, "cyclic")});
+            throw Error(where + ".count", "is " + formatNumber(count) + ", but the frames have "
+                                              + std::to_string(shape[i + 1]) + " cells there");
+        file.grid.axes.push_back({text(axis, where, "name", "axis " + std::to_string(i + 1)),
+                                  text(axis, where, "unit", ""), number(axis, where, "first", 0.0),
+                                  number(axis, where, "step", 1.0), shape[i + 1], flag(axis, where, "cyclic")});
         if (!(file.grid.axes.back().step > 0.0))
             throw Error(where + ".step", "must be above 0");
     }
@@ -313,7 +326,8 @@ namespace {
     {
         const auto bad = std::find_if(values.begin(), values.end(), [](auto y) { return y < 0 || std::isinf(y); });
         if (bad != values.end())
-            throw Error(where, "holds " + formatNumber(static_cast<double>(*bad)) + " at position " + std::to_string(bad - values.begin())
+            throw Error(where, "holds " + formatNumber(static_cast<double>(*bad)) + " at position "
+                                   + std::to_string(bad - values.begin())
                                    + "; normalised power must be finite and not negative, or NaN for unobserved cells");
     }
 
@@ -344,8 +358,12 @@ std::string gridFileText(const GridFile &file)
     Json json;
     json["axes"] = Json::array();
     for (const Axis &axis : file.grid.axes)
-        json["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"first", axis.first}, {"step", axis.step},
-                                {"count", axis.count}, {"cyclic", axis.cyclic}});
+        json["axes"].push_back({{"name", axis.name},
+                                {"unit", axis.unit},
+                                {"first", axis.first},
+                                {"step", axis.step},
+                                {"count", axis.count},
+                                {"cyclic", axis.cyclic}});
     json["time"] = {{"first", file.time.first}, {"step", file.time.step}};
     if (file.isPower)
         json["values"] = "power";

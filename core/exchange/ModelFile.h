@@ -44,8 +44,8 @@ KinematicAxis kinematicAxisFromJson(const Json &json, const std::string &where);
 ///   axes: "step": "uniform-admissible" | {"gaussian": σ in cells}, both shared out among the cells that exist; "integrate": true,
 ///   an axis of the frames without a state; "transition": [[P(from, to)]] in place of a law;   "initial": [P(x1) of every state]
 ///
-/// readModelFile takes the steps and the matrix as well. Throws Error; also where the cells are not those of the frames, if these are known,
-/// and before anything is made as large as the file says.
+/// readModelFile takes the steps and the matrix as well. Throws Error; also where the cells are not those of the
+/// frames, if these are known, and before anything is made as large as the file says.
 struct FrameCells {
     std::string path;
     std::vector<Index> cells; ///< of every axis
@@ -60,7 +60,8 @@ struct DoubleFrames {
 DoubleFrames readDoubleFrames(const std::string &path);
 
 /// Grid and time axis of a stack of frames: { "axes": [ { "name", "unit", "first", "step", "count", "cyclic" } ],
-/// "time": { "first", "step" }, "values": "normalised" | "power" }; count may be left out where the frames tell it. Throws Error.
+/// "time": { "first", "step" }, "values": "normalised" | "power" }; count may be left out where the frames tell it.
+/// Throws Error.
 struct GridFile {
     Grid grid;
     Axis time;
@@ -74,8 +75,8 @@ std::string gridFileText(const GridFile &file);
 /// Throws Error naming `where` for values that are negative or infinite.
 void checkFrameValues(std::span<const float> values, const std::string &where);
 
-/// Ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units). Values that are
-/// negative or infinite are refused; NaN stands for a cell that was not observed.
+/// Ready-made frames from a NumPy file of shape (frames, cells…); `grid` may be empty (axes without units). Values that
+/// are negative or infinite are refused; NaN stands for a cell that was not observed.
 NormalisedFramesPointer readFrames(const std::string &path, const std::string &gridPath);
 
 } // namespace faintline

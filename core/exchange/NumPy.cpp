@@ -76,7 +76,8 @@ namespace {
                 shape.push_back(static_cast<Index>(*number));
                 values *= *number;
                 if (values > std::ldexp(1.0, mostExponent))
-                    throw Error(path, "holds more than " + std::string(mostExponent == arrayExponent ? "2³¹" : "2⁵⁰") + " values");
+                    throw Error(path, "holds more than " + std::string(mostExponent == arrayExponent ? "2³¹" : "2⁵⁰")
+                                          + " values");
             }
             text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 1);
         }
@@ -90,7 +91,8 @@ namespace {
 
     Error cutShort(const NumPyLayout &layout, const std::string &path)
     {
-        return Error(path, "is truncated: its shape " + shapeText(layout.shape) + " requires " + std::to_string(valueCount(layout)) + " values");
+        return Error(path, "is truncated: its shape " + shapeText(layout.shape) + " requires "
+                               + std::to_string(valueCount(layout)) + " values");
     }
 
     NumPyLayout readLayout(std::ifstream &file, int mostExponent, const std::string &path)
@@ -117,18 +119,22 @@ namespace {
             throw Error(path, "is in Fortran order; save it in C order (numpy.ascontiguousarray)");
         const std::string_view type = entry(dictionary, "descr", path);
         if (!type.starts_with("'<f4'") && !type.starts_with("'<f8'"))
-            throw Error(path, "holds " + std::string(type.substr(0, type.find(','))) + "; expected float32 or float64, little-endian");
-        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path), static_cast<Index>(before + length), type.starts_with("'<f8'")};
+            throw Error(path, "holds " + std::string(type.substr(0, type.find(',')))
+                                  + "; expected float32 or float64, little-endian");
+        NumPyLayout layout{parseShape(entry(dictionary, "shape", path), mostExponent, path),
+                           static_cast<Index>(before + length), type.starts_with("'<f8'")};
         std::error_code code;
         const std::uintmax_t size = std::filesystem::file_size(path, code);
-        const auto wanted = static_cast<std::uintmax_t>(valueCount(layout)) * (layout.isDouble ? sizeof(double) : sizeof(float));
+        const auto wanted =
+            static_cast<std::uintmax_t>(valueCount(layout)) * (layout.isDouble ? sizeof(double) : sizeof(float));
         if (!code && size - before - length < wanted) // before room is made for values that are not there
             throw cutShort(layout, path);
         return layout;
     }
 
     template <class T, class Array>
-    void readValues(std::ifstream &file, Array &array, std::size_t total, const NumPyLayout &layout, const std::string &path)
+    void readValues(std::ifstream &file, Array &array, std::size_t total, const NumPyLayout &layout,
+                    const std::string &path)
     {
         array.values.resize(total);
         std::vector<T> chunk(1 << 16);
@@ -192,7 +198,8 @@ void NumPyWriter::write(std::span<const float> values)
 void NumPyWriter::finish()
 {
     if (m_written != m_expected)
-        throw Error(m_path, std::to_string(m_written) + " of " + std::to_string(m_expected) + " values were written", Error::Kind::Failure);
+        throw Error(m_path, std::to_string(m_written) + " of " + std::to_string(m_expected) + " values were written",
+                    Error::Kind::Failure);
     m_file.commit();
 }
 

@@ -20,11 +20,13 @@ bool NumPyPower::recognises(const std::string &path, const std::string &gridPath
     }
 }
 
-NumPyPower::NumPyPower(const std::string &path, const std::string &gridPath) : m_file(path), m_layout(readNumPyLayout(path))
+NumPyPower::NumPyPower(const std::string &path, const std::string &gridPath)
+    : m_file(path), m_layout(readNumPyLayout(path))
 {
     const GridFile grid = readGridFile(gridPath, m_layout.shape);
     if (grid.grid.axes.size() != 1)
-        throw Error(path, "holds power on " + std::to_string(grid.grid.axes.size()) + " axes; (frames, frequencies) can be normalised");
+        throw Error(path, "holds power on " + std::to_string(grid.grid.axes.size())
+                              + " axes; (frames, frequencies) can be normalised");
     m_info.path = path;
     m_info.container = "NumPy spectrogram";
     m_info.sampleType = m_layout.isDouble ? "float64" : "float32";
@@ -39,9 +41,12 @@ void NumPyPower::read(const PowerPart &part, std::span<float> out) const
     const Index valueBytes = m_layout.isDouble ? sizeof(double) : sizeof(float);
     std::vector<double> doubles(m_layout.isDouble ? static_cast<std::size_t>(part.cells) : 0);
     for (Index i = 0; i < part.frames; ++i) {
-        const std::span<float> row = out.subspan(static_cast<std::size_t>(i * part.cells), static_cast<std::size_t>(part.cells));
-        const std::span<std::byte> bytes = m_layout.isDouble ? std::as_writable_bytes(std::span(doubles)) : std::as_writable_bytes(row);
-        const Index at = m_layout.offset + ((part.firstFrame + i) * m_info.frequency.count + part.firstCell) * valueBytes;
+        const std::span<float> row =
+            out.subspan(static_cast<std::size_t>(i * part.cells), static_cast<std::size_t>(part.cells));
+        const std::span<std::byte> bytes =
+            m_layout.isDouble ? std::as_writable_bytes(std::span(doubles)) : std::as_writable_bytes(row);
+        const Index at =
+            m_layout.offset + ((part.firstFrame + i) * m_info.frequency.count + part.firstCell) * valueBytes;
         if (m_file.readAt(at, bytes) < bytes.size())
             throw Error(m_info.path, "became shorter while it was open", Error::Kind::Failure);
         for (std::size_t cell = 0; cell < doubles.size(); ++cell)

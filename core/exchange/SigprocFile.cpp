@@ -27,13 +27,15 @@ namespace {
     enum class Kind { Whole, Real, Text, Byte, Nothing };
 
     const std::map<std::string_view, Kind> keywords{
-        {"telescope_id", Kind::Whole}, {"machine_id", Kind::Whole}, {"data_type", Kind::Whole}, {"rawdatafile", Kind::Text},
-        {"source_name", Kind::Text},   {"barycentric", Kind::Whole}, {"pulsarcentric", Kind::Whole}, {"az_start", Kind::Real},
-        {"za_start", Kind::Real},      {"src_raj", Kind::Real},     {"src_dej", Kind::Real},   {"tstart", Kind::Real},
-        {"tsamp", Kind::Real},         {"nbits", Kind::Whole},      {"nsamples", Kind::Whole}, {"fch1", Kind::Real},
-        {"foff", Kind::Real},          {"nchans", Kind::Whole},     {"nifs", Kind::Whole},     {"refdm", Kind::Real},
-        {"period", Kind::Real},        {"nbeams", Kind::Whole},     {"ibeam", Kind::Whole},    {"signed", Kind::Byte},
-        {"npuls", Kind::Whole},        {"nbins", Kind::Whole},      {"FREQUENCY_START", Kind::Nothing}};
+        {"telescope_id", Kind::Whole},  {"machine_id", Kind::Whole}, {"data_type", Kind::Whole},
+        {"rawdatafile", Kind::Text},    {"source_name", Kind::Text}, {"barycentric", Kind::Whole},
+        {"pulsarcentric", Kind::Whole}, {"az_start", Kind::Real},    {"za_start", Kind::Real},
+        {"src_raj", Kind::Real},        {"src_dej", Kind::Real},     {"tstart", Kind::Real},
+        {"tsamp", Kind::Real},          {"nbits", Kind::Whole},      {"nsamples", Kind::Whole},
+        {"fch1", Kind::Real},           {"foff", Kind::Real},        {"nchans", Kind::Whole},
+        {"nifs", Kind::Whole},          {"refdm", Kind::Real},       {"period", Kind::Real},
+        {"nbeams", Kind::Whole},        {"ibeam", Kind::Whole},      {"signed", Kind::Byte},
+        {"npuls", Kind::Whole},         {"nbins", Kind::Whole},      {"FREQUENCY_START", Kind::Nothing}};
 
     /// Goes through a header from its beginning.
     class HeaderReader
@@ -53,7 +55,8 @@ namespace {
         {
             const auto length = number<std::int32_t>();
             if (length < 1 || length > longestWord)
-                throw Error(m_path, "its filterbank header has a keyword of " + std::to_string(length) + " characters; 1 … 255 are possible");
+                throw Error(m_path, "its filterbank header has a keyword of " + std::to_string(length)
+                                        + " characters; 1 … 255 are possible");
             const std::span<const std::byte> text = take(static_cast<std::size_t>(length));
             return {reinterpret_cast<const char *>(text.data()), text.size()};
         }
@@ -84,7 +87,8 @@ namespace {
         for (std::string word = header.word(); word != "HEADER_END"; word = header.word()) {
             const auto known = keywords.find(word);
             if (known == keywords.end())
-                throw Error(path, "its filterbank header has the keyword " + oneLine(word) + ", which is not known, nor how long its value is");
+                throw Error(path, "its filterbank header has the keyword " + oneLine(word)
+                                      + ", which is not known, nor how long its value is");
             switch (known->second) {
             case Kind::Whole:
                 values[word] = header.number<std::int32_t>();
@@ -99,7 +103,8 @@ namespace {
                 header.word();
                 break;
             case Kind::Nothing:
-                throw Error(path, "lists a frequency for each channel; evenly spaced channels (fch1, foff) can be read");
+                throw Error(path,
+                            "lists a frequency for each channel; evenly spaced channels (fch1, foff) can be read");
             }
         }
         return values;
@@ -113,11 +118,13 @@ namespace {
         return found->second;
     }
 
-    double requiredWithin(const Values &values, const std::string &name, const std::string &path, double least, double most)
+    double requiredWithin(const Values &values, const std::string &name, const std::string &path, double least,
+                          double most)
     {
         const double value = required(values, name, path);
         if (!(value >= least && value <= most))
-            throw Error(path + ": " + name + " = " + formatNumber(value), "must lie in " + formatNumber(least) + " … " + formatNumber(most));
+            throw Error(path + ": " + name + " = " + formatNumber(value),
+                        "must lie in " + formatNumber(least) + " … " + formatNumber(most));
         return value;
     }
 
@@ -176,17 +183,23 @@ SigprocFile::SigprocFile(const std::string &path) : m_file(path)
     m_info.quantum = m_bits < 8 ? 1.0 : 0.0;
     const Index bitsOfFrame = channels * m_info.channelCount * m_bits;
     if (bitsOfFrame % 8 != 0)
-        throw Error(path + ": nchans = " + std::to_string(channels), "of " + std::to_string(m_bits) + " bits do not fill whole bytes");
+        throw Error(path + ": nchans = " + std::to_string(channels),
+                    "of " + std::to_string(m_bits) + " bits do not fill whole bytes");
     const Index dataBytes = m_file.size() - m_dataOffset;
     const Index frames = dataBytes / (bitsOfFrame / 8);
     if (frames < 1)
         throw Error(path, "holds no whole spectrum of its " + std::to_string(channels) + " channels");
-    const FilterbankHeader axes{required(values, "fch1", path), required(values, "foff", path), required(values, "tsamp", path),
-                                valueOr(values, "tstart", 0.0), channels, frames};
+    const FilterbankHeader axes{required(values, "fch1", path),
+                                required(values, "foff", path),
+                                required(values, "tsamp", path),
+                                valueOr(values, "tstart", 0.0),
+                                channels,
+                                frames};
     setFilterbankAxes(m_info, axes, path);
     m_descends = axes.foff < 0.0;
     if (const auto claimed = static_cast<Index>(valueOr(values, "nsamples", 0.0)); claimed > frames)
-        m_info.notes.push_back("The header claims " + std::to_string(claimed) + " spectra; the " + std::to_string(frames) + " that are there are read.");
+        m_info.notes.push_back("The header claims " + std::to_string(claimed) + " spectra; the "
+                               + std::to_string(frames) + " that are there are read.");
     else if (dataBytes % (bitsOfFrame / 8) != 0)
         m_info.notes.push_back("The file ends within a spectrum, which is left out.");
 }
@@ -242,7 +255,8 @@ void SigprocFile::read(const PowerPart &part, std::span<float> out) const
 {
     const Index first = m_descends ? m_info.frequency.count - part.firstCell - part.cells : part.firstCell;
     for (Index i = 0; i < part.frames; ++i) {
-        const std::span<float> frame = out.subspan(static_cast<std::size_t>(i * part.cells), static_cast<std::size_t>(part.cells));
+        const std::span<float> frame =
+            out.subspan(static_cast<std::size_t>(i * part.cells), static_cast<std::size_t>(part.cells));
         readRow((part.firstFrame + i) * m_info.channelCount + part.channel, first, frame);
         if (m_descends)
             std::reverse(frame.begin(), frame.end());

@@ -10,9 +10,10 @@ namespace faintline {
 ///   header   HEADER_START, then keywords with values, texts as a length of 32 bits and as many characters, to HEADER_END
 ///   data     frames × IFs × channels; of 1, 2 and 4 bits the lowest come first
 ///
-/// Channel i lies at fch1 + i·foff MHz; where foff is negative the channels are turned round, so that frequencies ascend. The time of a frame is the middle of
-/// its tsamp seconds, tstart (MJD) the beginning of the first. IFs are the channels of PowerInfo. A file that ends within a frame is read up to it, with a note.
-/// Source: sigproc (Lorimer), read_header.c. Reads nothing but what is asked for; thread-safe.
+/// Channel i lies at fch1 + i·foff MHz; where foff is negative the channels are turned round, so that frequencies
+/// ascend. The time of a frame is the middle of its tsamp seconds, tstart (MJD) the beginning of the first. IFs are the
+/// channels of PowerInfo. A file that ends within a frame is read up to it, with a note. Source: sigproc (Lorimer),
+/// read_header.c. Reads nothing but what is asked for; thread-safe.
 class SigprocFile final : public PowerFrames
 {
 public:

@@ -6,7 +6,8 @@
 
 namespace faintline {
 
-/// "label [rejected] note": what a format with one text for everything holds. A note without a verdict comes after "[]".
+/// "label [rejected] note": what a format with one text for everything holds. A note without a verdict comes after
+/// "[]".
 std::string annotationText(const std::string &label, Verdict verdict, const std::string &note);
 
 /// Takes such a text apart; one without brackets is all label.

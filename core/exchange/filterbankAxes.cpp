@@ -12,7 +12,8 @@ namespace {
     void check(double value, double least, double most, const char *name, const std::string &path)
     {
         if (!(value >= least && value <= most))
-            throw Error(path + ": " + name + " = " + formatNumber(value), "must lie in " + formatNumber(least) + " … " + formatNumber(most));
+            throw Error(path + ": " + name + " = " + formatNumber(value),
+                        "must lie in " + formatNumber(least) + " … " + formatNumber(most));
     }
 
 } // namespace
@@ -28,7 +29,8 @@ void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const st
     check(header.foff, -farthest, farthest, "foff", path);
     if (!(std::abs(header.foff) > 0.0))
         throw Error(path + ": foff = 0", "must be the channels' distance, MHz");
-    const double lowest = header.foff < 0.0 ? header.fch1 + static_cast<double>(header.channels - 1) * header.foff : header.fch1;
+    const double lowest =
+        header.foff < 0.0 ? header.fch1 + static_cast<double>(header.channels - 1) * header.foff : header.fch1;
     info.frequency = {"frequency", "Hz", lowest * megahertz, std::abs(header.foff) * megahertz, header.channels, false};
     info.time = {"time", "s", 0.5 * header.tsamp, header.tsamp, header.frames, false};
     if (header.tstart > unixDay && header.tstart < 1e6)

@@ -16,8 +16,8 @@ struct FilterbankHeader {
     Index frames = 0;
 };
 
-/// Sets an information's axes and start time: frequencies ascend, in Hz; the time of a frame is its middle. Throws Error naming `path` and the value
-/// that cannot be.
+/// Sets an information's axes and start time: frequencies ascend, in Hz; the time of a frame is its middle. Throws
+/// Error naming `path` and the value that cannot be.
 void setFilterbankAxes(PowerInfo &info, const FilterbankHeader &header, const std::string &path);
 
 } // namespace faintline

@@ -19,8 +19,9 @@ namespace {
     {
         constexpr std::string_view ending = ".npy";
         return path.size() >= ending.size()
-            && std::equal(ending.begin(), ending.end(), path.end() - static_cast<Index>(ending.size()),
-                          [](char small, char given) { return small == std::tolower(static_cast<unsigned char>(given)); });
+               && std::equal(
+                   ending.begin(), ending.end(), path.end() - static_cast<Index>(ending.size()),
+                   [](char small, char given) { return small == std::tolower(static_cast<unsigned char>(given)); });
     }
 
     bool isFile(const std::string &path)

@@ -14,8 +14,8 @@ namespace faintline {
 /// Where the axes of a stack of frames are described: beside it, NAME.grid.json for NAME.npy.
 std::string gridPathOf(const std::string &stackPath);
 
-/// Whether a file has time and frequency (or any other axes) in it already, so that it is frames and no recording: a NumPy file by its name, the others of
-/// openPower by content. False where there is no such file.
+/// Whether a file has time and frequency (or any other axes) in it already, so that it is frames and no recording: a
+/// NumPy file by its name, the others of openPower by content. False where there is no such file.
 bool holdsFrames(const std::string &path);
 
 /// A file of power that is not normalised yet; null where it is of another kind. Reads no more than headers.
@@ -40,6 +40,7 @@ struct FramesOptions {
 ///   others   power, over its noise (NormalisedPower)
 ///
 /// Throws Error, Cancelled.
-NormalisedFramesPointer openFrames(const std::string &path, const FramesOptions &options = {}, const RunContext &context = {});
+NormalisedFramesPointer openFrames(const std::string &path, const FramesOptions &options = {},
+                                   const RunContext &context = {});
 
 } // namespace faintline

@@ -104,7 +104,8 @@ namespace {
         double value = 0.0;
         const char *begin = text.data() + std::min(text.find_first_not_of(' '), text.size());
         const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-        if (error != std::errc() || std::string_view(end, text.data() + text.size()).find_first_not_of(' ') != std::string_view::npos
+        if (error != std::errc()
+            || std::string_view(end, text.data() + text.size()).find_first_not_of(' ') != std::string_view::npos
             || !std::isfinite(value))
             throw Error(place, "\"" + oneLine(text.substr(0, 40)) + "\" is not a number for " + what);
         return value;
@@ -112,7 +113,8 @@ namespace {
 
     std::optional<double> optionalNumber(const std::string &text, const std::string &place, const std::string &what)
     {
-        return text.find_first_not_of(' ') == std::string::npos ? std::nullopt : std::optional(numberOf(text, place, what));
+        return text.find_first_not_of(' ') == std::string::npos ? std::nullopt
+                                                                : std::optional(numberOf(text, place, what));
     }
 
     /// Checks a box and puts it to the others.
@@ -210,7 +212,8 @@ namespace {
             label = label < 0 ? header.column(name) : label;
         return fromRows(lines, header, splitAtTabs,
                         {header.needed("Begin Time (s)"), header.needed("End Time (s)"), header.column("Low Freq (Hz)"),
-                         header.column("High Freq (Hz)"), label, header.column("Review"), header.column("Notes"), header.column("Selection")});
+                         header.column("High Freq (Hz)"), label, header.column("Review"), header.column("Notes"),
+                         header.column("Selection")});
     }
 
     std::vector<Annotation> fromCsv(const std::string &path, const std::string &text)
@@ -221,9 +224,9 @@ namespace {
         const std::ptrdiff_t low = header.column("f_low") >= 0 ? header.column("f_low") : header.column("f");
         const std::ptrdiff_t high = header.column("f_high") >= 0 ? header.column("f_high") : header.column("f");
         const std::ptrdiff_t label = header.column("label");
-        std::vector<Annotation> all = fromRows(
-            lines, header, splitCsv,
-            {header.needed("t_onset"), header.needed("t_end"), low, high, label, header.column("review"), header.column("note")});
+        std::vector<Annotation> all = fromRows(lines, header, splitCsv,
+                                               {header.needed("t_onset"), header.needed("t_end"), low, high, label,
+                                                header.column("review"), header.column("note")});
         if (label < 0)
             for (std::size_t i = 0; i < all.size(); ++i)
                 all[i].label = "event " + std::to_string(i + 1);

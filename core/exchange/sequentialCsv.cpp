@@ -16,8 +16,12 @@ std::string walksCsv(const std::vector<std::pair<ScanRun, SprtResult>> &walks, b
     std::string csv = "hypothesis,run,stage,lnLambda,decision\n";
     for (const auto &[run, result] : walks)
         for (std::size_t i = 0; i < result.lnLambda.size(); ++i)
-            csv += std::string(!isSimulated ? "" : run.hasTarget ? "H1" : "H0") + "," + std::to_string(run.number) + "," + std::to_string(i + 1) + ","
-                + formatNumber(result.lnLambda[i]) + "," + (i + 1 == result.lnLambda.size() ? nameOf(result.decision) : "") + "\n";
+            csv += std::string(!isSimulated    ? ""
+                               : run.hasTarget ? "H1"
+                                               : "H0")
+                   + "," + std::to_string(run.number) + "," + std::to_string(i + 1) + ","
+                   + formatNumber(result.lnLambda[i]) + ","
+                   + (i + 1 == result.lnLambda.size() ? nameOf(result.decision) : "") + "\n";
     return csv;
 }
 
@@ -26,8 +30,9 @@ std::string posteriorCsv(const PosteriorPicture &posterior)
     std::string csv = "stage,cell,probability\n";
     for (std::size_t i = 0; i < posterior.probability.size(); ++i) {
         const auto index = static_cast<Index>(i);
-        csv += std::to_string(index / posterior.cells * posterior.stride + 1) + "," + std::to_string(index % posterior.cells) + ","
-            + formatNumber(static_cast<double>(posterior.probability[i])) + "\n";
+        csv += std::to_string(index / posterior.cells * posterior.stride + 1) + ","
+               + std::to_string(index % posterior.cells) + ","
+               + formatNumber(static_cast<double>(posterior.probability[i])) + "\n";
     }
     return csv;
 }
@@ -37,7 +42,8 @@ std::string surveyCsv(const ScanTest &test, const Survey &survey)
     std::string csv = "round,sector,target,first_stage,stages,decision\n";
     for (const SectorVisit &visit : survey.visits)
         csv += std::to_string(visit.round + 1) + "," + std::to_string(visit.sector + 1) + ","
-            + (holdsTarget(test, visit.sector) ? "1" : "0") + "," + std::to_string(visit.firstStage) + "," + std::to_string(visit.result.stages) + "," + nameOf(visit.result.decision) + "\n";
+               + (holdsTarget(test, visit.sector) ? "1" : "0") + "," + std::to_string(visit.firstStage) + ","
+               + std::to_string(visit.result.stages) + "," + nameOf(visit.result.decision) + "\n";
     return csv;
 }
 

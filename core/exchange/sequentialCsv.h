@@ -9,10 +9,11 @@
 
 namespace faintline {
 
-/// What a radar's sequential tests showed, as CSV text with a header; stages, rounds and sectors count from 1, cells from 0.
+/// What a radar's sequential tests showed, as CSV text with a header; stages, rounds and sectors count from 1, cells
+/// from 0.
 
-/// "hypothesis,run,stage,lnLambda,decision", a row per stage taken; decision on the last of a run. `isSimulated`: the hypothesis
-/// is known.
+/// "hypothesis,run,stage,lnLambda,decision", a row per stage taken; decision on the last of a run. `isSimulated`: the
+/// hypothesis is known.
 std::string walksCsv(const std::vector<std::pair<ScanRun, SprtResult>> &walks, bool isSimulated);
 
 /// "stage,cell,probability", a row per cell and kept stage.

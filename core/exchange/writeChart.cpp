@@ -23,13 +23,18 @@ namespace {
     constexpr int ticksWanted = 6;
 
     /// Okabe and Ito's palette: told apart by colour-blind readers too.
-    constexpr std::array<std::string_view, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+    constexpr std::array<std::string_view, 7> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                      "#e69f00", "#56b4e9", "#000000"};
 
     std::string escaped(std::string_view text)
     {
         std::string result;
         for (const char c : text)
-            result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+            result += c == '&'   ? "&amp;"
+                      : c == '<' ? "&lt;"
+                      : c == '>' ? "&gt;"
+                      : c == '"' ? "&quot;"
+                                 : std::string(1, c);
         return result;
     }
 
@@ -72,7 +77,8 @@ namespace {
             }
             if (low == high)
                 high += 1.0;
-            step = tickStep(); // of the range as it is: the widened one might ask for another, and its top lie off the canvas
+            step =
+                tickStep(); // of the range as it is: the widened one might ask for another, and its top lie off the canvas
             low = std::floor(low / step + 1e-9) * step;
             high = std::ceil(high / step - 1e-9) * step;
         }
@@ -105,20 +111,22 @@ namespace {
 
         double at(double value) const
         {
-            const double share = isLogarithmic ? std::log(std::max(value, low * 1e-3) / low) / std::log(high / low) : (value - low) / (high - low);
+            const double share = isLogarithmic ? std::log(std::max(value, low * 1e-3) / low) / std::log(high / low)
+                                               : (value - low) / (high - low);
             return from + share * (to - from);
         }
     };
 
     std::string line(double x1, double y1, double x2, double y2, std::string_view style)
     {
-        return "<path d=\"M" + pixels(x1) + " " + pixels(y1) + "L" + pixels(x2) + " " + pixels(y2) + "\" " + std::string(style) + "/>\n";
+        return "<path d=\"M" + pixels(x1) + " " + pixels(y1) + "L" + pixels(x2) + " " + pixels(y2) + "\" "
+               + std::string(style) + "/>\n";
     }
 
     std::string text(double x, double y, std::string_view anchor, std::string_view words, std::string_view more = "")
     {
-        return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" text-anchor=\"" + std::string(anchor) + "\"" + std::string(more) + ">"
-            + escaped(words) + "</text>\n";
+        return "<text x=\"" + pixels(x) + "\" y=\"" + pixels(y) + "\" text-anchor=\"" + std::string(anchor) + "\""
+               + std::string(more) + ">" + escaped(words) + "</text>\n";
     }
 
     std::string tickText(double value)
@@ -140,8 +148,8 @@ namespace {
             svg += line(x.from, y.at(value), x.to, y.at(value), "stroke=\"#dddddd\"");
             svg += text(x.from - 8.0, y.at(value) + 4.0, "end", tickText(value));
         }
-        svg += "<rect x=\"" + pixels(x.from) + "\" y=\"" + pixels(y.to) + "\" width=\"" + pixels(x.to - x.from) + "\" height=\""
-            + pixels(y.from - y.to) + "\" fill=\"none\" stroke=\"#444444\"/>\n";
+        svg += "<rect x=\"" + pixels(x.from) + "\" y=\"" + pixels(y.to) + "\" width=\"" + pixels(x.to - x.from)
+               + "\" height=\"" + pixels(y.from - y.to) + "\" fill=\"none\" stroke=\"#444444\"/>\n";
         svg += text(0.5 * (x.from + x.to), height - 16.0, "middle", chart.xLabel);
         const double middle = 0.5 * (y.from + y.to);
         svg += text(18.0, middle, "middle", chart.yLabel, " transform=\"rotate(-90 18 " + pixels(middle) + ")\"");
@@ -158,17 +166,18 @@ namespace {
             const std::string py = pixels(y.at(point.y));
             path += (path.empty() ? "M" : "L") + px + " " + py;
             if (point.interval.low < point.interval.high)
-                marks += line(x.at(point.x), y.at(point.interval.low), x.at(point.x), y.at(point.interval.high), "stroke=\"" + colour + "\"");
+                marks += line(x.at(point.x), y.at(point.interval.low), x.at(point.x), y.at(point.interval.high),
+                              "stroke=\"" + colour + "\"");
             if (curve.kind != Curve::Kind::Theory)
                 marks += "<circle cx=\"" + px + "\" cy=\"" + py + "\" r=\"3\" stroke=\"" + colour + "\" fill=\""
-                    + (curve.kind == Curve::Kind::Paper ? "white" : colour) + "\"/>\n";
+                         + (curve.kind == Curve::Kind::Paper ? "white" : colour) + "\"/>\n";
             if (!point.label.empty())
                 marks += text(x.at(point.x) + 7.0, y.at(point.y) + 12.0, "start", point.label);
         }
         std::string svg;
         if (curve.kind != Curve::Kind::Paper && curve.points.size() > 1)
             svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"1.5\""
-                + (curve.kind == Curve::Kind::Theory ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
+                   + (curve.kind == Curve::Kind::Theory ? " stroke-dasharray=\"6 4\"" : "") + "/>\n";
         return svg + marks;
     }
 
@@ -181,10 +190,12 @@ namespace {
             const Curve::Kind kind = chart.curves[i].kind;
             const double from = x.to + 12.0;
             if (kind != Curve::Kind::Paper)
-                svg += line(from, row, from + 22.0, row, "stroke=\"" + colour + "\" stroke-width=\"1.5\"" + (kind == Curve::Kind::Theory ? " stroke-dasharray=\"6 4\"" : ""));
+                svg += line(from, row, from + 22.0, row,
+                            "stroke=\"" + colour + "\" stroke-width=\"1.5\""
+                                + (kind == Curve::Kind::Theory ? " stroke-dasharray=\"6 4\"" : ""));
             if (kind != Curve::Kind::Theory)
-                svg += "<circle cx=\"" + pixels(from + 11.0) + "\" cy=\"" + pixels(row) + "\" r=\"3\" stroke=\"" + colour + "\" fill=\""
-                    + (kind == Curve::Kind::Paper ? "white" : colour) + "\"/>\n";
+                svg += "<circle cx=\"" + pixels(from + 11.0) + "\" cy=\"" + pixels(row) + "\" r=\"3\" stroke=\""
+                       + colour + "\" fill=\"" + (kind == Curve::Kind::Paper ? "white" : colour) + "\"/>\n";
             svg += text(from + 28.0, row + 4.0, "start", chart.curves[i].name);
         }
         return svg;
@@ -214,10 +225,13 @@ std::string chartSvg(const Chart &chart)
         }
     x.settle();
     y.settle();
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(width + legend) + "\" height=\"" + pixels(height)
-        + "\" font-family=\"Inter, sans-serif\" font-size=\"12\" fill=\"#222222\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-    svg += "<defs><clipPath id=\"canvas\"><rect x=\"" + pixels(x.from - 4.0) + "\" y=\"" + pixels(y.to - 4.0) + "\" width=\""
-        + pixels(x.to - x.from + 8.0) + "\" height=\"" + pixels(y.from - y.to + 8.0) + "\"/></clipPath></defs>\n";
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(width + legend) + "\" height=\""
+                      + pixels(height)
+                      + "\" font-family=\"Inter, sans-serif\" font-size=\"12\" fill=\"#222222\">\n<rect width=\"100%\" "
+                        "height=\"100%\" fill=\"white\"/>\n";
+    svg += "<defs><clipPath id=\"canvas\"><rect x=\"" + pixels(x.from - 4.0) + "\" y=\"" + pixels(y.to - 4.0)
+           + "\" width=\"" + pixels(x.to - x.from + 8.0) + "\" height=\"" + pixels(y.from - y.to + 8.0)
+           + "\"/></clipPath></defs>\n";
     svg += drawAxes(chart, x, y);
     svg += "<g clip-path=\"url(#canvas)\">\n";
     for (std::size_t i = 0; i < chart.curves.size(); ++i)
@@ -233,8 +247,9 @@ std::string chartCsv(const Chart &chart)
         for (const Curve::Point &point : curve.points) {
             const bool hasInterval = point.interval.low < point.interval.high;
             csv += csvText(curve.name) + "," + std::string(kinds[static_cast<std::size_t>(curve.kind)]) + ","
-                + formatNumber(point.x) + "," + formatNumber(point.y) + "," + (hasInterval ? formatNumber(point.interval.low) : "") + ","
-                + (hasInterval ? formatNumber(point.interval.high) : "") + "\n";
+                   + formatNumber(point.x) + "," + formatNumber(point.y) + ","
+                   + (hasInterval ? formatNumber(point.interval.low) : "") + ","
+                   + (hasInterval ? formatNumber(point.interval.high) : "") + "\n";
         }
     return csv;
 }

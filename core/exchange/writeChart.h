@@ -6,8 +6,8 @@
 
 namespace faintline {
 
-/// A chart as SVG text, 720 × 480 pixels: measured curves with their intervals, theory as dashed lines, publications' points hollow.
-/// The same chart gives the same bytes.
+/// A chart as SVG text, 720 × 480 pixels: measured curves with their intervals, theory as dashed lines, publications'
+/// points hollow. The same chart gives the same bytes.
 std::string chartSvg(const Chart &chart);
 
 /// A chart's points as CSV: "curve,kind,x,y,low,high", a row per point; low and high are empty without an interval.

@@ -44,8 +44,8 @@ namespace {
     /// 5 and 95 % of a point's position, probability that the signal is there, and its SNR in one frame.
     std::vector<double> numbersOf(const SmoothedPoint &point, const Axis &axis)
     {
-        return {axis.value(static_cast<double>(point.low)), axis.value(static_cast<double>(point.high)), static_cast<double>(point.presence),
-                dbFromRatio(static_cast<double>(point.level))};
+        return {axis.value(static_cast<double>(point.low)), axis.value(static_cast<double>(point.high)),
+                static_cast<double>(point.presence), dbFromRatio(static_cast<double>(point.level))};
     }
 
     /// On a grid of several axes, names of the rates along each.
@@ -67,8 +67,9 @@ namespace {
 
     std::string eventsCsv(const Analysis &analysis)
     {
-        std::vector<std::string> names{"event", "t_onset", "t_detect", "t_end", joined(positionNames(analysis.grid())), "drift_hz_per_s",
-                                       "statistic", "confirmed", "open"};
+        std::vector<std::string> names{
+            "event",          "t_onset",   "t_detect",  "t_end", joined(positionNames(analysis.grid())),
+            "drift_hz_per_s", "statistic", "confirmed", "open"};
         const std::vector<std::string> rates = rateNames(analysis.grid());
         names.insert(names.end(), rates.begin(), rates.end());
         const bool isSeenTwice = looksTwice(analysis);
@@ -76,10 +77,12 @@ namespace {
             names.insert(names.end(), smoothedNames.begin(), smoothedNames.end());
         std::string text = joined(names) + "\n";
         for (const Event &e : events(analysis)) {
-            const std::vector<std::string> cells{std::to_string(e.id), formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
-                                                 formatNumber(e.endSeconds), joined(e.position), formatNumber(e.driftPerSecond),
-                                                 formatNumber(e.statistic), e.isConfirmed ? "1" : "0", e.isOpen ? "1" : "0"};
-            text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond)) + (isSeenTwice ? "," + joined(smoothedOf(e)) : "") + "\n";
+            const std::vector<std::string> cells{
+                std::to_string(e.id),       formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
+                formatNumber(e.endSeconds), joined(e.position),           formatNumber(e.driftPerSecond),
+                formatNumber(e.statistic),  e.isConfirmed ? "1" : "0",    e.isOpen ? "1" : "0"};
+            text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond))
+                    + (isSeenTwice ? "," + joined(smoothedOf(e)) : "") + "\n";
         }
         return text;
     }
@@ -123,15 +126,16 @@ namespace {
     std::string shownStatistic(const Event &e, const Analysis &analysis)
     {
         const double steps = std::pow(10.0, statisticDecimals(analysis.settings.detector));
-        return formatNumber(std::round(steps * e.statistic) / steps) + " " + std::string(statisticUnit(analysis.settings.detector));
+        return formatNumber(std::round(steps * e.statistic) / steps) + " "
+               + std::string(statisticUnit(analysis.settings.detector));
     }
 
     std::string audacityLabels(const Analysis &analysis)
     {
         std::string text;
         for (const Event &e : events(analysis))
-            text += formatNumber(e.onsetSeconds) + "\t" + formatNumber(e.endSeconds) + "\t" + formatNumber(e.position.back()) + " Hz, "
-                + shownStatistic(e, analysis) + "\n";
+            text += formatNumber(e.onsetSeconds) + "\t" + formatNumber(e.endSeconds) + "\t"
+                    + formatNumber(e.position.back()) + " Hz, " + shownStatistic(e, analysis) + "\n";
         return text;
     }
 
@@ -142,15 +146,18 @@ namespace {
         const double rate = analysis.recording->info().sampleRateHz;
         const double centre = analysis.recording->info().centreHz;
         Json json;
-        json["global"] = {{"core:version", "1.0.0"}, {"core:sample_rate", rate},
-                          {"core:description", std::string("Events found by Faintline's ")
-                                                   + (isScoreOfPaths(analysis.settings.detector)
-                                                          ? "sequential Markov detector"
-                                                          : "detector " + std::string(detectorNames[analysis.settings.detector.index()]))}};
+        json["global"] = {{"core:version", "1.0.0"},
+                          {"core:sample_rate", rate},
+                          {"core:description",
+                           std::string("Events found by Faintline's ")
+                               + (isScoreOfPaths(analysis.settings.detector)
+                                      ? "sequential Markov detector"
+                                      : "detector " + std::string(detectorNames[analysis.settings.detector.index()]))}};
         json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
         json["annotations"] = Json::array();
         for (const Event &e : events(analysis)) {
-            const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [&](const Track &t) { return t.id == e.id; });
+            const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(),
+                                            [&](const Track &t) { return t.id == e.id; });
             double low = e.position.back();
             double high = low;
             const Axis &frequency = analysis.grid().axes.back();
@@ -165,7 +172,8 @@ namespace {
             annotation["core:freq_lower_edge"] = centre + low;
             annotation["core:freq_upper_edge"] = centre + high;
             annotation["core:label"] = "line " + std::to_string(e.id);
-            std::string comment = "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
+            std::string comment =
+                "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
             if (!std::isnan(e.snrDb))
                 comment += ", SNR " + formatNumber(std::round(10.0 * e.snrDb) / 10.0) + " dB in one window";
             annotation["core:comment"] = comment;
@@ -177,13 +185,15 @@ namespace {
     std::string tracksCsv(const Analysis &analysis)
     {
         const bool isSeenTwice = looksTwice(analysis);
-        std::string text = joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
+        std::string text =
+            joined(std::vector<std::string>{"track", "t", joined(positionNames(analysis.grid())), "statistic"})
             + (isSeenTwice ? "," + joined(smoothedColumns) : "") + "\n";
         for (const Track &track : analysis.tracks)
             for (std::size_t i = 0; i < track.points.size(); ++i) {
                 const TrackPoint &point = track.points[i];
-                text += std::to_string(track.id) + "," + formatNumber(analysis.time().value(static_cast<double>(point.frame))) + ","
-                    + joined(track.positionOf(i, analysis.grid())) + "," + formatNumber(point.statistic);
+                text += std::to_string(track.id) + ","
+                        + formatNumber(analysis.time().value(static_cast<double>(point.frame))) + ","
+                        + joined(track.positionOf(i, analysis.grid())) + "," + formatNumber(point.statistic);
                 if (isSeenTwice)
                     text += "," + joined(numbersOf(track.smoothed[i], analysis.grid().axes.back()));
                 text += "\n";
@@ -219,9 +229,11 @@ namespace {
         return json.dump() + "\n";
     }
 
-    void checkExtension(const std::string &path, std::initializer_list<std::string_view> extensions, const std::string &known)
+    void checkExtension(const std::string &path, std::initializer_list<std::string_view> extensions,
+                        const std::string &known)
     {
-        if (std::none_of(extensions.begin(), extensions.end(), [&](std::string_view extension) { return path.ends_with(extension); }))
+        if (std::none_of(extensions.begin(), extensions.end(),
+                         [&](std::string_view extension) { return path.ends_with(extension); }))
             throw Error(path, "the file name must end in one of " + known);
     }
 
@@ -229,7 +241,8 @@ namespace {
 
 void checkEventsPath(const std::string &path)
 {
-    checkExtension(path, {".csv", ".json", ".txt", ".sigmf-meta"}, ".csv, .json, .txt (Audacity labels) or .sigmf-meta");
+    checkExtension(path, {".csv", ".json", ".txt", ".sigmf-meta"},
+                   ".csv, .json, .txt (Audacity labels) or .sigmf-meta");
 }
 
 void checkTracksPath(const std::string &path)

@@ -6,22 +6,25 @@
 
 namespace faintline {
 
-/// Writes the events of an analysis, the kind by the extension: .csv, .json, .txt (Audacity labels), .sigmf-meta (annotations).
+/// Writes the events of an analysis, the kind by the extension: .csv, .json, .txt (Audacity labels), .sigmf-meta
+/// (annotations).
 ///
-/// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz at detection; or one column per axis), drift_hz_per_s
-/// (along the last axis), statistic (in the detector's unit: nat, or multiples of the noise; the .json names it), confirmed, open; on several
-/// axes AXIS_per_s of each. Numbers in the C locale, shortest form that
-/// reads back the same. Of lines whose tracks were looked at from both ends also snr_db (mean, in one window), band_hz (width of the position's 5-95 %
-/// band) and noise_probability (that noise alone brings such an event in this recording). Files appear only when complete. Throws Error for an unknown extension or a full disk.
+/// CSV columns: event, t_onset, t_detect, t_end (s from the first sample), f (Hz at detection; or one column per axis),
+/// drift_hz_per_s (along the last axis), statistic (in the detector's unit: nat, or multiples of the noise; the .json
+/// names it), confirmed, open; on several axes AXIS_per_s of each. Numbers in the C locale, shortest form that reads
+/// back the same. Of lines whose tracks were looked at from both ends also snr_db (mean, in one window), band_hz (width
+/// of the position's 5-95 % band) and noise_probability (that noise alone brings such an event in this recording).
+/// Files appear only when complete. Throws Error for an unknown extension or a full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
 
 /// Throws Error if `writeEvents` or `writeTracks` does not know the extension of a name; call it before a long run.
 void checkEventsPath(const std::string &path);
 void checkTracksPath(const std::string &path);
 
-/// Writes the tracks: .csv with a row per frame of each track (track, t, f, statistic; where they were looked at
-/// from both ends also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db), or .json. The statistic is the score of the track's path,
-/// in nats for every detector: if it has no paths, that of the sequential Markov detector that guides it.
+/// Writes the tracks: .csv with a row per frame of each track (track, t, f, statistic; where they were looked at from
+/// both ends also f_low and f_high, 5 and 95 % of the position, presence, a probability, and snr_db), or .json. The
+/// statistic is the score of the track's path, in nats for every detector: if it has no paths, that of the sequential
+/// Markov detector that guides it.
 void writeTracks(const Analysis &analysis, const std::string &path);
 
 } // namespace faintline

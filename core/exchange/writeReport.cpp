@@ -73,7 +73,9 @@ namespace {
                 point = text.size();
                 text += '.';
             }
-            text.append(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, decimals - static_cast<std::ptrdiff_t>(text.size() - point - 1))), '0');
+            text.append(static_cast<std::size_t>(std::max<std::ptrdiff_t>(
+                            0, decimals - static_cast<std::ptrdiff_t>(text.size() - point - 1))),
+                        '0');
         }
         return withMinus(text);
     }
@@ -85,7 +87,8 @@ namespace {
             return formatNumber(value);
         const double magnitude = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
         const std::string text = formatNumber(std::round(value / magnitude) * magnitude);
-        return text.size() < 12 ? withMinus(text) : fixed(value, static_cast<int>(std::clamp(-std::log10(magnitude), 0.0, 12.0)));
+        return text.size() < 12 ? withMinus(text)
+                                : fixed(value, static_cast<int>(std::clamp(-std::log10(magnitude), 0.0, 12.0)));
     }
 
     std::string cells(const std::vector<std::string> &texts, const char *tag = "td")
@@ -144,7 +147,8 @@ namespace {
             const RecordingInfo &info = analysis.recording->info();
             text += fact("Format", info.container + ", " + info.sampleType + (info.isComplex ? ", I/Q" : ""));
             text += fact("Sample rate", formatNumber(info.sampleRateHz) + " Hz");
-            text += fact("Length", fixed(info.durationSeconds(), 3) + " s, " + std::to_string(info.sampleCount) + " samples");
+            text += fact("Length",
+                         fixed(info.durationSeconds(), 3) + " s, " + std::to_string(info.sampleCount) + " samples");
             text += fact("Channels", std::to_string(info.channelCount));
             if (info.centreHz != 0.0)
                 text += fact("Centre frequency", formatNumber(info.centreHz) + " Hz");
@@ -153,9 +157,11 @@ namespace {
             for (const std::string &note : info.notes)
                 text += fact("Note", note);
         }
-        text += fact("Frames", std::to_string(analysis.time().count) + ", every " + rough(analysis.time().step) + " " + analysis.time().unit);
+        text += fact("Frames", std::to_string(analysis.time().count) + ", every " + rough(analysis.time().step) + " "
+                                   + analysis.time().unit);
         for (const Axis &axis : analysis.grid().axes)
-            text += fact(capitalised(axis.name), std::to_string(axis.count) + " cells of " + rough(axis.step) + " " + axis.unit);
+            text += fact(capitalised(axis.name),
+                         std::to_string(axis.count) + " cells of " + rough(axis.step) + " " + axis.unit);
         return text + "</table>\n";
     }
 
@@ -166,7 +172,8 @@ namespace {
             const std::optional<FieldValue> value = field.get(settings);
             if (!value || *value == defaultValue(field))
                 continue;
-            rows += cells({field.name, formatFieldValue(*value), formatFieldValue(defaultValue(field)), field.unit, field.sentence});
+            rows += cells({field.name, formatFieldValue(*value), formatFieldValue(defaultValue(field)), field.unit,
+                           field.sentence});
         }
         if (rows.empty())
             return "<p>All settings have their defaults.</p>\n";
@@ -181,12 +188,16 @@ namespace {
         const double halfWidth = calibration.thresholdUncertainty(eventRate);
         const std::string unit = " " + std::string(statisticUnit(analysis.settings.detector));
         std::string text = "<table class=\"facts\">\n";
-        text += fact("Threshold", fixed(analysis.threshold, 2) + unit + "; simulation knows it to \u00b1" + fixed(halfWidth, 2) + unit + " (95 %)");
+        text += fact("Threshold", fixed(analysis.threshold, 2) + unit + "; simulation knows it to \u00b1"
+                                      + fixed(halfWidth, 2) + unit + " (95 %)");
         const double factor = std::exp(calibration.tailSlope * halfWidth);
-        text += fact("False alarms on noise", rough(perHour) + " per hour; 95 % interval " + rough(perHour / factor) + " \u2026 " + rough(perHour * factor));
+        text += fact("False alarms on noise", rough(perHour) + " per hour; 95 % interval " + rough(perHour / factor)
+                                                  + " \u2026 " + rough(perHour * factor));
         text += fact("Pfa per cell", rough(calibration.exceedanceAt(analysis.threshold)));
-        text += fact("ln K", fixed(calibration.lnK, 3) + " nat; " + fixed(100.0 * calibration.continuedFraction, 1) + " % of noise's paths continued");
-        text += fact("Tail e^(\u2212\u03b8T)", "\u03b8 = " + fixed(calibration.tailSlope, 3) + " \u00b1 " + fixed(calibration.slopeError, 3) + " per" + unit);
+        text += fact("ln K", fixed(calibration.lnK, 3) + " nat; " + fixed(100.0 * calibration.continuedFraction, 1)
+                                 + " % of noise's paths continued");
+        text += fact("Tail e^(\u2212\u03b8T)", "\u03b8 = " + fixed(calibration.tailSlope, 3) + " \u00b1 "
+                                                   + fixed(calibration.slopeError, 3) + " per" + unit);
         return text + "</table>\n";
     }
 
@@ -201,7 +212,8 @@ namespace {
         std::vector<RateUnit> units;
         for (std::size_t axis = 0; axis < axes.size(); ++axis) {
             units.push_back(rateUnit(axes[axis], material.events, axis));
-            names.push_back((axes.size() == 1 ? "Drift" : capitalised(axes[axis].name) + " rate") + " (" + units.back().name + ")");
+            names.push_back((axes.size() == 1 ? "Drift" : capitalised(axes[axis].name) + " rate") + " ("
+                            + units.back().name + ")");
         }
         names.push_back("D (" + std::string(statisticUnit(analysis.settings.detector)) + ")");
         const std::size_t numeric = names.size();
@@ -210,7 +222,8 @@ namespace {
         const std::vector<EventReview> said = eventReviews(analysis, material.events, material.annotations.reviews);
         for (std::size_t i = 0; i < material.events.size(); ++i) {
             const Event &event = material.events[i];
-            std::vector<std::string> row{std::to_string(event.id), fixed(event.onsetSeconds, 2), fixed(event.detectSeconds, 2), fixed(event.endSeconds, 2)};
+            std::vector<std::string> row{std::to_string(event.id), fixed(event.onsetSeconds, 2),
+                                         fixed(event.detectSeconds, 2), fixed(event.endSeconds, 2)};
             for (double position : event.position)
                 row.push_back(fixed(position, 2));
             std::string review = nameOf(said[i].verdict);
@@ -218,8 +231,10 @@ namespace {
                 review += (review.empty() ? "part of " : ", part of ") + std::to_string(said[i].signal);
             for (std::size_t axis = 0; axis < axes.size(); ++axis)
                 row.push_back(rough(units[axis].scale * event.ratesPerSecond[axis]));
-            row.insert(row.end(), {fixed(event.statistic, statisticDecimals(analysis.settings.detector)),
-                                   std::string(event.isConfirmed ? "confirmed" : "tentative") + (event.isOpen ? ", open" : ""), review, said[i].note});
+            row.insert(row.end(),
+                       {fixed(event.statistic, statisticDecimals(analysis.settings.detector)),
+                        std::string(event.isConfirmed ? "confirmed" : "tentative") + (event.isOpen ? ", open" : ""),
+                        review, said[i].note});
             std::string line = numbers(row, numeric);
             if (said[i].verdict == Verdict::Rejected)
                 line.insert(3, " class=\"rejected\"");
@@ -232,12 +247,14 @@ namespace {
     {
         if (boxes.empty())
             return {};
-        std::string text = "<h2>Annotations</h2>\n<table class=\"numbers\">\n"
-                           + numbers({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, 4, "th");
+        std::string text =
+            "<h2>Annotations</h2>\n<table class=\"numbers\">\n"
+            + numbers({"From (s)", "To (s)", "Lowest (Hz)", "Highest (Hz)", "Label", "Review", "Note"}, 4, "th");
         for (const Annotation &box : boxes)
-            text += numbers({fixed(box.startSeconds, 2), fixed(box.endSeconds, 2), box.lowHz ? fixed(*box.lowHz, 2) : "",
-                             box.highHz ? fixed(*box.highHz, 2) : "", box.label, nameOf(box.verdict), box.note},
-                            4);
+            text +=
+                numbers({fixed(box.startSeconds, 2), fixed(box.endSeconds, 2), box.lowHz ? fixed(*box.lowHz, 2) : "",
+                         box.highHz ? fixed(*box.highHz, 2) : "", box.label, nameOf(box.verdict), box.note},
+                        4);
         return text + "</table>\n";
     }
 
@@ -251,10 +268,10 @@ namespace {
         const double decided = isScore ? why.statistic : why.displayed;
         const std::string unit = " " + std::string(statisticUnit(analysis.settings.detector));
         std::string text = "<details>\n<summary>Event " + std::to_string(one.event) + ": "
-                           + (isScore ? "" : fixed(decided, 2) + unit + "; the path of its guide has ") + fixed(why.statistic, 2) + " nat over "
-                           + std::to_string(why.steps.size()) + " frames, " + (isScore ? "" : "the statistic is ")
-                           + fixed(std::abs(decided - why.threshold), 2) + unit + (decided > why.threshold ? " above" : " below")
-                           + " the threshold</summary>\n";
+                           + (isScore ? "" : fixed(decided, 2) + unit + "; the path of its guide has ")
+                           + fixed(why.statistic, 2) + " nat over " + std::to_string(why.steps.size()) + " frames, "
+                           + (isScore ? "" : "the statistic is ") + fixed(std::abs(decided - why.threshold), 2) + unit
+                           + (decided > why.threshold ? " above" : " below") + " the threshold</summary>\n";
         std::vector<std::string> names{"t (s)"};
         for (const Axis &axis : axes)
             names.push_back(heading(axis));
@@ -273,7 +290,8 @@ namespace {
             const std::vector<Index> at = analysis.grid().coordinates(space.cellOf(step.state));
             for (std::size_t axis = 0; axis < axes.size(); ++axis)
                 row.push_back(fixed(axes[axis].value(static_cast<double>(at[axis])), 3));
-            row.insert(row.end(), {fixed(step.logLikelihoodRatio, 4), fixed(step.lnTransition, 4), fixed(step.lnK, 4), fixed(step.score, 4)});
+            row.insert(row.end(), {fixed(step.logLikelihoodRatio, 4), fixed(step.lnTransition, 4), fixed(step.lnK, 4),
+                                   fixed(step.score, 4)});
             text += numbers(row, row.size());
         }
         text += "</table>\n";
@@ -283,19 +301,24 @@ namespace {
     }
 
     const char *const style =
-        "body{font:15px/1.5 system-ui,sans-serif;color:#1c2127;background:#fff;max-width:72em;margin:2em auto;padding:0 1.5em}"
+        "body{font:15px/1.5 system-ui,sans-serif;color:#1c2127;background:#fff;max-width:72em;margin:2em "
+        "auto;padding:0 1.5em}"
         "h1{font-size:1.6em}h2{margin-top:2em;border-bottom:1px solid #dde1e6}"
-        "table{border-collapse:collapse;margin:.5em 0}td,th{padding:.2em 1em .2em 0;text-align:left;vertical-align:top;border-bottom:1px "
+        "table{border-collapse:collapse;margin:.5em 0}td,th{padding:.2em 1em .2em "
+        "0;text-align:left;vertical-align:top;border-bottom:1px "
         "solid #edf0f3}"
-        ".numbers td{font-variant-numeric:tabular-nums}.n{text-align:right}tr.rejected td{color:#8a939d;text-decoration:line-through}"
+        ".numbers td{font-variant-numeric:tabular-nums}.n{text-align:right}tr.rejected "
+        "td{color:#8a939d;text-decoration:line-through}"
         ".pictures{display:flex;flex-wrap:wrap;gap:1em;align-items:flex-end}figure{margin:0;flex:0 1 "
-        "auto;min-width:18em;max-width:48%}img{max-width:100%;height:auto;border:1px solid #dde1e6}figcaption{color:#59636e}"
+        "auto;min-width:18em;max-width:48%}img{max-width:100%;height:auto;border:1px solid "
+        "#dde1e6}figcaption{color:#59636e}"
         "pre{background:#f4f6f8;padding:1em;white-space:pre-wrap;overflow-wrap:anywhere}summary{cursor:pointer}"
         "@media print{body{margin:0;max-width:none}figure,tr{break-inside:avoid}}";
 
 } // namespace
 
-std::vector<Event> eventsToExplain(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations)
+std::vector<Event> eventsToExplain(const Analysis &analysis, const std::vector<Event> &events,
+                                   const Annotations &annotations)
 {
     const std::vector<EventReview> said = eventReviews(analysis, events, annotations.reviews);
     std::vector<Event> accepted;
@@ -305,22 +328,27 @@ std::vector<Event> eventsToExplain(const Analysis &analysis, const std::vector<E
             (said[i].verdict == Verdict::Accepted ? accepted : others).push_back(events[i]);
     if (!accepted.empty())
         return accepted;
-    std::stable_sort(others.begin(), others.end(), [](const Event &a, const Event &b) { return a.statistic > b.statistic; });
+    std::stable_sort(others.begin(), others.end(),
+                     [](const Event &a, const Event &b) { return a.statistic > b.statistic; });
     others.resize(std::min(others.size(), mostLadders));
     return others;
 }
 
 std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
 {
-    std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n"
-                       "<meta name=\"generator\" content=\"Faintline " + escaped(material.version) + "\">\n<title>" + escaped(material.title) + "</title>\n<style>"
+    std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+                       "content=\"width=device-width\">\n"
+                       "<meta name=\"generator\" content=\"Faintline "
+                       + escaped(material.version) + "\">\n<title>" + escaped(material.title) + "</title>\n<style>"
                        + style + "</style>\n</head>\n<body>\n<h1>" + escaped(material.title) + "</h1>\n";
     text += "<h2>Recording</h2>\n" + recordingFacts(analysis);
     text += "<h2>Pictures</h2>\n<div class=\"pictures\">\n";
     for (const ReportMaterial::Picture &picture : material.pictures)
-        text += "<figure><img alt=\"" + escaped(picture.title) + "\" width=\"" + std::to_string(picture.width) + "\" height=\"" + std::to_string(picture.height)
-              + "\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption>" + escaped(picture.title) + "</figcaption></figure>\n";
-    text += "</div>\n<h2>Events</h2>\n" + eventsTable(analysis, material) + annotationsTable(material.annotations.boxes);
+        text += "<figure><img alt=\"" + escaped(picture.title) + "\" width=\"" + std::to_string(picture.width)
+                + "\" height=\"" + std::to_string(picture.height) + "\" src=\"data:image/png;base64,"
+                + base64(picture.png) + "\"><figcaption>" + escaped(picture.title) + "</figcaption></figure>\n";
+    text +=
+        "</div>\n<h2>Events</h2>\n" + eventsTable(analysis, material) + annotationsTable(material.annotations.boxes);
     text += "<h2>Threshold and calibration</h2>\n" + calibrationFacts(analysis);
     if (!material.ladders.empty()) {
         text += "<h2>Path breakdown of detections</h2>\n<p>The best path up to the moment of detection, term by term "
@@ -329,10 +357,11 @@ std::string reportHtml(const Analysis &analysis, const ReportMaterial &material)
             text += ladder(analysis, one);
     }
     text += "<h2>Settings that differ from the defaults</h2>\n" + settingsTable(analysis.settings);
-    text += "<h2>Provenance</h2>\n<p>Faintline " + escaped(material.version) + ". The same recording with these "
-                                                                               "settings gives the same "
-                                                                               "results.</p>\n<pre>"
-          + escaped(material.provenance) + "</pre>\n";
+    text += "<h2>Provenance</h2>\n<p>Faintline " + escaped(material.version)
+            + ". The same recording with these "
+              "settings gives the same "
+              "results.</p>\n<pre>"
+            + escaped(material.provenance) + "</pre>\n";
     return text + "</body>\n</html>\n";
 }
 

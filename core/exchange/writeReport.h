@@ -29,12 +29,14 @@ struct ReportMaterial {
     std::string provenance; ///< JSON
 };
 
-/// The events whose ladders a report shows: the accepted ones, or, where none is, the ten strongest that were not rejected.
-std::vector<Event> eventsToExplain(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations);
+/// The events whose ladders a report shows: the accepted ones, or, where none is, the ten strongest that were not
+/// rejected.
+std::vector<Event> eventsToExplain(const Analysis &analysis, const std::vector<Event> &events,
+                                   const Annotations &annotations);
 
-/// A report as one HTML page that needs nothing else: facts, settings that differ from the defaults, pictures, threshold and calibration
-/// with their interval, events and annotations, the ladder of terms for the most interesting ones, provenance. The same material gives
-/// the same bytes.
+/// A report as one HTML page that needs nothing else: facts, settings that differ from the defaults, pictures,
+/// threshold and calibration with their interval, events and annotations, the ladder of terms for the most interesting
+/// ones, provenance. The same material gives the same bytes.
 std::string reportHtml(const Analysis &analysis, const ReportMaterial &material);
 
 } // namespace faintline

@@ -54,9 +54,10 @@ namespace {
         std::string csv = "row,column,paper,ours,low,high,reference,tolerance,verdict\n";
         for (const ReproducedCell &cell : reproduction.cells) {
             const bool interval = hasInterval(cell);
-            csv += csvText(cell.row) + "," + csvText(cell.column) + "," + csvNumber(cell.paper) + "," + formatNumber(cell.ours) + ","
-                + (interval ? formatNumber(cell.interval.low) : "") + "," + (interval ? formatNumber(cell.interval.high) : "") + ","
-                + csvNumber(cell.reference) + "," + (cell.isJudged() ? formatNumber(cell.tolerance) : "") + "," + verdict(cell) + "\n";
+            csv += csvText(cell.row) + "," + csvText(cell.column) + "," + csvNumber(cell.paper) + ","
+                   + formatNumber(cell.ours) + "," + (interval ? formatNumber(cell.interval.low) : "") + ","
+                   + (interval ? formatNumber(cell.interval.high) : "") + "," + csvNumber(cell.reference) + ","
+                   + (cell.isJudged() ? formatNumber(cell.tolerance) : "") + "," + verdict(cell) + "\n";
         }
         return csv;
     }
@@ -69,10 +70,12 @@ std::string reproductionText(const Reproduction &reproduction)
     std::vector<Row> rows{{"", "", "paper", "ours", "95 % interval", "gap", "z", "reference ± tolerance", ""}};
     for (const ReproducedCell &cell : reproduction.cells) {
         const std::optional<double> z = cell.z();
-        rows.push_back({cell.row, cell.column, cell.paper ? shortNumber(*cell.paper) : "-", shortNumber(cell.ours),
-                        hasInterval(cell) ? shortNumber(cell.interval.low) + " … " + shortNumber(cell.interval.high) : "exact",
-                        cell.paper ? shortNumber(cell.ours - *cell.paper) : "-", z ? shortNumber(*z) : "-",
-                        cell.isJudged() ? shortNumber(*cell.reference) + " ± " + shortNumber(cell.tolerance) : "-", verdict(cell)});
+        rows.push_back(
+            {cell.row, cell.column, cell.paper ? shortNumber(*cell.paper) : "-", shortNumber(cell.ours),
+             hasInterval(cell) ? shortNumber(cell.interval.low) + " … " + shortNumber(cell.interval.high) : "exact",
+             cell.paper ? shortNumber(cell.ours - *cell.paper) : "-", z ? shortNumber(*z) : "-",
+             cell.isJudged() ? shortNumber(*cell.reference) + " ± " + shortNumber(cell.tolerance) : "-",
+             verdict(cell)});
     }
     std::vector<std::size_t> widths(rows.front().size());
     for (const Row &row : rows)

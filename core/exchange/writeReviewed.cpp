@@ -27,7 +27,8 @@ namespace {
         if (analysis.grid().axes.size() != 1)
             return;
         box.lowHz = box.highHz = event.position.back();
-        const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [&](const Track &t) { return t.id == event.id; });
+        const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(),
+                                        [&](const Track &t) { return t.id == event.id; });
         if (track == analysis.tracks.end())
             return;
         for (const TrackPoint &point : track->points) {
@@ -83,16 +84,16 @@ namespace {
         text += ",review,signal,label,note\n";
         for (const Row &row : rows) {
             const Event *e = row.event;
-            text += (e ? std::to_string(e->id) : "") + "," + formatNumber(row.box.startSeconds) + "," + (e ? formatNumber(e->detectSeconds) : "") + ","
-                + formatNumber(row.box.endSeconds);
+            text += (e ? std::to_string(e->id) : "") + "," + formatNumber(row.box.startSeconds) + ","
+                    + (e ? formatNumber(e->detectSeconds) : "") + "," + formatNumber(row.box.endSeconds);
             for (std::size_t axis = 0; axis < grid.axes.size(); ++axis)
                 text += "," + (e ? formatNumber(e->position[axis]) : "");
             text += "," + (e ? formatNumber(e->driftPerSecond) : "") + "," + (e ? formatNumber(e->statistic) : "") + ","
-                + (e ? (e->isConfirmed ? "1" : "0") : "") + "," + (e ? (e->isOpen ? "1" : "0") : "");
+                    + (e ? (e->isConfirmed ? "1" : "0") : "") + "," + (e ? (e->isOpen ? "1" : "0") : "");
             if (isLines)
                 text += "," + number(row.box.lowHz) + "," + number(row.box.highHz);
-            text += "," + nameOf(row.box.verdict) + "," + (e ? std::to_string(row.signal) : "") + "," + csvText(row.box.label) + ","
-                + csvText(row.box.note) + "\n";
+            text += "," + nameOf(row.box.verdict) + "," + (e ? std::to_string(row.signal) : "") + ","
+                    + csvText(row.box.label) + "," + csvText(row.box.note) + "\n";
         }
         return text;
     }
@@ -128,7 +129,8 @@ namespace {
 
     std::string json(const Analysis &analysis, const std::vector<Row> &rows)
     {
-        Json json = {{"threshold", analysis.threshold}, {"settings", parseJson(settingsToJson(analysis.settings), "settings")}};
+        Json json = {{"threshold", analysis.threshold},
+                     {"settings", parseJson(settingsToJson(analysis.settings), "settings")}};
         json["events"] = Json::array();
         for (const Row &row : rows)
             json["events"].push_back(jsonOf(row, analysis.grid()));
@@ -137,12 +139,13 @@ namespace {
 
     std::string raven(const std::vector<Row> &rows)
     {
-        std::string text = "Selection\tView\tChannel\tBegin Time (s)\tEnd Time (s)\tLow Freq (Hz)\tHigh Freq (Hz)\tAnnotation\tReview\tNotes\n";
+        std::string text = "Selection\tView\tChannel\tBegin Time (s)\tEnd Time (s)\tLow Freq (Hz)\tHigh Freq "
+                           "(Hz)\tAnnotation\tReview\tNotes\n";
         int selection = 0;
         for (const Row &row : rows)
-            text += std::to_string(++selection) + "\tSpectrogram 1\t1\t" + formatNumber(row.box.startSeconds) + "\t" + formatNumber(row.box.endSeconds)
-                + "\t" + number(row.box.lowHz) + "\t" + number(row.box.highHz) + "\t" + row.box.label + "\t" + nameOf(row.box.verdict) + "\t"
-                + row.box.note + "\n";
+            text += std::to_string(++selection) + "\tSpectrogram 1\t1\t" + formatNumber(row.box.startSeconds) + "\t"
+                    + formatNumber(row.box.endSeconds) + "\t" + number(row.box.lowHz) + "\t" + number(row.box.highHz)
+                    + "\t" + row.box.label + "\t" + nameOf(row.box.verdict) + "\t" + row.box.note + "\n";
         return text;
     }
 
@@ -151,7 +154,7 @@ namespace {
         std::string text;
         for (const Row &row : rows) {
             text += formatNumber(row.box.startSeconds) + "\t" + formatNumber(row.box.endSeconds) + "\t"
-                + annotationText(row.box.label, row.box.verdict, row.box.note) + "\n";
+                    + annotationText(row.box.label, row.box.verdict, row.box.note) + "\n";
             if (row.box.lowHz && row.box.highHz)
                 text += "\\\t" + formatNumber(*row.box.lowHz) + "\t" + formatNumber(*row.box.highHz) + "\n";
         }
@@ -172,10 +175,11 @@ namespace {
         const double rate = analysis.recording->info().sampleRateHz;
         const double centre = analysis.recording->info().centreHz;
         Json json;
-        json["global"] = {{"core:version", "1.0.0"},
-                          {"core:sample_rate", rate},
-                          {"core:description", "Events found by Faintline, and what was said about them"},
-                          {"core:extensions", Json::array({{{"name", "faintline"}, {"version", "1.0.0"}, {"optional", true}}})}};
+        json["global"] = {
+            {"core:version", "1.0.0"},
+            {"core:sample_rate", rate},
+            {"core:description", "Events found by Faintline, and what was said about them"},
+            {"core:extensions", Json::array({{{"name", "faintline"}, {"version", "1.0.0"}, {"optional", true}}})}};
         json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
         json["annotations"] = Json::array();
         for (const Row &row : rows) {
@@ -211,7 +215,8 @@ void checkReviewedPath(const std::string &path)
                       ".sigmf-meta");
 }
 
-void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations, const std::string &path)
+void writeReviewed(const Analysis &analysis, const std::vector<Event> &events, const Annotations &annotations,
+                   const std::string &path)
 {
     checkReviewedPath(path);
     const std::vector<Row> rows = rowsOf(analysis, events, annotations);

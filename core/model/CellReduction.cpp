@@ -8,10 +8,12 @@
 
 namespace faintline {
 
-CellReduction::CellReduction(std::vector<Index> cells, const std::vector<bool> &isFolded) : m_cells(std::move(cells)), m_isFolded(isFolded)
+CellReduction::CellReduction(std::vector<Index> cells, const std::vector<bool> &isFolded)
+    : m_cells(std::move(cells)), m_isFolded(isFolded)
 {
     for (std::size_t axis = 0; axis < m_cells.size(); ++axis) {
-        if (static_cast<double>(m_frameCells) * static_cast<double>(m_cells[axis]) > 0x1p31) // before the product can overflow
+        if (static_cast<double>(m_frameCells) * static_cast<double>(m_cells[axis])
+            > 0x1p31) // before the product can overflow
             throw Error("model.axes", "give more than 2³¹ cells");
         m_frameCells *= m_cells[axis];
         if (!isFolded[axis])

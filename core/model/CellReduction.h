@@ -9,8 +9,8 @@ namespace faintline {
 
 /// Frame axes along which a target is anywhere, anew at every stage: a radar's ambiguous Doppler. They need no state.
 ///
-/// With P(p'|p) = 1/N_d along such axes, the sum over trajectories of a product of p1/p0 factorises stage by stage, and so does the
-/// maximum; the recursion runs on the other axes only, on
+/// With P(p'|p) = 1/N_d along such axes, the sum over trajectories of a product of p1/p0 factorises stage by stage, and
+/// so does the maximum; the recursion runs on the other axes only, on
 ///
 ///   sum:  λ(cell) = ln [ 1/N_d · Σ_d e^{λ(cell, d)} ]          maximum:  λ(cell) = max_d λ(cell, d) - ln N_d
 ///

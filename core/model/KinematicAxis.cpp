@@ -64,7 +64,8 @@ namespace {
                 sum += probability;
             }
             if (!(sum < 1.0 + 1e-6)) // less is allowed: what leaves the axis
-                throw Error(where, "row " + std::to_string(from) + " adds up to " + formatNumber(sum) + "; it must be at most 1");
+                throw Error(where, "row " + std::to_string(from) + " adds up to " + formatNumber(sum)
+                                       + "; it must be at most 1");
         }
     }
 
@@ -181,8 +182,9 @@ KinematicAxis KinematicAxis::stochastic(const std::string &where) const
         for (Index from = 0; from < cells; ++from) {
             const double sum = remaining(from);
             if (!(sum > 0.0))
-                throw Error(where + ".transition", "row " + std::to_string(from) + " contains only zeros, so a target "
-                                                                                   "there cannot continue");
+                throw Error(where + ".transition", "row " + std::to_string(from)
+                                                       + " contains only zeros, so a target "
+                                                         "there cannot continue");
             for (Index to = 0; to < cells; ++to)
                 result.transition[static_cast<std::size_t>(from * cells + to)] /= sum;
         }
@@ -236,15 +238,17 @@ void KinematicAxis::check(const std::string &where) const
         if (!(step.front() > 0.0))
             checkWaysOn(*this, where + ".step");
         if (cyclic && 2 * std::ssize(step) - 1 > cells)
-            throw Error(where + ".step", "reaches the same cell in both directions on a cyclic axis of " + std::to_string(cells));
+            throw Error(where + ".step",
+                        "reaches the same cell in both directions on a cyclic axis of " + std::to_string(cells));
     } else if (step.empty()) {
         checkLaw(rateChange, where + ".rateChange");
     } else {
         checkLaw(step, where + ".step");
     }
     if (cyclic && largestDisplacement() >= cells)
-        throw Error(where, "a step of " + std::to_string(largestDisplacement()) + " cells wraps around a cyclic axis "
-                                                                                  "of "
+        throw Error(where, "a step of " + std::to_string(largestDisplacement())
+                               + " cells wraps around a cyclic axis "
+                                 "of "
                                + std::to_string(cells));
 }
 

@@ -31,9 +31,9 @@ inline constexpr std::array<std::string_view, 2> roundingNames{"halfDown", "trun
 ///
 ///   P(r', p' | r, p) = h(|r'-r|) / Σ over r'' with p + d(r, r'') on the axis of h(|r''-r|),   P(p'|p) = q(|p'-p|) / Σ over existing cells
 ///
-/// (Grossi and Lops 2006 for walks), so P = (departure of the source) · (law of the move). A target at the end of an axis none of
-/// whose moves stays there first turns to the rate nearest to its own that has one, of two equally near ones the lower.
-/// For small cases a full matrix may stand in place of a law: P(p'|p) = transition[p·cells + p'].
+/// (Grossi and Lops 2006 for walks), so P = (departure of the source) · (law of the move). A target at the end of an
+/// axis none of whose moves stays there first turns to the rate nearest to its own that has one, of two equally near
+/// ones the lower. For small cases a full matrix may stand in place of a law: P(p'|p) = transition[p·cells + p'].
 struct KinematicAxis {
     std::string name;
     Index cells = 0;
@@ -43,9 +43,10 @@ struct KinematicAxis {
     std::vector<double> rateChange{1.0}; ///< h(0), h(1), …
     std::vector<double> step;            ///< q(0), q(1), … of a random walk; empty: no walk
     Rounding rounding = Rounding::HalfDown;
-    bool renormalised = false;      ///< the moves that exist share the probability of those that do not
-    int ratesPerCell = 1;           ///< q: neighbouring rates differ by 1/q cell per step
-    std::vector<double> transition{}; ///< P(from, to), cells × cells row by row, of a bounded axis without rates; empty: a law
+    bool renormalised = false; ///< the moves that exist share the probability of those that do not
+    int ratesPerCell = 1;      ///< q: neighbouring rates differ by 1/q cell per step
+    std::vector<double>
+        transition{}; ///< P(from, to), cells × cells row by row, of a bounded axis without rates; empty: a law
 
     /// One way to move: from a rate to a rate (indices 0 … rateCount-1) by whole cells, with ln probability.
     struct Move {
@@ -55,8 +56,9 @@ struct KinematicAxis {
         double lnProbability;
     };
 
-    /// All moves in step number `step`, ordered by target rate, then source rate, then decreasing displacement, so that among equals the
-    /// lowest rate, then the lowest source cell comes first. Of an axis with a matrix, which they know nothing of: staying.
+    /// All moves in step number `step`, ordered by target rate, then source rate, then decreasing displacement, so that
+    /// among equals the lowest rate, then the lowest source cell comes first. Of an axis with a matrix, which they know
+    /// nothing of: staying.
     std::vector<Move> moves(Index step = 0) const;
 
     /// By how many cells a move between two rates (indices) goes in step number `step`.
@@ -68,10 +70,12 @@ struct KinematicAxis {
     /// A rate by its index, in cells per step.
     double rate(Index index) const { return static_cast<double>(firstRate + index) / ratesPerCell; }
 
-    /// Σ of the law's probabilities over the moves that exist from a cell and a rate (index) in step number `step`; 0 if no move exists.
+    /// Σ of the law's probabilities over the moves that exist from a cell and a rate (index) in step number `step`; 0
+    /// if no move exists.
     double remaining(Index fromCell, int fromRate = 0, Index step = 0) const;
 
-    /// The rate with which a target continues: its own, or on a renormalised axis where that has no move, the nearest that has one.
+    /// The rate with which a target continues: its own, or on a renormalised axis where that has no move, the nearest
+    /// that has one.
     int rateGoingOn(Index cell, int rate, Index step = 0) const;
 
     /// What a move has on top of its ln probability: -ln of what remains where renormalised, otherwise 0.
@@ -99,8 +103,9 @@ struct KinematicAxis {
     bool operator==(const KinematicAxis &) const = default;
 };
 
-/// Step law of a random walk in `deviation` cells, q(d) = Φ((d + ½)/σ) - Φ((d - ½)/σ), truncated to an axis of `cells` cells and
-/// q exceeds 1e-17 of its maximum; to be renormalised. σ = 0 stays, σ = ∞ is uniform. Source: Grossi and Lops 2006, section 4.2.
+/// Step law of a random walk in `deviation` cells, q(d) = Φ((d + ½)/σ) - Φ((d - ½)/σ), truncated to an axis of `cells`
+/// cells and q exceeds 1e-17 of its maximum; to be renormalised. σ = 0 stays, σ = ∞ is uniform. Source: Grossi and Lops
+/// 2006, section 4.2.
 std::vector<double> gaussianStep(double deviation, Index cells);
 
 } // namespace faintline

@@ -1,8 +1,8 @@
 #include "model/Likelihood.h"
 
 #include "base/Error.h"
-#include "base/fastmath.h"
 #include "base/Field.h"
+#include "base/fastmath.h"
 #include "base/multiversion.h"
 
 #include <boost/math/special_functions/bessel.hpp>
@@ -154,7 +154,8 @@ void Likelihood::apply(std::span<const float> y, std::span<float> out) const
         rice(y.data(), y.size(), smoothPart(), m_snr, out.data());
         break;
     case LikelihoodKind::Exponential:
-        affine(y.data(), y.size(), static_cast<float>(m_snr / (1.0 + m_snr)), static_cast<float>(-std::log1p(m_snr)), out.data());
+        affine(y.data(), y.size(), static_cast<float>(m_snr / (1.0 + m_snr)), static_cast<float>(-std::log1p(m_snr)),
+               out.data());
         break;
     case LikelihoodKind::Linear:
         affine(y.data(), y.size(), 1.0f, 0.0f, out.data());

@@ -23,8 +23,8 @@ inline constexpr std::array<std::string_view, 3> likelihoodNames{"rice", "expone
 ///   linear       the exponential one rescaled:   λ = y                             Parsons 2008 eq. 10
 ///   given        frames hold λ itself, any finite number, not power
 ///
-/// `apply` works in single precision: |error| ≤ 1e-6 · max(1, |λ|) for 0 ≤ y ≤ 1e4 and beyond; rice is one polynomial behind a square
-/// root and a logarithm, without a branch. Oracle: Boost.Math's Bessel function. Thread-safe.
+/// `apply` works in single precision: |error| ≤ 1e-6 · max(1, |λ|) for 0 ≤ y ≤ 1e4 and beyond; rice is one polynomial
+/// behind a square root and a logarithm, without a branch. Oracle: Boost.Math's Bessel function. Thread-safe.
 class Likelihood
 {
 public:
@@ -34,7 +34,8 @@ public:
     LikelihoodKind kind() const { return m_kind; }
     double snr() const { return m_snr; }
 
-    /// λ of every value; negative or infinite power counts as 0 (no energy). NaN was not observed: λ = 0, no evidence either way.
+    /// λ of every value; negative or infinite power counts as 0 (no energy). NaN was not observed: λ = 0, no evidence
+    /// either way.
     void apply(std::span<const float> y, std::span<float> out) const;
 
     /// λ of one value in double precision, from the formula; NaN as above.

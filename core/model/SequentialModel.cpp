@@ -11,7 +11,8 @@ namespace faintline {
 std::vector<double> SequentialModel::initialLaw() const
 {
     const Index states = markov.space.stateCount();
-    return initial.empty() ? std::vector<double>(static_cast<std::size_t>(states), 1.0 / static_cast<double>(states)) : initial;
+    return initial.empty() ? std::vector<double>(static_cast<std::size_t>(states), 1.0 / static_cast<double>(states))
+                           : initial;
 }
 
 void SequentialModel::check(const std::string &where) const
@@ -25,9 +26,10 @@ void SequentialModel::check(const std::string &where) const
         throw Error(where, "has scaled transitions, which are not probabilities");
     for (const KinematicAxis &axis : markov.space.axes())
         if (const double loss = axis.largestLoss(); loss > 1e-12)
-            throw Error(where, "has an axis" + (axis.name.empty() ? std::string() : " of " + axis.name) + " that loses up to "
-                                   + formatNumber(100.0 * loss) + " % of a target's probability per stage; a "
-                                                                  "likelihood ratio needs a lossless law");
+            throw Error(where, "has an axis" + (axis.name.empty() ? std::string() : " of " + axis.name)
+                                   + " that loses up to " + formatNumber(100.0 * loss)
+                                   + " % of a target's probability per stage; a "
+                                     "likelihood ratio needs a lossless law");
     if (initial.empty())
         return;
     if (std::ssize(initial) != markov.space.stateCount())
@@ -64,7 +66,8 @@ SequentialModel makeSequentialModel(const std::vector<KinematicAxis> &frameAxes,
     SequentialModel model{{std::move(space), likelihood, 1.0}, std::move(reduction), std::move(initial), 1};
     model.check("model");
     constexpr double rounding = 1e-14;
-    if (const double sum = std::accumulate(model.initial.begin(), model.initial.end(), 0.0); !model.initial.empty() && std::abs(sum - 1.0) > rounding)
+    if (const double sum = std::accumulate(model.initial.begin(), model.initial.end(), 0.0);
+        !model.initial.empty() && std::abs(sum - 1.0) > rounding)
         for (double &p : model.initial)
             p /= sum;
     return model;

@@ -17,7 +17,8 @@ StateSpace::StateSpace(std::vector<KinematicAxis> axes) : m_axes(std::move(axes)
         m_moves.emplace_back();
         for (Index phase = 0; phase < m_axes[i].phaseCount(); ++phase)
             m_moves.back().push_back(m_axes[i].moves(phase));
-        const double states = static_cast<double>(stateCount()) * static_cast<double>(m_axes[i].cells) * m_axes[i].rateCount;
+        const double states =
+            static_cast<double>(stateCount()) * static_cast<double>(m_axes[i].cells) * m_axes[i].rateCount;
         if (states > 0x1p31) // before the product can overflow
             throw Error("model.axes", "give more than 2³¹ states");
         m_cellCount *= m_axes[i].cells;

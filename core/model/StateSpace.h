@@ -24,7 +24,7 @@ public:
 
     /// A state by its coordinates.
     struct Coordinates {
-        std::vector<int> rates;   ///< rate indices, 0 … rateCount-1
+        std::vector<int> rates; ///< rate indices, 0 … rateCount-1
         std::vector<Index> cells;
     };
     Coordinates coordinates(Index state) const;
@@ -43,7 +43,8 @@ public:
         Index state;
         double lnProbability;
     };
-    /// The states that can move into `state` in step number `step`, lowest rate first, then lowest cell: the order in which ties are decided.
+    /// The states that can move into `state` in step number `step`, lowest rate first, then lowest cell: the order in
+    /// which ties are decided.
     std::vector<Predecessor> predecessors(Index state, Index step = 0) const;
 
     /// The same axes over a box of cells, none of them cyclic: the state space of a tracker's window.

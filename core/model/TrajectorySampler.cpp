@@ -6,7 +6,8 @@
 
 namespace faintline {
 
-TrajectorySampler::TrajectorySampler(const SequentialModel &model) : m_space(model.markov.space), m_initial(model.initial)
+TrajectorySampler::TrajectorySampler(const SequentialModel &model)
+    : m_space(model.markov.space), m_initial(model.initial)
 {
     std::partial_sum(m_initial.begin(), m_initial.end(), m_initial.begin());
     for (const KinematicAxis &axis : m_space.axes()) {

@@ -9,8 +9,9 @@ namespace faintline {
 
 /// Draws trajectories from a model's own law: the start from P(x1), then move after move.
 ///
-/// A target does not leave a bounded axis or the set of rates: what would leave is shared among the moves that stay, as the
-/// model's stochastic law says (KinematicAxis). Oracle: StateSpace::predecessors. One uniform number for the start, one per axis for a move. Thread-safe.
+/// A target does not leave a bounded axis or the set of rates: what would leave is shared among the moves that stay, as
+/// the model's stochastic law says (KinematicAxis). Oracle: StateSpace::predecessors. One uniform number for the start,
+/// one per axis for a move. Thread-safe.
 class TrajectorySampler
 {
 public:
@@ -28,7 +29,7 @@ private:
     };
     struct AxisLaw {
         std::vector<std::vector<std::vector<Move>>> moves; ///< in every phase, of every source rate
-        std::vector<double> matrix;           ///< in place of moves, where the axis has one
+        std::vector<double> matrix;                        ///< in place of moves, where the axis has one
     };
     void move(std::size_t axis, Index step, int &rate, Index &cell, double uniform) const;
 

@@ -22,11 +22,13 @@ MarkovModel sonarModel(const Grid &grid, const SonarMotion &motion)
 {
     if (grid.axes.size() != 2)
         throw Error("model.motion", "requires frames on range and bearing; the frames have "
-                                        + std::to_string(grid.axes.size()) + (grid.axes.size() == 1 ? " axis" : " axes"));
+                                        + std::to_string(grid.axes.size())
+                                        + (grid.axes.size() == 1 ? " axis" : " axes"));
     const Axis &range = grid.axes[0];
     const Axis &bearing = grid.axes[1];
     const auto kinematic = [](const Axis &axis, int fastest, const std::vector<double> &rateChange) {
-        return KinematicAxis{axis.name, axis.count, axis.cyclic, -fastest, 2 * fastest + 1, rateChange, {}, Rounding::Trunc};
+        return KinematicAxis{axis.name,       axis.count, axis.cyclic, -fastest,
+                             2 * fastest + 1, rateChange, {},          Rounding::Trunc};
     };
     return {StateSpace({kinematic(range, motion.fastestRange, motion.rangeRateChange),
                         kinematic(bearing, motion.fastestBearing, motion.bearingRateChange)}),
@@ -37,9 +39,11 @@ const std::vector<NamedMotion> &sonarMotions()
 {
     static const std::vector<NamedMotion> list{
         {"nonManoeuvring", "Targets that keep their rates of range and bearing.", nonManoeuvring()},
-        {"manoeuvring", "Targets whose range rate changes by up to four cells per ping, and whose bearing rate by one beam.",
+        {"manoeuvring",
+         "Targets whose range rate changes by up to four cells per ping, and whose bearing rate by one beam.",
          manoeuvring()},
-        {"gentle", "Targets whose range rate changes by one cell per ping at the most, and whose bearing rate by one beam.",
+        {"gentle",
+         "Targets whose range rate changes by one cell per ping at the most, and whose bearing rate by one beam.",
          manoeuvring(1)},
     };
     return list;

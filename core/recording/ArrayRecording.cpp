@@ -7,7 +7,8 @@
 
 namespace faintline {
 
-ArrayRecording::ArrayRecording(const std::string &where, std::shared_ptr<const float> samples, const ArrayLayout &layout)
+ArrayRecording::ArrayRecording(const std::string &where, std::shared_ptr<const float> samples,
+                               const ArrayLayout &layout)
     : m_samples(std::move(samples))
 {
     constexpr double highestRate = 1e12;

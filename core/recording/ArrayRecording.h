@@ -17,13 +17,13 @@ struct ArrayLayout {
 
 /// Samples that are in memory already, sample after sample, its channels side by side.
 ///
-/// They are not copied: `samples` keeps what owns them alive, and they must not change meanwhile. They are in a unit of their own, as those
-/// of a file of floats are. Thread-safe.
+/// They are not copied: `samples` keeps what owns them alive, and they must not change meanwhile. They are in a unit of
+/// their own, as those of a file of floats are. Thread-safe.
 class ArrayRecording final : public Recording
 {
 public:
-    /// `samples`: sampleCount × channelCount × (isComplex ? 2 : 1) floats. Throws Error naming `where` for a rate that is no positive number and
-    /// for no samples.
+    /// `samples`: sampleCount × channelCount × (isComplex ? 2 : 1) floats. Throws Error naming `where` for a rate that
+    /// is no positive number and for no samples.
     ArrayRecording(const std::string &where, std::shared_ptr<const float> samples, const ArrayLayout &layout);
 
     void read(int channel, Index first, Index count, std::span<float> out) const override;

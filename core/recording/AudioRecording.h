@@ -11,8 +11,8 @@ namespace faintline {
 /// Whatever libsndfile reads: WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and more, with any number of channels.
 ///
 /// With `iq`, channels 2k and 2k+1 are I and Q of complex channel k. Start time and centre frequency are taken from a
-/// broadcast chunk (bext), from the chunk that receivers write (auxi) or that of XWAV (harp), where there is one. A file that was cut short
-/// gives the existing part, with a note.
+/// broadcast chunk (bext), from the chunk that receivers write (auxi) or that of XWAV (harp), where there is one. A
+/// file that was cut short gives the existing part, with a note.
 ///
 /// Uncompressed data is read where it is wanted. Compressed data is decoded in fixed blocks that are kept while they
 /// are in use. Each block of a lossy codec (OGG, MP3) is decoded by a fresh decoder after a run-up, which it needs to
@@ -51,7 +51,7 @@ private:
     [[noreturn]] void failAt(Index sample) const;
 
     std::shared_ptr<const FileBytes> m_file;
-    Index m_streams = 1; ///< channels of the file
+    Index m_streams = 1;    ///< channels of the file
     bool m_isFloat = false; ///< uncompressed floats, whose full scale need not be 1
     Access m_access = Access::Direct;
     Index m_runUp = 0;
@@ -63,6 +63,7 @@ private:
 /// What openRecording accepts, for messages.
 inline constexpr const char *acceptedFormats =
     "accepted are WAV, RF64, W64, AIFF, FLAC, CAF, OGG, MP3, AU and other audio files, SigMF pairs (.sigmf-meta, "
-    ".sigmf-data), strain and filterbanks in HDF5, sigproc filterbanks, and raw samples when their type and rate are given (such as --raw-type ci16_le --raw-rate 48000)";
+    ".sigmf-data), strain and filterbanks in HDF5, sigproc filterbanks, and raw samples when their type and rate are "
+    "given (such as --raw-type ci16_le --raw-rate 48000)";
 
 } // namespace faintline

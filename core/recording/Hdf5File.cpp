@@ -45,15 +45,18 @@ namespace {
     };
 
     /// Bitshuffle as a filter of the library, for reading.
-    std::size_t decodeBitshuffle(unsigned flags, std::size_t count, const unsigned values[], std::size_t bytes, std::size_t *room, void **buffer)
+    std::size_t decodeBitshuffle(unsigned flags, std::size_t count, const unsigned values[], std::size_t bytes,
+                                 std::size_t *room, void **buffer)
     {
         constexpr std::size_t elementAt = 2;
         if (!(flags & H5Z_FLAG_REVERSE) || count <= elementAt)
             return 0;
-        const BitshuffleLayout layout{values[elementAt], count > 3 ? values[3] : 0, count > 4 && values[4] == bitshuffleLz4};
+        const BitshuffleLayout layout{values[elementAt], count > 3 ? values[3] : 0,
+                                      count > 4 && values[4] == bitshuffleLz4};
         if (count > 4 && values[4] != 0 && values[4] != bitshuffleLz4)
             return 0;
-        const std::vector<std::byte> decoded = undoBitshuffle({static_cast<const std::byte *>(*buffer), bytes}, layout, largestChunk);
+        const std::vector<std::byte> decoded =
+            undoBitshuffle({static_cast<const std::byte *>(*buffer), bytes}, layout, largestChunk);
         if (decoded.empty())
             return 0;
         void *own = H5allocate_memory(decoded.size(), false);
@@ -66,8 +69,8 @@ namespace {
         return decoded.size();
     }
 
-    /// The library while one of us uses it: for one thread, without plug-ins, and in silence, for what goes wrong is said once, by Error. Others of the
-    /// same process, such as h5py, find it as they left it.
+    /// The library while one of us uses it: for one thread, without plug-ins, and in silence, for what goes wrong is
+    /// said once, by Error. Others of the same process, such as h5py, find it as they left it.
     class LibraryUse
     {
     public:
@@ -79,7 +82,8 @@ namespace {
             H5Eget_auto2(H5E_DEFAULT, &m_report, &m_reportData);
             H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
             if (H5Zfilter_avail(bitshuffle) <= 0) {
-                const H5Z_class2_t filter{H5Z_CLASS_T_VERS, bitshuffle, 0, 1, "bitshuffle", nullptr, nullptr, &decodeBitshuffle};
+                const H5Z_class2_t filter{H5Z_CLASS_T_VERS, bitshuffle, 0,       1,
+                                          "bitshuffle",     nullptr,    nullptr, &decodeBitshuffle};
                 H5Zregister(&filter);
             }
         }
@@ -111,7 +115,8 @@ namespace {
             std::array<char, 64> name{};
             unsigned flags = 0;
             std::size_t none = 0;
-            const H5Z_filter_t filter = H5Pget_filter2(plan, static_cast<unsigned>(i), &flags, &none, nullptr, name.size() - 1, name.data(), nullptr);
+            const H5Z_filter_t filter = H5Pget_filter2(plan, static_cast<unsigned>(i), &flags, &none, nullptr,
+                                                       name.size() - 1, name.data(), nullptr);
             if (filter < 0 || H5Zfilter_avail(filter) <= 0)
                 throw Error(where, "is packed by filter " + std::to_string(filter) + " (" + oneLine(name.data())
                                        + "); deflate, szip, shuffle, bitshuffle and bitshuffle with LZ4 can be read");
@@ -201,7 +206,8 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
     std::array<hsize_t, H5S_MAX_RANK> sizes{};
     const int axes = H5Sget_simple_extent_dims(space, sizes.data(), nullptr);
     constexpr hsize_t mostValues = hsize_t(1) << 50;
-    if (axes < 1 || std::any_of(sizes.begin(), sizes.begin() + axes, [](hsize_t size) { return size < 1 || size > mostValues; }))
+    if (axes < 1
+        || std::any_of(sizes.begin(), sizes.begin() + axes, [](hsize_t size) { return size < 1 || size > mostValues; }))
         throw Error(where, "holds no values, or more than can be");
     checkStorage(handle, H5Tget_size(type), where);
 

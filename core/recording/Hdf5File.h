@@ -26,7 +26,8 @@ public:
     std::optional<double> number(const std::string &attribute) const;
     std::optional<std::string> text(const std::string &attribute) const;
 
-    /// Reads a box, last axis contiguous, converted to single precision. Precondition: it lies within the shape. Throws Error where the file is damaged there.
+    /// Reads a box, last axis contiguous, converted to single precision. Precondition: it lies within the shape. Throws
+    /// Error where the file is damaged there.
     void read(const std::vector<Index> &first, const std::vector<Index> &count, std::span<float> out) const;
 
 private:
@@ -43,10 +44,12 @@ private:
 
 /// An HDF5 file, opened to be read, with all shut off by which one reaches beyond itself.
 ///
-/// Only hard links are followed: no external and no soft ones. Datasets whose values lie in other files (external storage, virtual datasets) are refused.
-/// No plug-in is ever loaded, wherever the file or the environment say that they are: filters are those that are built into the library, and bitshuffle with
-/// or without LZ4, decoded here. Chunks of more than 256 MiB are refused. The library is used by one thread at a time (a lock of this class), so the
-/// classes are thread-safe, and left as it was found, for others of the process may use it. This is the only place that knows HDF5.
+/// Only hard links are followed: no external and no soft ones. Datasets whose values lie in other files (external
+/// storage, virtual datasets) are refused. No plug-in is ever loaded, wherever the file or the environment say that
+/// they are: filters are those that are built into the library, and bitshuffle with or without LZ4, decoded here.
+/// Chunks of more than 256 MiB are refused. The library is used by one thread at a time (a lock of this class), so the
+/// classes are thread-safe, and left as it was found, for others of the process may use it. This is the only place that
+/// knows HDF5.
 class Hdf5File
 {
 public:
@@ -56,7 +59,8 @@ public:
     Hdf5File(const Hdf5File &) = delete;
     Hdf5File &operator=(const Hdf5File &) = delete;
 
-    /// A dataset by its path ("strain/Strain"); null where there is none. Throws Error where it may not be followed or cannot be read.
+    /// A dataset by its path ("strain/Strain"); null where there is none. Throws Error where it may not be followed or
+    /// cannot be read.
     std::unique_ptr<Hdf5Dataset> dataset(const std::string &name) const;
 
     /// Whether a file begins as one.

@@ -10,8 +10,8 @@ struct InjectedLine {
     double amplitude = 0.0;
 };
 
-/// Checks lines that are to be added to a recording one after the other, in a list of that name: they are laid one over the other, each
-/// with what it tells of itself. Throws Error naming the line.
+/// Checks lines that are to be added to a recording one after the other, in a list of that name: they are laid one over
+/// the other, each with what it tells of itself. Throws Error naming the line.
 void checkInjections(const std::vector<InjectedLine> &lines, const RecordingInfo &recording, const std::string &name);
 
 /// A recording with known lines added to one of its channels. How strong a line must be for a wanted SNR in this noise

@@ -52,7 +52,8 @@ namespace {
     bool isWave(const FileBytes &file)
     {
         std::array<std::byte, headerBytes> head;
-        return file.readAt(0, head) == head.size() && std::memcmp(head.data(), "RIFF", 4) == 0 && std::memcmp(head.data() + 8, "WAVE", 4) == 0;
+        return file.readAt(0, head) == head.size() && std::memcmp(head.data(), "RIFF", 4) == 0
+               && std::memcmp(head.data() + 8, "WAVE", 4) == 0;
     }
 
     /// The GNSS second of the week of a chunk's first sample; nothing where the receiver had no fix.
@@ -115,11 +116,14 @@ namespace {
         {
             std::vector<std::string> notes;
             if (m_first)
-                notes.push_back("The first time stamp is second " + formatNumber(m_first->seconds) + " of the GPS week.");
+                notes.push_back("The first time stamp is second " + formatNumber(m_first->seconds)
+                                + " of the GPS week.");
             if (rateHz() != m_nominalHz)
-                notes.push_back("The sample rate is that of the time stamps; the header says " + formatNumber(m_nominalHz) + " Hz.");
+                notes.push_back("The sample rate is that of the time stamps; the header says "
+                                + formatNumber(m_nominalHz) + " Hz.");
             if (m_gaps > 0)
-                notes.push_back("The time stamps tell of " + std::to_string(m_gaps) + " gap(s), " + formatNumber(std::round(1e3 * m_missing) / 1e3)
+                notes.push_back("The time stamps tell of " + std::to_string(m_gaps) + " gap(s), "
+                                + formatNumber(std::round(1e3 * m_missing) / 1e3)
                                 + " s altogether; the samples are read as if there were none.");
             return notes;
         }
@@ -164,8 +168,8 @@ KiwiRecording::KiwiRecording(const std::string &path) : m_file(path)
     const double nominalHz = numberAt<std::uint32_t>(fields, 4);
     const auto bits = numberAt<std::uint16_t>(fields, 14);
     if (numberAt<std::uint16_t>(fields, 0) != 1 || bits != 16 || channels < 1 || channels > 2 || !(nominalHz > 0.0))
-        throw Error(path, "has " + std::to_string(channels) + " channel(s) of " + std::to_string(bits) + " bits at " + formatNumber(nominalHz)
-                              + " Hz; a KiwiSDR writes 1 or 2 of 16 bits");
+        throw Error(path, "has " + std::to_string(channels) + " channel(s) of " + std::to_string(bits) + " bits at "
+                              + formatNumber(nominalHz) + " Hz; a KiwiSDR writes 1 or 2 of 16 bits");
     m_bytesPerSample = 2 * channels;
 
     StampedClock clock(nominalHz);
@@ -208,7 +212,8 @@ void KiwiRecording::add(Index offset, Index samples)
         }
     }
     if (m_runs.size() >= mostRuns)
-        throw Error(m_file.path(), "has chunks of samples of more than a million sizes and distances, which no receiver writes");
+        throw Error(m_file.path(),
+                    "has chunks of samples of more than a million sizes and distances, which no receiver writes");
     m_runs.push_back({m_info.sampleCount, offset, samples, 0, 1});
     m_info.sampleCount += samples;
 }
@@ -236,7 +241,9 @@ void KiwiRecording::readWithin(const Run &run, Index sample, std::span<float> ou
 void KiwiRecording::read(int, Index first, Index count, std::span<float> out) const
 {
     fill(first, count, out, [&](Index from, std::span<float> inside) {
-        auto run = std::upper_bound(m_runs.begin(), m_runs.end(), from, [](Index sample, const Run &r) { return sample < r.firstSample; }) - 1;
+        auto run = std::upper_bound(m_runs.begin(), m_runs.end(), from,
+                                    [](Index sample, const Run &r) { return sample < r.firstSample; })
+                   - 1;
         const Index floats = m_info.floatsPerSample();
         for (; !inside.empty(); ++run) {
             const Index within = from - run->firstSample;

@@ -7,14 +7,16 @@
 
 namespace faintline {
 
-/// A WAV file as KiwiSDR receivers write it: many short data chunks, each behind a "kiwi" chunk with the GNSS time of its first sample.
+/// A WAV file as KiwiSDR receivers write it: many short data chunks, each behind a "kiwi" chunk with the GNSS time of
+/// its first sample.
 ///
 ///   "RIFF" size "WAVE",  "fmt " …,  then again and again  "kiwi" 10: age of the last fix (s, 255: none), 0, GPS second of the week, nanosecond
 ///                                                         "data" n: 16-bit samples
 ///
-/// Two channels are I and Q. The sample rate is that of the time stamps over the longest stretch without a gap, where they tell one, for the header holds
-/// but whole hertz. Gaps between stamps are told in a note; samples are read as if there were none. A file that was cut short is read as far as it goes.
-/// Memory: of chunks of equal size none, however many. Source: kiwiclient, kiwirecorder.py. Thread-safe.
+/// Two channels are I and Q. The sample rate is that of the time stamps over the longest stretch without a gap, where
+/// they tell one, for the header holds but whole hertz. Gaps between stamps are told in a note; samples are read as if
+/// there were none. A file that was cut short is read as far as it goes. Memory: of chunks of equal size none, however
+/// many. Source: kiwiclient, kiwirecorder.py. Thread-safe.
 class KiwiRecording final : public Recording
 {
 public:
@@ -30,7 +32,7 @@ private:
     /// Data chunks of one size, evenly spaced in the file.
     struct Run {
         Index firstSample;
-        Index offset; ///< of the first one's samples in the file
+        Index offset;  ///< of the first one's samples in the file
         Index samples; ///< of each chunk
         Index stride;  ///< from one to the next, bytes
         Index count;

@@ -40,10 +40,12 @@ const std::vector<Field<LineSettings>> &LineSettings::fields()
         field(&S::snrDb, "snrDb", "dB", -60.0, 120.0,
               "Power of the line over the noise power in one resolution cell of a rectangular window of "
               "referenceSeconds."),
-        field(&S::referenceSeconds, "referenceSeconds", "s", 1e-6, 1e6, "Length of the window to which the SNR refers."),
+        field(&S::referenceSeconds, "referenceSeconds", "s", 1e-6, 1e6,
+              "Length of the window to which the SNR refers."),
         field(&S::startSeconds, "startSeconds", "s", 0.0, 1e9, "Start time of the line."),
-        field(&S::durationSeconds, "durationSeconds", "s", 0.0, 1e9, "Duration of the line; 0 extends it to the end of "
-                                                                     "the recording."),
+        field(&S::durationSeconds, "durationSeconds", "s", 0.0, 1e9,
+              "Duration of the line; 0 extends it to the end of "
+              "the recording."),
         field(&S::frequencyHz, "frequencyHz", "Hz", -1e12, 1e12, "Frequency of the line at its start."),
         field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Constant drift of the frequency."),
         field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of the random wander around the drift."),
@@ -60,8 +62,7 @@ const std::vector<Field<NoiseSettings>> &NoiseSettings::fields()
     static const std::vector<Field<S>> table{
         field(&S::deviation, "deviation", "", 1e-12, 1e6,
               "Standard deviation of the noise in a sample; full scale is 1."),
-        field(&S::slopeDbPerOctave, "slopeDbPerOctave", "dB", -6.0, 6.0,
-              "Spectral shape of the noise density."),
+        field(&S::slopeDbPerOctave, "slopeDbPerOctave", "dB", -6.0, 6.0, "Spectral shape of the noise density."),
         field(&S::levelDriftDb, "levelDriftDb", "dB", 0.0, 20.0,
               "Standard deviation of the slow changes of the noise level."),
         field(&S::levelDriftSeconds, "levelDriftSeconds", "s", 1e-3, 1e9, "Correlation time of these changes."),
@@ -145,10 +146,10 @@ void checkScene(const LineScene &scene)
     const double samples = scene.sampleRateHz * scene.durationSeconds;
     if (!(samples >= 1.0 && samples <= 1e15))
         throw fieldError("durationSeconds", formatNumber(scene.durationSeconds),
-                    "gives " + formatNumber(std::floor(samples)) + " samples; must be 1 … 1e15");
+                         "gives " + formatNumber(std::floor(samples)) + " samples; must be 1 … 1e15");
     if (scene.noise.levelDriftDb > 0.0 && scene.durationSeconds > 1e6 * scene.noise.levelDriftSeconds)
         throw fieldError("noise.levelDriftSeconds", formatNumber(scene.noise.levelDriftSeconds),
-                    "must be at least a millionth of the duration");
+                         "must be at least a millionth of the duration");
     if (scene.lines.size() > mostLines)
         throw Error("lines", "must be at most " + std::to_string(mostLines));
     checkLines(scene.lines, recordingInfo(scene), "lines");

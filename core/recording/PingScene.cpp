@@ -37,12 +37,14 @@ namespace {
         for (std::size_t leg = 0; leg < target.legs.size(); ++leg) {
             checkFields(target.legs[leg], PingLeg::fields(), legName(i, leg));
             if (target.legs[leg].pings == 0 && leg + 1 < target.legs.size())
-                throw Error(legName(i, leg) + ".pings = 0", "lasts to the end, but another leg follows; give its length");
+                throw Error(legName(i, leg) + ".pings = 0",
+                            "lasts to the end, but another leg follows; give its length");
         }
         if (target.vanishPing != 0 && target.vanishPing <= target.appearPing)
             throw Error(name + ".vanishPing = " + std::to_string(target.vanishPing),
-                        "must be greater than appearPing = " + std::to_string(target.appearPing) + ", or 0 if the "
-                                                                                                   "target stays");
+                        "must be greater than appearPing = " + std::to_string(target.appearPing)
+                            + ", or 0 if the "
+                              "target stays");
         if (target.appearPing >= scene.pings)
             throw Error(name + ".appearPing = " + std::to_string(target.appearPing),
                         "must be one of the pings, 0 … " + std::to_string(scene.pings - 1));
@@ -50,7 +52,8 @@ namespace {
         const double cell = range.position(target.rangeMetres);
         if (cell < -0.5 || cell >= static_cast<double>(range.count) - 0.5)
             throw Error(name + ".rangeMetres = " + formatNumber(target.rangeMetres),
-                        "must lie within the range cells, " + formatNumber(range.first) + " … " + formatNumber(range.last()) + " m");
+                        "must lie within the range cells, " + formatNumber(range.first) + " … "
+                            + formatNumber(range.last()) + " m");
     }
 
 } // namespace
@@ -60,12 +63,16 @@ const std::vector<Field<PingLeg>> &PingLeg::fields()
     using S = PingLeg;
     static const std::vector<Field<S>> table{
         field(&S::pings, "pings", "pings", 0.0, 1e6, "Number of pings in the leg; 0 extends it to the end."),
-        field(&S::rangeRateMetresPerSecond, "rangeRateMetresPerSecond", "m/s", -1e6, 1e6, "Rate of range, outward positive."),
+        field(&S::rangeRateMetresPerSecond, "rangeRateMetresPerSecond", "m/s", -1e6, 1e6,
+              "Rate of range, outward positive."),
         field(&S::bearingRateDegreesPerSecond, "bearingRateDegreesPerSecond", "°/s", -360.0, 360.0, "Rate of bearing."),
-        field(&S::rangeCellsPerPing, "rangeCellsPerPing", "cells/ping", -1e4, 1e4, "Rate of range in cells; adds to the one in m/s."),
-        field(&S::beamsPerPing, "beamsPerPing", "beams/ping", -1e3, 1e3, "Rate of bearing in beams; adds to the one in °/s."),
-        field(&S::turnPings, "turnPings", "pings", 1.0, 1e6, "Pings over which the rates change from those of the "
-                                                             "previous leg to these."),
+        field(&S::rangeCellsPerPing, "rangeCellsPerPing", "cells/ping", -1e4, 1e4,
+              "Rate of range in cells; adds to the one in m/s."),
+        field(&S::beamsPerPing, "beamsPerPing", "beams/ping", -1e3, 1e3,
+              "Rate of bearing in beams; adds to the one in °/s."),
+        field(&S::turnPings, "turnPings", "pings", 1.0, 1e6,
+              "Pings over which the rates change from those of the "
+              "previous leg to these."),
     };
     return table;
 }
@@ -74,16 +81,19 @@ const std::vector<Field<PingTarget>> &PingTarget::fields()
 {
     using S = PingTarget;
     static const std::vector<Field<S>> table{
-        field(&S::snrDb, "snrDb", "dB", -60.0, 80.0, "Power of the echo over the noise power in a cell, without "
-                                                     "reverberation."),
-        field(&S::echo, "echo", echoNames, "Constant added power, a power drawn independently in every ping, or a "
-                                           "constant amplitude."),
+        field(&S::snrDb, "snrDb", "dB", -60.0, 80.0,
+              "Power of the echo over the noise power in a cell, without "
+              "reverberation."),
+        field(&S::echo, "echo", echoNames,
+              "Constant added power, a power drawn independently in every ping, or a "
+              "constant amplitude."),
         field(&S::rangeMetres, "rangeMetres", "m", 0.0, 1e9, "Range at which the target appears."),
         field(&S::bearingDegrees, "bearingDegrees", "°", -360.0, 720.0, "Bearing at which the target appears."),
         field(&S::appearPing, "appearPing", "ping", 0.0, 1e6, "First ping with the target, counted from 0."),
         field(&S::vanishPing, "vanishPing", "ping", 0.0, 1e6, "First ping without the target; 0: it stays to the end."),
-        field(&S::weaveCellsPerPing, "weaveCellsPerPing", "cells/ping", 0.0, 1e4, "Amplitude of a sinusoid added to "
-                                                                                  "the range rate."),
+        field(&S::weaveCellsPerPing, "weaveCellsPerPing", "cells/ping", 0.0, 1e4,
+              "Amplitude of a sinusoid added to "
+              "the range rate."),
         field(&S::weavePings, "weavePings", "pings", 1.0, 1e6, "Period of that sinusoid."),
     };
     return table;
@@ -93,11 +103,13 @@ const std::vector<Field<Reverberation>> &Reverberation::fields()
 {
     using S = Reverberation;
     static const std::vector<Field<S>> table{
-        field(&S::levelDb, "levelDb", "dB", -60.0, 80.0, "Power of the reverberation over the noise in the first range "
-                                                         "cell."),
+        field(&S::levelDb, "levelDb", "dB", -60.0, 80.0,
+              "Power of the reverberation over the noise in the first range "
+              "cell."),
         field(&S::decayPower, "decayPower", "", 0.0, 10.0, "Exponent with which the reverberation falls with range."),
-        field(&S::normalisation, "normalisation", pingNormalisationNames, "Whether the mean used for normalisation is "
-                                                                          "known or estimated."),
+        field(&S::normalisation, "normalisation", pingNormalisationNames,
+              "Whether the mean used for normalisation is "
+              "known or estimated."),
     };
     return table;
 }
@@ -113,10 +125,12 @@ const std::vector<Field<PingScene>> &PingScene::fields()
         field(&S::rangeStepMetres, "rangeStepMetres", "m", 1e-6, 1e6, "Length of a range cell."),
         field(&S::beams, "beams", "beams", 1.0, 1e4, "Number of beams in a ping."),
         field(&S::firstBearingDegrees, "firstBearingDegrees", "°", -360.0, 360.0, "Bearing of the first beam."),
-        field(&S::beamStepDegrees, "beamStepDegrees", "°", 0.0, 360.0, "Bearing step between beams; 0: full circle, "
-                                                                       "360°/beams."),
+        field(&S::beamStepDegrees, "beamStepDegrees", "°", 0.0, 360.0,
+              "Bearing step between beams; 0: full circle, "
+              "360°/beams."),
         field(&S::looks, "looks", "", 1.0, 1000.0, "Number of powers averaged in a cell."),
-        field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of the random numbers; the same seed gives the same pings."),
+        field(&S::seed, "seed", "", 0.0, 2147483647.0,
+              "Seed of the random numbers; the same seed gives the same pings."),
     };
     return table;
 }
@@ -149,17 +163,18 @@ void checkScene(const PingScene &scene)
     const double cells = static_cast<double>(scene.rangeCells) * scene.beams;
     if (cells > 1e7)
         throw fieldError("rangeCells", std::to_string(scene.rangeCells),
-                    "times beams gives " + formatNumber(cells) + " cells; at most 1e7 are possible");
+                         "times beams gives " + formatNumber(cells) + " cells; at most 1e7 are possible");
     if (scene.beamStepDegrees * scene.beams > 360.0 * (1.0 + 1e-9))
         throw fieldError("beamStepDegrees", formatNumber(scene.beamStepDegrees),
-                    "times beams is more than 360°; at most " + formatNumber(360.0 / scene.beams) + "°");
+                         "times beams is more than 360°; at most " + formatNumber(360.0 / scene.beams) + "°");
     if (scene.reverberation) {
         checkFields(*scene.reverberation, Reverberation::fields(), "reverberation");
         if (scene.firstRangeMetres <= 0.0)
             throw Error("firstRangeMetres = 0", "must be above 0 with reverberation, whose level refers to it");
         constexpr int fewestCells = 32;
         if (scene.reverberation->normalisation == PingNormalisation::Estimated && cells < fewestCells)
-            throw fieldError("reverberation.normalisation", "estimated", "needs at least " + std::to_string(fewestCells) + " cells in a ping");
+            throw fieldError("reverberation.normalisation", "estimated",
+                             "needs at least " + std::to_string(fewestCells) + " cells in a ping");
     }
     constexpr std::size_t mostTargets = 1000;
     constexpr double mostPlaces = 3e6; // 24 bytes each

@@ -19,7 +19,8 @@ enum class Echo {
 };
 inline constexpr std::array<std::string_view, 3> echoNames{"constant", "fluctuating", "complex"};
 
-/// Rates of range and bearing that hold for some pings. Physical rates and rates in cells add up, so either may be given.
+/// Rates of range and bearing that hold for some pings. Physical rates and rates in cells add up, so either may be
+/// given.
 struct PingLeg {
     int pings = 0; ///< how long it lasts; 0: to the end
     double rangeRateMetresPerSecond = 0.0;
@@ -34,8 +35,8 @@ struct PingLeg {
 
 /// A point target: where it starts, how it moves, how strong its echo is.
 ///
-/// With v(k) the rate k pings after it appeared, its position is p(k+1) = p(k) + (v(k) + v(k+1))/2 on each axis, and it fills the
-/// nearest cell. Bearings wrap; a target beyond the range cells is silent until it comes back.
+/// With v(k) the rate k pings after it appeared, its position is p(k+1) = p(k) + (v(k) + v(k+1))/2 on each axis, and it
+/// fills the nearest cell. Bearings wrap; a target beyond the range cells is silent until it comes back.
 struct PingTarget {
     double snrDb = 7.0;
     Echo echo = Echo::Constant;
@@ -59,7 +60,8 @@ enum class PingNormalisation {
 };
 inline constexpr std::array<std::string_view, 2> pingNormalisationNames{"known", "estimated"};
 
-/// Reverberation: a background power levelDb above the noise in the first range cell that falls with (range)^-decayPower.
+/// Reverberation: a background power levelDb above the noise in the first range cell that falls with
+/// (range)^-decayPower.
 struct Reverberation {
     double levelDb = 20.0;
     double decayPower = 3.0;
@@ -69,8 +71,8 @@ struct Reverberation {
     bool operator==(const Reverberation &) const = default;
 };
 
-/// An active sonar's pings to be simulated: a grid of range × bearing, targets, noise. The defaults are Parsons' simulation
-/// (2008, section 3): 2500 range cells of 10 m, 20 beams all round, a ping every 40 s.
+/// An active sonar's pings to be simulated: a grid of range × bearing, targets, noise. The defaults are Parsons'
+/// simulation (2008, section 3): 2500 range cells of 10 m, 20 beams all round, a ping every 40 s.
 struct PingScene {
     int pings = 60;
     double priSeconds = 40.0; ///< from ping to ping
@@ -105,8 +107,8 @@ void checkScene(const PingScene &scene);
 /// Whether a scene's JSON is one of pings: {"kind": "pings", …}.
 bool isPingScene(const Json &json);
 
-/// The scene of {"kind": "pings", "reverberation": {…}, "targets": [{…, "legs": [{…}]}], …}. Keys that are not known are
-/// errors, missing ones take their defaults. Throws Error as checkScene does.
+/// The scene of {"kind": "pings", "reverberation": {…}, "targets": [{…, "legs": [{…}]}], …}. Keys that are not known
+/// are errors, missing ones take their defaults. Throws Error as checkScene does.
 PingScene pingSceneFromJson(const Json &json);
 
 Json toJson(const PingScene &scene);

@@ -46,9 +46,10 @@ public:
     /// file fails under it.
     virtual void read(int channel, Index first, Index count, std::span<float> out) const = 0;
 
-    /// Order of magnitude of a channel's samples: they lie around 2^e, e a multiple of 60, so 0 for all within 2^±30. Whoever squares
-    /// samples takes it off before: single precision holds the square of no strain of 1e-22. A power of two, so it costs no bit.
-    /// 0 for a recording that does not measure it (measuredScaleExponent) because its scale is known to be about 1.
+    /// Order of magnitude of a channel's samples: they lie around 2^e, e a multiple of 60, so 0 for all within 2^±30.
+    /// Whoever squares samples takes it off before: single precision holds the square of no strain of 1e-22. A power of
+    /// two, so it costs no bit. 0 for a recording that does not measure it (measuredScaleExponent) because its scale is
+    /// known to be about 1.
     virtual int scaleExponent(int /*channel*/) const { return 0; }
 
     /// Floats that were not finite in all reads so far (one that was read twice counts twice): 0 for a sound recording.
@@ -60,7 +61,8 @@ protected:
     void fill(Index first, Index count, std::span<float> out,
               const std::function<void(Index first, std::span<float> out)> &fetch) const;
 
-    /// What scaleExponent answers, from the median magnitude of short stretches all over the channel, silent ones left out.
+    /// What scaleExponent answers, from the median magnitude of short stretches all over the channel, silent ones left
+    /// out.
     int measuredScaleExponent(int channel) const;
     /// The same of a known magnitude.
     static int scaleExponentOf(double magnitude);

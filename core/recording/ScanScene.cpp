@@ -41,15 +41,18 @@ const std::vector<Field<ScanScene>> &ScanScene::fields()
         field(&S::azimuthCells, "azimuthCells", "", 1.0, 65536.0, "Cells in azimuth."),
         field(&S::elevationCells, "elevationCells", "", 1.0, 65536.0, "Cells in elevation."),
         field(&S::rangeCells, "rangeCells", "", 1.0, 1048576.0, "Cells in range."),
-        field(&S::dopplerCells, "dopplerCells", "", 1.0, 65536.0, "Cells in Doppler, which is ambiguous and drawn "
-                                                                  "independently at every stage."),
+        field(&S::dopplerCells, "dopplerCells", "", 1.0, 65536.0,
+              "Cells in Doppler, which is ambiguous and drawn "
+              "independently at every stage."),
         field(&S::stages, "stages", "", 1.0, 1000000.0, "Number of scans of the sector."),
         field(&S::hasTarget, "hasTarget", "Whether there is a target; otherwise the scans contain noise only."),
         field(&S::snrDb, "snrDb", "dB", -60.0, 120.0, "Mean power of the target over the noise in its cell."),
         field(&S::moves, "moves", scanMovesNames, "Motion of the target from stage to stage."),
-        field(&S::moveCells, "moveCells", "", 0.0, 1000.0, "Standard deviation of a Gaussian step along each axis, in cells."),
+        field(&S::moveCells, "moveCells", "", 0.0, 1000.0,
+              "Standard deviation of a Gaussian step along each axis, in cells."),
         field(&S::secondsPerStage, "secondsPerStage", "s", 1e-9, 1e9, "Time between two scans."),
-        field(&S::seed, "seed", "", 0.0, 2147483647.0, "Seed of the random numbers; the same seed gives the same scans."),
+        field(&S::seed, "seed", "", 0.0, 2147483647.0,
+              "Seed of the random numbers; the same seed gives the same scans."),
     };
     return table;
 }
@@ -57,11 +60,11 @@ const std::vector<Field<ScanScene>> &ScanScene::fields()
 void checkScene(const ScanScene &scene)
 {
     checkFields(scene, ScanScene::fields());
-    const double cells =
-        static_cast<double>(scene.azimuthCells) * scene.elevationCells * static_cast<double>(scene.rangeCells) * scene.dopplerCells;
+    const double cells = static_cast<double>(scene.azimuthCells) * scene.elevationCells
+                         * static_cast<double>(scene.rangeCells) * scene.dopplerCells;
     if (cells > 0x1p28)
         throw fieldError("rangeCells", std::to_string(scene.rangeCells),
-                    "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁸ are possible");
+                         "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁸ are possible");
     if (cells * scene.stages > 0x1p31)
         throw fieldError("stages", std::to_string(scene.stages), "gives more than 2³¹ values in all");
 }
@@ -87,8 +90,8 @@ Json toJson(const ScanScene &scene)
 Grid scanGrid(const ScanScene &scene)
 {
     const auto axis = [](const char *name, int cells) { return Axis{name, "", 0.0, 1.0, cells, false}; };
-    return {{axis("azimuth", scene.azimuthCells), axis("elevation", scene.elevationCells), axis("range", scene.rangeCells),
-             axis("Doppler", scene.dopplerCells)}};
+    return {{axis("azimuth", scene.azimuthCells), axis("elevation", scene.elevationCells),
+             axis("range", scene.rangeCells), axis("Doppler", scene.dopplerCells)}};
 }
 
 std::vector<ScanCell> scanTrajectory(const ScanScene &scene, int run)
@@ -101,8 +104,8 @@ std::vector<ScanCell> scanTrajectory(const ScanScene &scene, int run)
     for (Index stage = 0; stage < scene.stages; ++stage) {
         ScanCell at{};
         for (std::size_t axis = 0; axis < at.size(); ++axis)
-            at[axis] =
-                stage == 0 || axis == 3 ? uniformCell(random, cells[axis]) : moved(trajectory.back()[axis], cells[axis], scene, random);
+            at[axis] = stage == 0 || axis == 3 ? uniformCell(random, cells[axis])
+                                               : moved(trajectory.back()[axis], cells[axis], scene, random);
         trajectory.push_back(at);
     }
     return trajectory;

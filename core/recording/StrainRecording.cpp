@@ -16,7 +16,8 @@ namespace {
     double unixFromGps(double gps)
     {
         constexpr double gpsEpoch = 315964800.0; // 1980-01-06 in seconds since 1970
-        constexpr std::array<std::pair<double, int>, 4> leaps{{{1167264018.0, 18}, {1119744017.0, 17}, {1025136016.0, 16}, {914803215.0, 15}}};
+        constexpr std::array<std::pair<double, int>, 4> leaps{
+            {{1167264018.0, 18}, {1119744017.0, 17}, {1025136016.0, 16}, {914803215.0, 15}}};
         int leap = 14;
         for (auto since = leaps.rbegin(); since != leaps.rend(); ++since)
             if (gps >= since->first)
@@ -31,19 +32,22 @@ bool StrainRecording::recognises(const std::string &path)
     return Hdf5File::recognises(path) && Hdf5File(path).dataset(strainName);
 }
 
-StrainRecording::StrainRecording(const std::string &path) : m_file(std::make_unique<Hdf5File>(path)), m_strain(m_file->dataset(strainName))
+StrainRecording::StrainRecording(const std::string &path)
+    : m_file(std::make_unique<Hdf5File>(path)), m_strain(m_file->dataset(strainName))
 {
     if (!m_strain || m_strain->shape().size() != 1)
         throw Error(path, "holds no strain/Strain of one number a sample");
     const double spacing = m_strain->number("Xspacing").value_or(0.0);
     constexpr double shortest = 1e-9;
     if (!(spacing >= shortest && spacing <= 1e6))
-        throw Error(path + ": strain/Strain: Xspacing = " + formatNumber(spacing), "must be the seconds from one sample to the next");
+        throw Error(path + ": strain/Strain: Xspacing = " + formatNumber(spacing),
+                    "must be the seconds from one sample to the next");
     m_info.path = path;
     m_info.container = "HDF5 strain";
     m_info.sampleType = (m_strain->isFloat() ? "float" : "int") + std::to_string(m_strain->bits());
     m_info.sampleRateHz = 1.0 / spacing;
-    if (std::abs(m_info.sampleRateHz - std::round(m_info.sampleRateHz)) < 1e-6 * m_info.sampleRateHz && m_info.sampleRateHz >= 1.0)
+    if (std::abs(m_info.sampleRateHz - std::round(m_info.sampleRateHz)) < 1e-6 * m_info.sampleRateHz
+        && m_info.sampleRateHz >= 1.0)
         m_info.sampleRateHz = std::round(m_info.sampleRateHz); // its inverse had been rounded
     m_info.sampleCount = m_strain->shape().front();
     m_info.channelCount = 1;
@@ -53,7 +57,8 @@ StrainRecording::StrainRecording(const std::string &path) : m_file(std::make_uni
 
 void StrainRecording::read(int, Index first, Index count, std::span<float> out) const
 {
-    fill(first, count, out, [&](Index from, std::span<float> inside) { m_strain->read({from}, {std::ssize(inside)}, inside); });
+    fill(first, count, out,
+         [&](Index from, std::span<float> inside) { m_strain->read({from}, {std::ssize(inside)}, inside); });
 }
 
 } // namespace faintline

@@ -5,11 +5,12 @@
 
 namespace faintline {
 
-/// Strain of a gravitational-wave detector as the open science centre gives it out (GWOSC, .hdf5): strain/Strain, one number a sample, its distance in
-/// seconds as attribute Xspacing and the GPS time of the first as Xstart.
+/// Strain of a gravitational-wave detector as the open science centre gives it out (GWOSC, .hdf5): strain/Strain, one
+/// number a sample, its distance in seconds as attribute Xspacing and the GPS time of the first as Xstart.
 ///
-/// Samples are in their own unit, around 1e-21. Those that the detector did not take are NaN in the file, and read as 0. GPS time becomes UTC with the leap
-/// seconds of 2017 on (18), of 2015 (17), 2012 (16), 2009 (15) and before. Thread-safe.
+/// Samples are in their own unit, around 1e-21. Those that the detector did not take are NaN in the file, and read as
+/// 0. GPS time becomes UTC with the leap seconds of 2017 on (18), of 2015 (17), 2012 (16), 2009 (15) and before.
+/// Thread-safe.
 class StrainRecording final : public Recording
 {
 public:

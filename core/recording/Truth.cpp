@@ -14,8 +14,9 @@ namespace {
             field(&S::startSeconds, "startSeconds", "s", -1e12, 1e12, "Start time of the line."),
             field(&S::endSeconds, "endSeconds", "s", -1e12, 1e12, "End time of the line."),
             field(&S::snrDb, "snrDb", "dB", -1e3, 1e3, "SNR of the line in a rectangular window of referenceSeconds."),
-            field(&S::referenceSeconds, "referenceSeconds", "s", 0.0, 1e12, "Length of the window to which the SNR "
-                                                                            "refers."),
+            field(&S::referenceSeconds, "referenceSeconds", "s", 0.0, 1e12,
+                  "Length of the window to which the SNR "
+                  "refers."),
             field(&S::amplitude, "amplitude", "", 0.0, 1e30, "Amplitude of the tone; full scale is 1."),
             field(&S::stepSeconds, "stepSeconds", "s", 0.0, 1e12, "Time between the values of frequencyHz."),
             field(&S::frequencyHz, "frequencyHz", "Hz", -1e15, 1e15, "Frequency from the start, one value per step."),

@@ -108,14 +108,16 @@ namespace {
         }
     }
 
-    /// Scripps' XWAV: what is known of the deployment, then for each stretch of samples (a "raw file") when it began and how long it is.
+    /// Scripps' XWAV: what is known of the deployment, then for each stretch of samples (a "raw file") when it began
+    /// and how long it is.
     void readHarp(const std::vector<std::byte> &harp, RecordingInfo &info)
     {
         constexpr std::size_t entriesAt = 56;
         constexpr std::size_t entryBytes = 32;
         if (harp.size() < entriesAt + entryBytes)
             return;
-        const std::size_t count = std::min<std::size_t>(littleEndian(harp, 36, 2), (harp.size() - entriesAt) / entryBytes);
+        const std::size_t count =
+            std::min<std::size_t>(littleEndian(harp, 36, 2), (harp.size() - entriesAt) / entryBytes);
         const double bytesPerSecond = 2.0 * info.channelCount * info.sampleRateHz; // XWAV holds 16 bits
         std::optional<double> end;
         int gaps = 0;
@@ -123,7 +125,8 @@ namespace {
         for (std::size_t entry = 0; entry < count; ++entry) {
             const std::size_t at = entriesAt + entry * entryBytes;
             const auto byte = [&](std::size_t i) { return static_cast<int>(littleEndian(harp, at + i, 1)); };
-            const auto start = unixSeconds(2000 + byte(0), byte(1), byte(2), byte(3), byte(4), byte(5) + littleEndian(harp, at + 6, 2) / 1000.0);
+            const auto start = unixSeconds(2000 + byte(0), byte(1), byte(2), byte(3), byte(4),
+                                           byte(5) + littleEndian(harp, at + 6, 2) / 1000.0);
             if (!start)
                 return;
             if (entry == 0) {
@@ -138,7 +141,8 @@ namespace {
             end = *start + littleEndian(harp, at + 12, 4) / bytesPerSecond;
         }
         if (gaps > 0)
-            info.notes.push_back("The harp chunk tells of " + std::to_string(gaps) + " gap(s), " + std::to_string(std::llround(missing))
+            info.notes.push_back("The harp chunk tells of " + std::to_string(gaps) + " gap(s), "
+                                 + std::to_string(std::llround(missing))
                                  + " s altogether; the samples are read as if there were none.");
     }
 
@@ -163,10 +167,12 @@ bool hasAiffRate(const FileBytes &file)
         if (isCommon) {
             if (file.readAt(offset + 8, head) != head.size())
                 return false;
-            // Channels, frames, bits, then sign and exponent (bias 16383) in two bytes, and a significand with its leading 1.
+            // Channels, frames, bits, then sign and exponent (bias 16383) in two bytes, and a significand with its
+            // leading 1.
             const std::uint32_t exponent = bigEndian(bytes.subspan(8, 2));
             const bool isNormal = bigEndian(bytes.subspan(10, 4)) >> 31 != 0;
-            return isNormal && exponent >= 16383 && exponent < 16383 + 30; // a sign makes it larger than that, as infinity and NaN are
+            return isNormal && exponent >= 16383
+                   && exponent < 16383 + 30; // a sign makes it larger than that, as infinity and NaN are
         }
         offset += 8 + length + length % 2;
     }

@@ -16,8 +16,8 @@ void readAudioMetadata(const AudioDecoder &decoder, RecordingInfo &info);
 /// The number of bytes, as libsndfile's log tells, by which a header claims more than the file holds; 0 if it does not.
 long long missingBytes(const std::string &log);
 
-/// Whether an AIFF file's sample rate, an 80-bit floating-point number, lies in 1 Hz … 2³⁰ Hz. The library makes one up where it
-/// does not.
+/// Whether an AIFF file's sample rate, an 80-bit floating-point number, lies in 1 Hz … 2³⁰ Hz. The library makes one up
+/// where it does not.
 bool hasAiffRate(const FileBytes &file);
 
 } // namespace faintline

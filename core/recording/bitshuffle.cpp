@@ -89,14 +89,16 @@ namespace {
         std::uint64_t compressed = 0;
         if (!source.number(4, compressed) || compressed > LZ4_MAX_INPUT_SIZE || !source.take(compressed, taken))
             return false;
-        const int got = LZ4_decompress_safe(reinterpret_cast<const char *>(taken.data()), reinterpret_cast<char *>(block.data()),
-                                            static_cast<int>(taken.size()), static_cast<int>(block.size()));
+        const int got =
+            LZ4_decompress_safe(reinterpret_cast<const char *>(taken.data()), reinterpret_cast<char *>(block.data()),
+                                static_cast<int>(taken.size()), static_cast<int>(block.size()));
         return got == static_cast<int>(block.size());
     }
 
 } // namespace
 
-std::vector<std::byte> undoBitshuffle(std::span<const std::byte> chunk, const BitshuffleLayout &layout, std::size_t mostBytes)
+std::vector<std::byte> undoBitshuffle(std::span<const std::byte> chunk, const BitshuffleLayout &layout,
+                                      std::size_t mostBytes)
 {
     Source source(chunk);
     std::uint64_t size = chunk.size();

@@ -51,7 +51,9 @@ RecordingPointer openRecording(const std::string &path, const OpenOptions &optio
     if (Hdf5File::recognises(path)) {
         if (StrainRecording::recognises(path))
             return std::make_shared<StrainRecording>(path);
-        throw Error(path, "is an HDF5 file of another kind; strain (strain/Strain) and filterbanks (data, with fch1) can be read");
+        throw Error(
+            path,
+            "is an HDF5 file of another kind; strain (strain/Strain) and filterbanks (data, with fch1) can be read");
     }
     if (const auto rawType = rawTypeOfExtension(path); rawType && !AudioRecording::recognises(path))
         return openByRawExtension(path, *rawType, options);

@@ -79,8 +79,9 @@ namespace {
                                               : SF_FORMAT_FLOAT);
             m_channels = static_cast<std::size_t>(format.channels);
             if (!sf_format_check(&format))
-                throw Error(path, "this file format does not support " + std::to_string(format.channels) + " channel(s) at "
-                                      + formatNumber(info.sampleRateHz) + " Hz; write .wav, .w64 or .sigmf-meta");
+                throw Error(path, "this file format does not support " + std::to_string(format.channels)
+                                      + " channel(s) at " + formatNumber(info.sampleRateHz)
+                                      + " Hz; write .wav, .w64 or .sigmf-meta");
             m_handle.reset(sf_open_fd(m_file.descriptor(), SFM_WRITE, &format, SF_FALSE));
             if (!m_handle)
                 throw Error(path, std::string("cannot be written: ") + sf_strerror(nullptr), Error::Kind::Failure);
@@ -217,8 +218,7 @@ namespace {
         for (const auto &[name, kind] : audioKinds)
             if (extension == name)
                 return std::make_unique<AudioWriter>(info, path, kind, type);
-        throw Error(path,
-                    "has no known extension; expected .wav, .rf64, .w64, .aiff, .caf, .au, .flac or .sigmf-meta");
+        throw Error(path, "has no known extension; expected .wav, .rf64, .w64, .aiff, .caf, .au, .flac or .sigmf-meta");
     }
 
 } // namespace

@@ -12,7 +12,8 @@ namespace {
 
 FrameStream::FrameStream(const NormalisedFrames &frames, bool readsAhead)
     : m_frames(frames), m_readsAhead(readsAhead),
-      m_blockFrames(std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / std::max<Index>(1, frames.grid().size())))
+      m_blockFrames(
+          std::max<Index>(1, static_cast<Index>(blockBytes / sizeof(float)) / std::max<Index>(1, frames.grid().size())))
 {
     if (m_readsAhead)
         prefetch();

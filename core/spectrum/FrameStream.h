@@ -7,7 +7,8 @@
 
 namespace faintline {
 
-/// Frames in order, in blocks of about 1 MiB: read one block ahead of their use, on another thread, if there is one to spare.
+/// Frames in order, in blocks of about 1 MiB: read one block ahead of their use, on another thread, if there is one to
+/// spare.
 class FrameStream
 {
 public:

@@ -13,7 +13,8 @@ namespace {
 
     constexpr float silence = NoiseBackground::silence;
 
-    /// Between two blocks' ln powers. Between silence and noise there is nothing to interpolate: the noisy block speaks for both.
+    /// Between two blocks' ln powers. Between silence and noise there is nothing to interpolate: the noisy block speaks
+    /// for both.
     FAINTLINE_MULTIVERSION
     void interpolateBlocks(const float *early, const float *late, float fraction, std::size_t cells, float *ln)
     {
@@ -34,14 +35,17 @@ namespace {
             values[i] += start + step * static_cast<float>(i);
     }
 
-    /// Adds levels of sub-bands of equal width, interpolated between their middles, constant beyond the outer ones. Between middles that
-    /// lie an abyss apart, such as a receiver's band and the emptiness beside it, it is different noise, and changes half-way down.
+    /// Adds levels of sub-bands of equal width, interpolated between their middles, constant beyond the outer ones.
+    /// Between middles that lie an abyss apart, such as a receiver's band and the emptiness beside it, it is different
+    /// noise, and changes half-way down.
     void addBetweenBands(std::span<float> ln, const std::vector<float> &levels)
     {
         constexpr float abyss = 4.6f; // 20 dB
         const double perCell = static_cast<double>(levels.size()) / static_cast<double>(ln.size());
         const auto middleOf = [&](std::size_t band) { return (static_cast<double>(band) + 0.5) / perCell - 0.5; };
-        const auto place = [&](double cell) { return std::min(static_cast<std::size_t>(std::ceil(std::max(0.0, cell))), ln.size()); };
+        const auto place = [&](double cell) {
+            return std::min(static_cast<std::size_t>(std::ceil(std::max(0.0, cell))), ln.size());
+        };
         const auto addConstant = [&](std::size_t from, std::size_t to, float level) {
             addLine(ln.data() + from, static_cast<std::int32_t>(to - from), level, 0.0f);
         };
@@ -54,7 +58,8 @@ namespace {
             const float start = ln[from];
             const float fall = ln[to - 1] - start;
             if (std::abs(fall) > abyss) {
-                const auto half = std::find_if(ln.begin() + static_cast<std::ptrdiff_t>(from), ln.begin() + static_cast<std::ptrdiff_t>(to),
+                const auto half = std::find_if(ln.begin() + static_cast<std::ptrdiff_t>(from),
+                                               ln.begin() + static_cast<std::ptrdiff_t>(to),
                                                [&](float value) { return (value - start) / fall > 0.5f; });
                 const auto edge = static_cast<std::size_t>(half - ln.begin());
                 addConstant(from, edge, levels[band]);
@@ -62,8 +67,10 @@ namespace {
                 continue;
             }
             const double slope = static_cast<double>(levels[band + 1] - levels[band]) * perCell;
-            const double first = static_cast<double>(levels[band]) + (static_cast<double>(from) - middleOf(band)) * slope;
-            addLine(ln.data() + from, static_cast<std::int32_t>(to - from), static_cast<float>(first), static_cast<float>(slope));
+            const double first =
+                static_cast<double>(levels[band]) + (static_cast<double>(from) - middleOf(band)) * slope;
+            addLine(ln.data() + from, static_cast<std::int32_t>(to - from), static_cast<float>(first),
+                    static_cast<float>(slope));
         }
         const std::size_t last = place(middleOf(levels.size() - 1));
         addConstant(last, ln.size(), levels.back());
@@ -110,11 +117,14 @@ void NoiseBackground::readLnPower(double seconds, std::span<float> ln) const
     if (stretch != stretches.end()) {
         const auto sources = static_cast<std::size_t>(stretch->sources.count());
         const auto levelsAt = [&](Index i) {
-            return stretch->sourceLevels.data() + (std::min(i, stretch->firstLevel + stretch->levelCount() - 1) - stretch->firstLevel) * stretch->sources.count();
+            return stretch->sourceLevels.data()
+                   + (std::min(i, stretch->firstLevel + stretch->levelCount() - 1) - stretch->firstLevel)
+                         * stretch->sources.count();
         };
         std::vector<float> levels(sources);
         for (std::size_t k = 0; k < sources; ++k)
-            levels[k] = levelsAt(w.lower)[k] + static_cast<float>(w.fraction) * (levelsAt(w.lower + 1)[k] - levelsAt(w.lower)[k]);
+            levels[k] = levelsAt(w.lower)[k]
+                        + static_cast<float>(w.fraction) * (levelsAt(w.lower + 1)[k] - levelsAt(w.lower)[k]);
         readStretch(*stretch, levels, ln);
     } else {
         const Between t = between(time, seconds);
@@ -126,7 +136,8 @@ void NoiseBackground::readLnPower(double seconds, std::span<float> ln) const
         return;
     const auto level = [&](Index band) {
         const auto at = [&](Index window) {
-            return static_cast<double>(lnLevel[static_cast<std::size_t>(std::min(window, levelTime.count - 1) * bandCount + band)]);
+            return static_cast<double>(
+                lnLevel[static_cast<std::size_t>(std::min(window, levelTime.count - 1) * bandCount + band)]);
         };
         return (1.0 - w.fraction) * at(w.lower) + w.fraction * at(w.lower + 1);
     };

@@ -30,7 +30,8 @@ namespace {
 
     /// y ← y/B, 1/B interpolated between cells; one value more than there are cells is given.
     FAINTLINE_MULTIVERSION
-    void divideByBackground(float *y, std::size_t bins, const float *inverse, double start, double perBin, double lastCell)
+    void divideByBackground(float *y, std::size_t bins, const float *inverse, double start, double perBin,
+                            double lastCell)
     {
         for (std::size_t bin = 0; bin < bins; ++bin) {
             double position = start + static_cast<double>(static_cast<std::int32_t>(bin)) * perBin;
@@ -65,7 +66,8 @@ namespace {
 } // namespace
 
 NormalisedSpectrogram::NormalisedSpectrogram(std::shared_ptr<const Spectrogram> spectrogram,
-                                             std::shared_ptr<const NoiseBackground> background, const NormaliserSettings &settings)
+                                             std::shared_ptr<const NoiseBackground> background,
+                                             const NormaliserSettings &settings)
     : NormalisedFrames(spectrogram->time(), Grid{{spectrogram->frequency()}}), m_spectrogram(std::move(spectrogram)),
       m_background(std::move(background)), m_settings(settings)
 {
@@ -94,17 +96,19 @@ void NormalisedSpectrogram::normalise(Index frame, std::span<float> values, std:
     if (start == 0.0 && perBin == 1.0 && values.size() <= cells)
         divideBinByBin(values.data(), values.size(), inverse.data());
     else
-        divideByBackground(values.data(), values.size(), inverse.data(), start, perBin, static_cast<double>(b.frequency.count - 1));
+        divideByBackground(values.data(), values.size(), inverse.data(), start, perBin,
+                           static_cast<double>(b.frequency.count - 1));
     if (m_settings.followLevel)
         guardAgainstClicks(values);
 }
 
 void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const
 {
-    // What is shorter than the spacing of the levels. In most frames counting is enough: the median of a sub-band exceeds a
-    // limit where more than half of its values do.
+    // What is shorter than the spacing of the levels. In most frames counting is enough: the median of a sub-band
+    // exceeds a limit where more than half of its values do.
     const double binsPerCell = m_spectrogram->binsPerCell();
-    const auto bands = static_cast<std::size_t>(NoiseBackground::subBandCount(static_cast<double>(values.size()) / binsPerCell));
+    const auto bands =
+        static_cast<std::size_t>(NoiseBackground::subBandCount(static_cast<double>(values.size()) / binsPerCell));
     constexpr Index half = 20;
     const double allowed = 1.0 + 4.0 * inverseLn2 / std::sqrt(2.0 * half + 1.0);
     const auto limit = static_cast<float>(allowed * std::numbers::ln2_v<double>);

@@ -14,8 +14,8 @@ namespace faintline {
 class NormalisedSpectrogram final : public NormalisedFrames
 {
 public:
-    NormalisedSpectrogram(std::shared_ptr<const Spectrogram> spectrogram, std::shared_ptr<const NoiseBackground> background,
-                          const NormaliserSettings &settings);
+    NormalisedSpectrogram(std::shared_ptr<const Spectrogram> spectrogram,
+                          std::shared_ptr<const NoiseBackground> background, const NormaliserSettings &settings);
 
     void read(Index first, Index count, std::span<float> out) const override;
 

@@ -9,11 +9,11 @@ namespace faintline {
 
 /// A stretch of time in which the noise changes its colour: what its sources have of each frame.
 struct NoiseStretch {
-    Index firstLevel = 0;          ///< of the background's level times
-    NoiseSources sources;          ///< colours over `lnPower`
-    std::vector<float> lnPower;    ///< of each cell
+    Index firstLevel = 0;            ///< of the background's level times
+    NoiseSources sources;            ///< colours over `lnPower`
+    std::vector<float> lnPower;      ///< of each cell
     std::vector<float> sourceLevels; ///< level times × sources
-    float floor = 0.0f;            ///< ln power of rounding
+    float floor = 0.0f;              ///< ln power of rounding
 
     Index levelCount() const { return sources.count() > 0 ? std::ssize(sourceLevels) / sources.count() : 0; }
 };

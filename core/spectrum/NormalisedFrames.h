@@ -12,8 +12,9 @@ class Spectrogram;
 
 /// Frames whose noise has mean 1 in every cell: the only input a detector takes.
 ///
-/// A frame is one value y ≥ 0 per cell of `grid`, power over noise power, or NaN where nothing was observed. Frames are read by index, in any order, from
-/// any thread. A spectrogram cannot stand here before a normaliser has been through it.
+/// A frame is one value y ≥ 0 per cell of `grid`, power over noise power, or NaN where nothing was observed. Frames are
+/// read by index, in any order, from any thread. A spectrogram cannot stand here before a normaliser has been through
+/// it.
 class NormalisedFrames
 {
 public:

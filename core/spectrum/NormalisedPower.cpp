@@ -62,7 +62,8 @@ namespace {
 } // namespace
 
 LooksLaw::LooksLaw(double looks, double median)
-    : m_looks(looks), m_median(static_cast<float>(median)), m_scale(static_cast<float>(gammaQuantile(looks, 0.5) / median)),
+    : m_looks(looks), m_median(static_cast<float>(median)),
+      m_scale(static_cast<float>(gammaQuantile(looks, 0.5) / median)),
       m_centre(static_cast<float>(1.0 - 1.0 / (9.0 * looks))), m_spread(static_cast<float>(std::sqrt(9.0 * looks)))
 {
     for (double z = tableLowest; z <= tableHighest; z += tableStep) {
@@ -100,12 +101,14 @@ LooksLaw LooksLaw::fromQuantiles(double low, double middle, double high)
 namespace {
 
     /// B of a part, from blocks of frames evenly spread over it.
-    NoiseBackground estimate(const Axis &time, const Axis &frequency, const NormaliserSettings &settings, const RunContext &context,
-                             const std::function<std::vector<float>(Index frame)> &readFrame)
+    NoiseBackground estimate(const Axis &time, const Axis &frequency, const NormaliserSettings &settings,
+                             const RunContext &context, const std::function<std::vector<float>(Index frame)> &readFrame)
     {
         const Index cells = frequency.count;
-        const Index most = std::clamp<Index>(static_cast<Index>(memoryShares::background / sizeof(float)) / cells, 1, mostBlocks);
-        const Index wanted = std::max(static_cast<Index>(std::llround(settings.blockWindows)), (time.count + most - 1) / most);
+        const Index most =
+            std::clamp<Index>(static_cast<Index>(memoryShares::background / sizeof(float)) / cells, 1, mostBlocks);
+        const Index wanted =
+            std::max(static_cast<Index>(std::llround(settings.blockWindows)), (time.count + most - 1) / most);
         const Index blocks = std::max<Index>(1, time.count / wanted);
         const double blockFrames = static_cast<double>(time.count) / static_cast<double>(blocks);
         const double atMost = static_cast<double>(std::max(fewestFramesPerBlock, valuesPerBlock / cells));
@@ -144,8 +147,8 @@ namespace {
 
 } // namespace
 
-NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const PowerPart &part, const NormaliserSettings &settings,
-                                 const RunContext &context)
+NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const PowerPart &part,
+                                 const NormaliserSettings &settings, const RunContext &context)
     : NormalisedFrames(partOfAxis(power->info().time, part.firstFrame, part.frames),
                        Grid{{partOfAxis(power->info().frequency, part.firstCell, part.cells)}}),
       m_power(std::move(power)), m_part(part), m_law(1.0, gammaQuantile(1.0, 0.5))
@@ -153,8 +156,10 @@ NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const
     const std::string &path = m_power->info().path;
     const Axis &frequency = grid().axes.front();
     if (part.cells > mostCells)
-        throw Error(path, "has " + std::to_string(part.cells) + " channels, more than can be looked at together; choose a band (--set selection.lowHz=..., "
-                                  "selection.highHz=...)");
+        throw Error(path,
+                    "has " + std::to_string(part.cells)
+                        + " channels, more than can be looked at together; choose a band (--set selection.lowHz=..., "
+                          "selection.highHz=...)");
     m_background = estimate(time(), frequency, settings, context, [this](Index frame) { return readPower(frame, 1); });
 
     // The spread of what is left tells how many looks were averaged.
@@ -215,7 +220,8 @@ void NormalisedPower::read(Index first, Index count, std::span<float> out) const
     std::copy(power.begin(), power.end(), out.begin());
     const auto cells = static_cast<std::size_t>(m_part.cells);
     const std::size_t stride = (cells + levelCells - 1) / levelCells;
-    const double chance = 4.5 * medianScatter(static_cast<double>((cells + stride - 1) / stride)) / std::sqrt(m_law.looks());
+    const double chance =
+        4.5 * medianScatter(static_cast<double>((cells + stride - 1) / stride)) / std::sqrt(m_law.looks());
     std::vector<float> ln;
     std::vector<float> some;
     for (Index i = 0; i < count; ++i) {
@@ -226,7 +232,8 @@ void NormalisedPower::read(Index first, Index count, std::span<float> out) const
             if (std::isfinite(frame[cell]))
                 some.push_back(frame[cell] / m_law.median());
         const float level = some.empty() ? 1.0f : medianOf(some);
-        const bool isOff = level > 0.0f && cells >= levelCells / 10 && std::abs(std::log(static_cast<double>(level))) > chance;
+        const bool isOff =
+            level > 0.0f && cells >= levelCells / 10 && std::abs(std::log(static_cast<double>(level))) > chance;
         for (float &value : frame)
             value = value == value ? m_law(isOff ? value / level : value) : value;
     }
@@ -236,20 +243,25 @@ PowerPart partOf(const PowerInfo &info, const SelectionSettings &selection)
 {
     if (selection.channel >= info.channelCount)
         throw fieldError("selection.channel", std::to_string(selection.channel),
-                    info.path + " has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+                         info.path + " has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
     const auto between = [&](const Axis &axis, double from, double to, const std::string &name) {
-        const auto place = [&](double value) { return std::clamp(axis.position(value), -1.0, static_cast<double>(axis.count)); };
+        const auto place = [&](double value) {
+            return std::clamp(axis.position(value), -1.0, static_cast<double>(axis.count));
+        };
         const Index first = std::max<Index>(0, static_cast<Index>(std::ceil(place(from))));
         const Index last = std::min<Index>(axis.count - 1, static_cast<Index>(std::floor(place(to))));
         if (last < first)
-            throw Error(name, "leaves nothing of " + info.path + ", which goes from " + formatNumber(axis.first) + " to " + formatNumber(axis.last()) + " " + axis.unit);
+            throw Error(name, "leaves nothing of " + info.path + ", which goes from " + formatNumber(axis.first)
+                                  + " to " + formatNumber(axis.last()) + " " + axis.unit);
         return std::pair(first, last - first + 1);
     };
     PowerPart part{selection.channel, 0, info.time.count, 0, info.frequency.count};
     const double end = selection.toSeconds > 0.0 ? selection.toSeconds : info.time.last() + info.time.step;
-    std::tie(part.firstFrame, part.frames) = between(info.time, selection.fromSeconds, end, "selection.fromSeconds, selection.toSeconds");
+    std::tie(part.firstFrame, part.frames) =
+        between(info.time, selection.fromSeconds, end, "selection.fromSeconds, selection.toSeconds");
     if (selection.lowHz < selection.highHz)
-        std::tie(part.firstCell, part.cells) = between(info.frequency, selection.lowHz, selection.highHz, "selection.lowHz, selection.highHz");
+        std::tie(part.firstCell, part.cells) =
+            between(info.frequency, selection.lowHz, selection.highHz, "selection.lowHz, selection.highHz");
     return part;
 }
 

@@ -28,7 +28,8 @@ namespace {
         constexpr float stepsPerNeper = 8.6858896381f;                      // 2 · 10 / ln 10
         constexpr auto lowest = std::bit_cast<std::int32_t>(0.0316227766f); // -15 dB
         for (Index i = 0; i < n; ++i) {
-            // As whole numbers, positive floats have the same order; a comparison of floats keeps the compiler from vector code.
+            // As whole numbers, positive floats have the same order; a comparison of floats keeps the compiler from
+            // vector code.
             const std::int32_t bits = std::max(std::bit_cast<std::int32_t>(values[i]), lowest);
             const auto byte = static_cast<std::int32_t>(stepsPerNeper * fastLn(std::bit_cast<float>(bits)) + 30.5f);
             bytes[i] = static_cast<std::uint8_t>(std::min(byte, 255));
@@ -45,7 +46,8 @@ namespace {
         for (Index i = 0; i < n; ++i) {
             const float position = 4.0f * (values[i] + 4.0f) + 0.5f;
             const float inside = position > 0.0f ? position : 0.0f; // NaN as well
-            const auto byte = static_cast<std::int32_t>(inside < static_cast<float>(endOfEven) ? inside : static_cast<float>(endOfEven));
+            const auto byte = static_cast<std::int32_t>(
+                inside < static_cast<float>(endOfEven) ? inside : static_cast<float>(endOfEven));
             bytes[i] = static_cast<std::uint8_t>(byte);
             most = std::max(most, byte);
         }
@@ -194,7 +196,8 @@ void PeakPyramid::add(Level &level, std::span<const std::uint8_t> row) const
 {
     const Index place = level.rows++ % m_chunkRows;
     if (place == 0)
-        level.chunks.push_back(std::make_shared_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(m_chunkRows * m_cells)));
+        level.chunks.push_back(
+            std::make_shared_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(m_chunkRows * m_cells)));
     std::copy(row.begin(), row.end(), level.chunks.back().get() + place * m_cells);
 }
 
@@ -213,7 +216,8 @@ PeakPyramid PeakPyramid::soFar() const
         const Index shared = level.rows % m_chunkRows;
         if (shared == 0)
             continue; // the next row goes to a chunk of its own
-        const auto own = std::make_shared_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(m_chunkRows * m_cells));
+        const auto own =
+            std::make_shared_for_overwrite<std::uint8_t[]>(static_cast<std::size_t>(m_chunkRows * m_cells));
         std::copy_n(level.chunks.back().get(), shared * m_cells, own.get());
         level.chunks.back() = own;
     }
@@ -252,7 +256,8 @@ Index PeakPyramid::framesPerRow(int level) const
 std::span<const std::uint8_t> PeakPyramid::row(int level, Index row) const
 {
     const auto &chunks = m_levels[static_cast<std::size_t>(level)].chunks;
-    return {chunks[static_cast<std::size_t>(row / m_chunkRows)].get() + row % m_chunkRows * m_cells, static_cast<std::size_t>(m_cells)};
+    return {chunks[static_cast<std::size_t>(row / m_chunkRows)].get() + row % m_chunkRows * m_cells,
+            static_cast<std::size_t>(m_cells)};
 }
 
 int PeakPyramid::levelFor(double frames) const

@@ -11,9 +11,10 @@ namespace faintline {
 
 /// Values as one byte, for pictures only: no decision is ever taken on them.
 ///
-/// Power: -15 … +112 dB in steps of ½ dB. Score: -4 … 46 nat in steps of ¼ nat, above that in steps of 15 %, to 10⁵ nat.
-/// Difference of scores: 0 … ±24 nat in steps of ¼ nat, above that in steps of 30 %, to ±8·10⁴ nat. Its bytes ascend by magnitude, the
-/// lowest bit being the sign, so that the maximum of bytes is the difference of largest magnitude (of two equal ones the positive one). Zero is byte 0; byte 1 stays unused.
+/// Power: -15 … +112 dB in steps of ½ dB. Score: -4 … 46 nat in steps of ¼ nat, above that in steps of 15 %, to 10⁵
+/// nat. Difference of scores: 0 … ±24 nat in steps of ¼ nat, above that in steps of 30 %, to ±8·10⁴ nat. Its bytes
+/// ascend by magnitude, the lowest bit being the sign, so that the maximum of bytes is the difference of largest
+/// magnitude (of two equal ones the positive one). Zero is byte 0; byte 1 stays unused.
 class ByteScale
 {
 public:
@@ -38,9 +39,9 @@ private:
 
 /// A recording-long picture that keeps its maxima: a line one bin wide survives zooming out.
 ///
-/// Level 0 has one row per `framesPerRow` frames, each further level one per four rows of the level below; a row is the maximum, cell
-/// by cell, of what it stands for. 1.33 bytes a cell. When the byte budget would be exceeded, rows of level 0 are
-/// merged by four, so memory stays bounded however long the recording.
+/// Level 0 has one row per `framesPerRow` frames, each further level one per four rows of the level below; a row is the
+/// maximum, cell by cell, of what it stands for. 1.33 bytes a cell. When the byte budget would be exceeded, rows of
+/// level 0 are merged by four, so memory stays bounded however long the recording.
 class PeakPyramid
 {
 public:
@@ -54,8 +55,8 @@ public:
     /// Closes the last, incomplete rows. Nothing may be appended afterwards.
     void finish();
 
-    /// What there is so far, finished, while this one goes on: shares all but the newest rows with it, so it costs little. What is
-    /// still to come are rows that it does not have.
+    /// What there is so far, finished, while this one goes on: shares all but the newest rows with it, so it costs
+    /// little. What is still to come are rows that it does not have.
     PeakPyramid soFar() const;
 
     const Axis &time() const { return m_time; } ///< of frames

@@ -58,7 +58,8 @@ void SimulatedPings::readPing(Index ping, std::span<float> y) const
     std::vector<float> kept;
     std::vector<Index> occupied;
     for (const TruthTarget &target : m_truth.targets)
-        if (const Index cell = target.cellAt(ping); cell >= 0 && std::find(occupied.begin(), occupied.end(), cell) == occupied.end())
+        if (const Index cell = target.cellAt(ping);
+            cell >= 0 && std::find(occupied.begin(), occupied.end(), cell) == occupied.end())
             occupied.push_back(cell);
     std::sort(occupied.begin(), occupied.end());
     for (int look = 0; look < m_scene.looks; ++look) {
@@ -98,9 +99,15 @@ void SimulatedPings::addEchoes(Index ping, std::span<const float> noise, std::sp
         const double snr = ratioFromDb(m_scene.targets[i].snrDb);
         Sum &sum = sums[cell];
         switch (m_scene.targets[i].echo) {
-        case Echo::Constant: sum.constant += snr; break;
-        case Echo::Fluctuating: sum.fluctuating += snr; break;
-        case Echo::Complex: sum.amplitude += std::sqrt(snr); break;
+        case Echo::Constant:
+            sum.constant += snr;
+            break;
+        case Echo::Fluctuating:
+            sum.fluctuating += snr;
+            break;
+        case Echo::Complex:
+            sum.amplitude += std::sqrt(snr);
+            break;
         }
     }
     std::size_t number = 0;

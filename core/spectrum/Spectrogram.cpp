@@ -12,7 +12,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index runSamples = 1 << 17; ///< read at a time: little enough to be in the cache when they are transformed
+    constexpr Index runSamples =
+        1 << 17; ///< read at a time: little enough to be in the cache when they are transformed
 
     FAINTLINE_MULTIVERSION
     void applyWindow(const float *samples, const float *window, std::size_t n, float *out)
@@ -76,8 +77,9 @@ const std::vector<Field<SelectionSettings>> &SelectionSettings::fields()
         field(&S::channel, "channel", "", 0.0, 1023.0, "Channel, counted from 0."),
         field(&S::fromSeconds, "fromSeconds", "s", 0.0, 1e12, "Start of the part analysed, from the first sample."),
         field(&S::toSeconds, "toSeconds", "s", 0.0, 1e12, "End of the part analysed; 0 is the end of the recording."),
-        field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12, "Lower edge of the band; the whole band is used if it equals the "
-                                                     "upper edge."),
+        field(&S::lowHz, "lowHz", "Hz", -1e12, 1e12,
+              "Lower edge of the band; the whole band is used if it equals the "
+              "upper edge."),
         field(&S::highHz, "highHz", "Hz", -1e12, 1e12, "Upper edge of the band."),
     };
     return table;
@@ -89,7 +91,8 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
     const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
     const double mantissa = wanted / decade;
     double chosen = decade * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
-    // At least 16 samples, so that there is a spectrum at all; never more than a quarter of the recording, nor than memory bears.
+    // At least 16 samples, so that there is a spectrum at all; never more than a quarter of the recording, nor than
+    // memory bears.
     constexpr double fewest = 16.0;
     constexpr double most = 4e6;
     chosen = std::clamp(chosen, fewest / info.sampleRateHz, most / info.sampleRateHz);
@@ -99,24 +102,29 @@ double Spectrogram::automaticWindowSeconds(const RecordingInfo &info)
 Spectrogram::Steps Spectrogram::stepsOf(const SpectrogramSettings &settings, const RecordingInfo &info)
 {
     constexpr double most = 1e8; // longer windows are refused where they are made
-    const double wanted = (settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info)) * info.sampleRateHz;
-    const int samples = static_cast<int>(std::llround(std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, most) / settings.binsPerCell));
-    return {hopOf(samples, settings) / info.sampleRateHz, info.sampleRateHz / Fft::fastLength(samples * settings.binsPerCell)};
+    const double wanted =
+        (settings.windowSeconds > 0.0 ? settings.windowSeconds : automaticWindowSeconds(info)) * info.sampleRateHz;
+    const int samples = static_cast<int>(std::llround(
+        std::clamp(wanted * settings.binsPerCell, 2.0 * settings.binsPerCell, most) / settings.binsPerCell));
+    return {hopOf(samples, settings) / info.sampleRateHz,
+            info.sampleRateHz / Fft::fastLength(samples * settings.binsPerCell)};
 }
 
-Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &settings, const SelectionSettings &selection)
+Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &settings,
+                         const SelectionSettings &selection)
     : m_recording(std::move(recording)), m_settings(settings), m_selection(selection)
 {
     const RecordingInfo &info = m_recording->info();
     const double rate = info.sampleRateHz;
     if (selection.channel >= info.channelCount)
         throw fieldError("selection.channel", std::to_string(selection.channel),
-                    "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+                         "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
 
-    const double to = selection.toSeconds > 0.0 ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
+    const double to =
+        selection.toSeconds > 0.0 ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
     if (selection.fromSeconds >= to)
         throw fieldError("selection.fromSeconds", formatNumber(selection.fromSeconds),
-                    "must lie before the end of the selection, " + seconds(to));
+                         "must lie before the end of the selection, " + seconds(to));
     m_firstSample = static_cast<Index>(std::llround(selection.fromSeconds * rate));
     const Index sampleCount = std::min(static_cast<Index>(std::llround(to * rate)), info.sampleCount) - m_firstSample;
 
@@ -124,16 +132,16 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     const double wantedSamples = windowSeconds * rate;
     if (wantedSamples * settings.binsPerCell > 1e8)
         throw fieldError("spectrogram.windowSeconds", formatNumber(windowSeconds),
-                    "gives a transform of more than 100 million points; shorten the window");
+                         "gives a transform of more than 100 million points; shorten the window");
     m_windowSamples = static_cast<int>(std::llround(wantedSamples));
     if (m_windowSamples < 2)
         throw fieldError("spectrogram.windowSeconds", formatNumber(windowSeconds),
-                    "contains fewer than 2 samples at " + formatNumber(rate) + " Hz");
+                         "contains fewer than 2 samples at " + formatNumber(rate) + " Hz");
     if (sampleCount < m_windowSamples)
-        throw Error(info.path,
-                    "the selected part is " + std::to_string(sampleCount) + " samples (" + seconds(static_cast<double>(sampleCount) / rate)
-                        + ") long, shorter than one window of " + seconds(windowSeconds)
-                        + "; choose a shorter spectrogram.windowSeconds");
+        throw Error(info.path, "the selected part is " + std::to_string(sampleCount) + " samples ("
+                                   + seconds(static_cast<double>(sampleCount) / rate)
+                                   + ") long, shorter than one window of " + seconds(windowSeconds)
+                                   + "; choose a shorter spectrogram.windowSeconds");
     m_hopSamples = hopOf(m_windowSamples, settings);
     m_window = sampleWindow(settings.window, m_windowSamples);
     m_scaleExponent = m_recording->scaleExponent(selection.channel);
@@ -142,8 +150,12 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
     m_fft = std::make_shared<Fft>(Fft::fastLength(m_windowSamples * settings.binsPerCell),
                                   info.isComplex ? Fft::Input::Complex : Fft::Input::Real);
 
-    m_time = {"time", "s", (static_cast<double>(m_firstSample) + 0.5 * m_windowSamples) / rate,
-              static_cast<double>(m_hopSamples) / rate, (sampleCount - m_windowSamples) / m_hopSamples + 1, false};
+    m_time = {"time",
+              "s",
+              (static_cast<double>(m_firstSample) + 0.5 * m_windowSamples) / rate,
+              static_cast<double>(m_hopSamples) / rate,
+              (sampleCount - m_windowSamples) / m_hopSamples + 1,
+              false};
 
     const int n = m_fft->length();
     const double binHz = rate / n;
@@ -156,8 +168,10 @@ Spectrogram::Spectrogram(RecordingPointer recording, const SpectrogramSettings &
         const Index high = static_cast<Index>(
             std::floor(std::min(static_cast<double>(whole.count - 1), whole.position(selection.highHz) + 1e-9)));
         if (low > high)
-            throw Error("selection.lowHz … highHz = " + formatNumber(selection.lowHz) + " … " + formatNumber(selection.highHz),
-                        "contains no bin; the recording spans " + formatNumber(whole.first) + " … " + formatNumber(whole.last()) + " Hz")
+            throw Error("selection.lowHz … highHz = " + formatNumber(selection.lowHz) + " … "
+                            + formatNumber(selection.highHz),
+                        "contains no bin; the recording spans " + formatNumber(whole.first) + " … "
+                            + formatNumber(whole.last()) + " Hz")
                 .ofField("selection.lowHz");
         m_firstBin = low;
         m_frequency.first = whole.value(static_cast<double>(low));
@@ -185,7 +199,8 @@ void Spectrogram::read(Index first, Index count, std::span<float> out, const Run
     });
 }
 
-void Spectrogram::readRun(Index first, Index count, std::vector<float> &samples, Fft::Buffer &buffer, std::span<float> out) const
+void Spectrogram::readRun(Index first, Index count, std::vector<float> &samples, Fft::Buffer &buffer,
+                          std::span<float> out) const
 {
     const std::size_t floats = m_recording->info().isComplex ? 2 : 1;
     const auto bins = static_cast<std::size_t>(m_frequency.count);

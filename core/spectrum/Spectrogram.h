@@ -16,9 +16,9 @@ namespace faintline {
 
 /// How a recording is cut into spectra, in Billon's terms.
 struct SpectrogramSettings {
-    double windowSeconds = 0.0;       ///< T_FT; 0 chooses it from the recording
-    int stepsPerWindow = 2;           ///< k_t: frames per T_FT
-    int binsPerCell = 2;              ///< k_f: bins per resolution cell 1/T_FT
+    double windowSeconds = 0.0; ///< T_FT; 0 chooses it from the recording
+    int stepsPerWindow = 2;     ///< k_t: frames per T_FT
+    int binsPerCell = 2;        ///< k_f: bins per resolution cell 1/T_FT
     WindowShape window = WindowShape::Hann;
 
     static const std::vector<Field<SpectrogramSettings>> &fields();
@@ -42,15 +42,17 @@ struct SelectionSettings {
 ///   y(t, f) = |Σₙ w(n) x(t·hop + n) e^{-2πi f n}|²,   Σ w² = 1
 ///
 /// `hop` = T_FT/k_t samples, transform length ≥ k_f·T_FT samples (rounded up to a fast length), so that white noise of
-/// variance σ² gives E[y] = σ², in units of 4^scaleExponent(): 1 unless samples lie beyond 2^±30, whose squares floats do not hold. The time of a frame is the middle of its window. Real input gives the bins from 0 Hz to half
-/// the sample rate, complex input those from -½ to +½ of it: offsets from the recording's centre frequency.
-/// Source: Billon 2005, sections 4 and 5. Oracle: a direct discrete Fourier transform. Thread-safe; frames are a pure
-/// function of (recording, settings, index).
+/// variance σ² gives E[y] = σ², in units of 4^scaleExponent(): 1 unless samples lie beyond 2^±30, whose squares floats
+/// do not hold. The time of a frame is the middle of its window. Real input gives the bins from 0 Hz to half the sample
+/// rate, complex input those from -½ to +½ of it: offsets from the recording's centre frequency. Source: Billon 2005,
+/// sections 4 and 5. Oracle: a direct discrete Fourier transform. Thread-safe; frames are a pure function of
+/// (recording, settings, index).
 class Spectrogram
 {
 public:
     /// Throws Error where the recording is shorter than a window or the settings leave no bin.
-    Spectrogram(RecordingPointer recording, const SpectrogramSettings &settings, const SelectionSettings &selection = {});
+    Spectrogram(RecordingPointer recording, const SpectrogramSettings &settings,
+                const SelectionSettings &selection = {});
 
     const Axis &time() const { return m_time; }
     const Axis &frequency() const { return m_frequency; }
@@ -70,8 +72,8 @@ public:
     /// Bins per resolution cell as realised: transform length over window length.
     double binsPerCell() const { return static_cast<double>(m_fft->length()) / m_windowSamples; }
 
-    /// Computes frames first … first+count-1 into `out`, count × frequency().count values, row by row, on as many threads as
-    /// the context allows.
+    /// Computes frames first … first+count-1 into `out`, count × frequency().count values, row by row, on as many
+    /// threads as the context allows.
     void read(Index first, Index count, std::span<float> out, const RunContext &context = {}) const;
 
     /// From frame to frame and from bin to bin, of a recording cut so.
@@ -86,7 +88,8 @@ public:
     static double automaticWindowSeconds(const RecordingInfo &info);
 
 private:
-    void readRun(Index first, Index count, std::vector<float> &samples, Fft::Buffer &buffer, std::span<float> out) const;
+    void readRun(Index first, Index count, std::vector<float> &samples, Fft::Buffer &buffer,
+                 std::span<float> out) const;
     void transformFrame(std::span<const float> samples, Fft::Buffer &buffer, std::span<float> out) const;
 
     RecordingPointer m_recording;

@@ -63,7 +63,8 @@ void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::sp
     });
 }
 
-/// A block of white noise under the window, complex; half blocks have a random stream of their own, for each belongs to two blocks.
+/// A block of white noise under the window, complex; half blocks have a random stream of their own, for each belongs to
+/// two blocks.
 void SurrogateRecording::fillWhite(Index block, std::span<float> samples) const
 {
     const Index hop = m_length / 2;

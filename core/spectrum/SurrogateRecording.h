@@ -15,9 +15,10 @@ namespace faintline {
 ///
 ///   s(n) = Σ_b w_b(n)·F⁻¹{ √B(t_b, f)·F{ w_b x } }(n),   Σ_b w_b(n)² = 1
 ///
-/// with blocks b as long as the spectrogram's window, half a block apart, and x white noise of unit variance. It has the recording's length,
-/// rate, channel type and quantisation step; where the recording is digitally silent, so is this. Oracle: its own estimated background is
-/// the recording's. Thread-safe; samples are a pure function of (recording, background, seed, index).
+/// with blocks b as long as the spectrogram's window, half a block apart, and x white noise of unit variance. It has
+/// the recording's length, rate, channel type and quantisation step; where the recording is digitally silent, so is
+/// this. Oracle: its own estimated background is the recording's. Thread-safe; samples are a pure function of
+/// (recording, background, seed, index).
 class SurrogateRecording final : public Recording
 {
 public:

@@ -45,7 +45,7 @@ namespace {
         case WindowShape::Kaiser: {
             const double x = 2.0 * fraction - 1.0;
             return boost::math::cyl_bessel_i(0, kaiserBeta * std::sqrt(std::max(0.0, 1.0 - x * x)))
-                / boost::math::cyl_bessel_i(0, kaiserBeta);
+                   / boost::math::cyl_bessel_i(0, kaiserBeta);
         }
         }
         return 1.0;
@@ -53,10 +53,10 @@ namespace {
 
     struct Leakage {
         double halfWidthCells;
-        double mainLobeDb;        ///< -Δ² of this many dB bounds the main lobe: its curvature at the peak
+        double mainLobeDb; ///< -Δ² of this many dB bounds the main lobe: its curvature at the peak
         double highestSideLobeDb;
-        double tailDb;            ///< side lobes stay below this line at the half width …
-        double fallDbPerOctave;   ///< … that falls so steeply
+        double tailDb;          ///< side lobes stay below this line at the half width …
+        double fallDbPerOctave; ///< … that falls so steeply
     };
 
     // From the windows' transforms, sin(πΔ)/π · Σₖ (-1)ᵏ (aₖ/a₀) Δ/(Δ² - k²), rounded up.

@@ -23,7 +23,8 @@ namespace {
 
 } // namespace
 
-void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, double likeness, std::vector<float> &levels)
+void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, double likeness,
+                std::vector<float> &levels)
 {
     constexpr Index cellsForThree = 144;
     constexpr double better = 1.1;
@@ -32,7 +33,9 @@ void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames,
     const double expected = Unevenness::ofNoise(likeness);
     std::vector<float> frames = stretchFrames.read(0, cells);
     const float strongest = *std::max_element(frames.begin(), frames.end());
-    const Between t = between(background.time, background.levelTime.value(static_cast<double>((stretchFrames.first + stretchFrames.count / 2) * stretchFrames.steps)));
+    const Between t =
+        between(background.time, background.levelTime.value(static_cast<double>(
+                                     (stretchFrames.first + stretchFrames.count / 2) * stretchFrames.steps)));
     const auto row = background.lnPower.begin() + t.lower * cells;
     if (!(strongest > 0.0f) || *row <= silence)
         return;
@@ -46,7 +49,8 @@ void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames,
     std::vector<float> ln(static_cast<std::size_t>(cells));
     std::vector<float> before = frames;
     for (Index frame = 0; frame < stretchFrames.count; ++frame) {
-        background.readLnPower(background.levelTime.value(static_cast<double>((stretchFrames.first + frame) * stretchFrames.steps)), ln);
+        background.readLnPower(
+            background.levelTime.value(static_cast<double>((stretchFrames.first + frame) * stretchFrames.steps)), ln);
         divide(frameOf(before, frame), ln);
         divide(frameOf(frames, frame), stretch.lnPower);
     }
@@ -63,7 +67,8 @@ void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames,
         for (Index frame = 0; frame < std::ssize(all) / cells; ++frame) {
             const auto values = frameOf(all, frame);
             const std::vector<float> own = stretch.sources.levelsIn(values);
-            std::copy(own.begin(), own.end(), stretch.sourceLevels.begin() + (frame * stretchFrames.steps + shift) * sources);
+            std::copy(own.begin(), own.end(),
+                      stretch.sourceLevels.begin() + (frame * stretchFrames.steps + shift) * sources);
             readStretch(stretch, own, ln);
             for (std::size_t cell = 0; cell < ln.size(); ++cell)
                 values[cell] *= std::exp(stretch.lnPower[cell] - ln[cell]);
@@ -98,7 +103,8 @@ void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames,
             const Index place = (stretchFrames.first + i / columns) * stretchFrames.steps + shift;
             const float level = own[static_cast<std::size_t>(i)];
             levels[static_cast<std::size_t>(place * columns + i % columns)] =
-                level < levelNotKnown ? level - shareOfLines(offsets[static_cast<std::size_t>(i % columns)]) : levelNotKnown;
+                level < levelNotKnown ? level - shareOfLines(offsets[static_cast<std::size_t>(i % columns)])
+                                      : levelNotKnown;
         }
     }
     background.stretches.push_back(std::move(stretch));

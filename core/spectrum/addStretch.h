@@ -28,6 +28,7 @@ struct StretchFrames {
 };
 
 /// Where a stretch's noise is a sum of sources, adds them to the background and replaces its levels by those over them.
-void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, double likeness, std::vector<float> &levels);
+void addStretch(NoiseBackground &background, const StretchFrames &stretchFrames, Index half, double likeness,
+                std::vector<float> &levels);
 
 } // namespace faintline

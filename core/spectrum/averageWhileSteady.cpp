@@ -16,8 +16,8 @@ namespace {
 
     constexpr double leastNoiseRatio = 1.3; // the noise's shape itself differs from its running median by as much
 
-    /// How much higher a whole row of ln powers lies than another: the median difference, of 500 cells if there are more; 0 where it
-    /// may be chance.
+    /// How much higher a whole row of ln powers lies than another: the median difference, of 500 cells if there are
+    /// more; 0 where it may be chance.
     float levelBetween(const float *upper, const float *lower, Index cells, double framesUsed)
     {
         std::vector<float> differences;
@@ -31,7 +31,8 @@ namespace {
 
     /// out ← out + e^(values - level - about) where `counts`, which is counted.
     FAINTLINE_MULTIVERSION
-    void addRatios(const float *values, float level, const float *about, const float *counts, std::size_t cells, float *sum, float *count)
+    void addRatios(const float *values, float level, const float *about, const float *counts, std::size_t cells,
+                   float *sum, float *count)
     {
         for (std::size_t cell = 0; cell < cells; ++cell) {
             sum[cell] += counts[cell] * fastExp(values[cell] - level - about[cell]);
@@ -41,7 +42,8 @@ namespace {
 
 } // namespace
 
-void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &rows, Index cells, Index half, double framesUsed)
+void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &rows, Index cells, Index half,
+                        double framesUsed)
 {
     constexpr Index reach = 6;
     const Index blocks = std::ssize(rows) / std::max<Index>(1, cells);
@@ -49,7 +51,8 @@ void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &r
     for (Index cell = 0; cell < cells; ++cell) {
         const double inward = static_cast<double>(std::min({cell, cells - 1 - cell, half})) / static_cast<double>(half);
         const double effective = pivotCells + (2.0 * static_cast<double>(half) + 1.0 - pivotCells) * inward;
-        tolerance[static_cast<std::size_t>(cell)] = static_cast<float>(4.0 * inverseLn2 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
+        tolerance[static_cast<std::size_t>(cell)] =
+            static_cast<float>(4.0 * inverseLn2 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
     }
     const double mostRatio = mostNoiseRatio(framesUsed);
     const auto lnMost = static_cast<float>(std::log(mostRatio));

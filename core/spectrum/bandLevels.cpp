@@ -26,7 +26,8 @@ namespace {
         return column == bands ? cells : (column + 1) * cells / bands;
     }
 
-    /// ln of the mean of which a mean of so many cells is an estimate: what the logarithm of one that scatters falls short by is added.
+    /// ln of the mean of which a mean of so many cells is an estimate: what the logarithm of one that scatters falls
+    /// short by is added.
     float lnMean(float mean, std::ptrdiff_t cells, double likeness)
     {
         const double scatter = meanScatter(static_cast<double>(cells), likeness);
@@ -34,7 +35,8 @@ namespace {
     }
 
     /// Mean of one row over another, of the cells of noise in each sub-band and in the whole band, ln.
-    std::vector<double> between(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise, Index cells, Index bands)
+    std::vector<double> between(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise,
+                                Index cells, Index bands)
     {
         std::vector<double> result(static_cast<std::size_t>(bands + 1), 0.0);
         std::vector<double> counts(result.size(), 0.0);
@@ -57,7 +59,8 @@ namespace {
     /// Gives silence the level of what was before it, or of what comes first.
     void bridgeSilence(std::vector<float> &series)
     {
-        const auto first = std::find_if(series.begin(), series.end(), [](float value) { return value < levelNotKnown; });
+        const auto first =
+            std::find_if(series.begin(), series.end(), [](float value) { return value < levelNotKnown; });
         float level = first == series.end() ? 0.0f : *first;
         for (float &value : series)
             level = value = value < levelNotKnown ? value : level;
@@ -75,7 +78,8 @@ std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground
     std::vector<float> inverse(static_cast<std::size_t>(cells));
     for (std::size_t cell = 0; cell < inverse.size(); ++cell)
         inverse[cell] = block.lnPower[cell] > silence ? std::exp(-block.lnPower[cell]) : 0.0f;
-    const auto agreeing = static_cast<float>(4.0 * medianScatter(static_cast<double>(cells) / static_cast<double>(bands)));
+    const auto agreeing =
+        static_cast<float>(4.0 * medianScatter(static_cast<double>(cells) / static_cast<double>(bands)));
     std::vector<float> sample;
     std::vector<float> few;
     std::vector<Index> telling;
@@ -102,7 +106,8 @@ std::vector<float> levelsOf(std::span<const float> frames, const BlockBackground
                 continue;
             own[band] = lnMean(truncatedMean(sample, median / std::numbers::ln2_v<float>), count, likeness);
             known.push_back(band);
-            const auto firm = std::count(block.isFirm.begin() + firstCell(band, bands, cells), block.isFirm.begin() + endCell(band, bands, cells), true);
+            const auto firm = std::count(block.isFirm.begin() + firstCell(band, bands, cells),
+                                         block.isFirm.begin() + endCell(band, bands, cells), true);
             if (2 * firm >= endCell(band, bands, cells) - firstCell(band, bands, cells)) {
                 few.push_back(own[band]);
                 telling.push_back(band);
@@ -165,7 +170,8 @@ LevelOffsets::LevelOffsets(const std::vector<float> &levels, Index columns)
         isSure[column] = std::ssize(levels) > 7 * columns && std::abs(medians[column]) >= 1.4826f * typical[column];
 }
 
-void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &offsets, const std::vector<Index> &blockOfLevel)
+void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &offsets,
+                   const std::vector<Index> &blockOfLevel)
 {
     constexpr Index reach = 6;
     if (offsets.empty())
@@ -184,7 +190,8 @@ void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &
             if (column + 1 == columns)
                 continue;
             few.clear();
-            for (Index other = std::max<Index>(0, block - reach); other <= std::min(std::ssize(offsets) - 1, block + reach); ++other)
+            for (Index other = std::max<Index>(0, block - reach);
+                 other <= std::min(std::ssize(offsets) - 1, block + reach); ++other)
                 if (const LevelOffsets &each = offsets[static_cast<std::size_t>(other)]; !each.isSure[column])
                     few.push_back(each.medians[column]);
             taken.back()[column] = shareOfLines(medianOf(few));
@@ -215,12 +222,15 @@ void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const N
         if (own[0] <= silence)
             continue;
         const Between t = between(background.time, background.levelTime.value(static_cast<double>(i)));
-        const auto isSilent = [&](Index b) { return background.lnPower[static_cast<std::size_t>(std::min(b, last) * cells)] <= silence; };
+        const auto isSilent = [&](Index b) {
+            return background.lnPower[static_cast<std::size_t>(std::min(b, last) * cells)] <= silence;
+        };
         const Index early = isSilent(t.lower) ? t.lower + 1 : t.lower;
         const Index late = isSilent(t.lower + 1) ? t.lower : t.lower + 1;
         for (Index column = 0; column < columns; ++column) {
             const auto difference = [&](Index b) {
-                return over[static_cast<std::size_t>(std::clamp<Index>(std::min(b, last) - block + 1, 0, 2))][static_cast<std::size_t>(column)];
+                return over[static_cast<std::size_t>(std::clamp<Index>(std::min(b, last) - block + 1, 0, 2))]
+                           [static_cast<std::size_t>(column)];
             };
             float &level = levels[static_cast<std::size_t>(i * columns + column)];
             if (level < levelNotKnown)
@@ -229,7 +239,8 @@ void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const N
     }
 }
 
-std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, double overlap, double likeness)
+std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, double overlap,
+                                double likeness)
 {
     const auto bands = static_cast<std::size_t>(background.bandCount);
     const auto count = static_cast<std::size_t>(background.levelTime.count);

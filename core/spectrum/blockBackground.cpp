@@ -12,7 +12,8 @@ namespace faintline {
 namespace {
 
     constexpr float silence = NoiseBackground::silence;
-    constexpr double roundingMargin = 4.0; // of ln power: what lies no higher above the floor does not tell the whole band's level
+    constexpr double roundingMargin =
+        4.0; // of ln power: what lies no higher above the floor does not tell the whole band's level
     constexpr double roundingNearness = 0.1; // nor, this near to it, its own
 
 } // namespace
@@ -55,7 +56,8 @@ BlockBackground blockBackground(const std::vector<float> &frames, Index cells, I
     }
     std::vector<float> ln(static_cast<std::size_t>(cells), silence);
     if (loud.empty())
-        return {ln, ln, std::vector<bool>(static_cast<std::size_t>(cells), true), std::vector<bool>(static_cast<std::size_t>(cells), true)};
+        return {ln, ln, std::vector<bool>(static_cast<std::size_t>(cells), true),
+                std::vector<bool>(static_cast<std::size_t>(cells), true)};
     const auto used = static_cast<int>(std::ssize(loud) / cells);
     const double bias = std::log(medianMean(used));
     const double floor = std::log(strongest * roundingFloor);
@@ -81,7 +83,8 @@ std::vector<float> flatten(std::vector<float> &frames, Index cells)
     std::vector<float> taken(static_cast<std::size_t>(frameCount), 0.0f);
     std::vector<float> loud;
     for (Index frame = 0; frame < frameCount; ++frame)
-        if (const auto row = frames.begin() + frame * cells; std::any_of(row, row + cells, [](float y) { return y > 0.0f; }))
+        if (const auto row = frames.begin() + frame * cells;
+            std::any_of(row, row + cells, [](float y) { return y > 0.0f; }))
             loud.insert(loud.end(), row, row + cells);
     if (loud.empty())
         return taken;

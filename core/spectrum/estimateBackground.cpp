@@ -1,10 +1,10 @@
 #include "spectrum/NoiseBackground.h"
 
 #include "base/memoryShares.h"
+#include "spectrum/addStretch.h"
 #include "spectrum/averageWhileSteady.h"
 #include "spectrum/bandLevels.h"
 #include "spectrum/blockBackground.h"
-#include "spectrum/addStretch.h"
 #include "spectrum/unevenness.h"
 
 #include <algorithm>
@@ -16,14 +16,16 @@ namespace faintline {
 
 namespace {
 
-    constexpr int framesPerBlock = 512; // longer blocks are looked at here and there
+    constexpr int framesPerBlock = 512;              // longer blocks are looked at here and there
     constexpr Index valuesPerBlock = Index(1) << 22; // so are those of many cells
     constexpr Index fewestFramesPerBlock = 64;
     constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
-    constexpr Index largestValueCount = memoryShares::background / sizeof(float); ///< nine hours at 48 kHz; beyond that blocks are longer
+    constexpr Index largestValueCount =
+        memoryShares::background / sizeof(float); ///< nine hours at 48 kHz; beyond that blocks are longer
 
-    /// The frames between two windows that the detector looks at besides, up to three: spectra of windows that begin a hop later each.
+    /// The frames between two windows that the detector looks at besides, up to three: spectra of windows that begin a
+    /// hop later each.
     std::vector<Spectrogram> betweenWindows(const Spectrogram &detector, const Spectrogram &windows)
     {
         constexpr Index most = 4;
@@ -32,7 +34,8 @@ namespace {
         const double rate = detector.recording().info().sampleRateHz;
         for (Index shift = 1; shift < steps; ++shift) {
             SelectionSettings later = windows.selection();
-            later.fromSeconds += std::round(static_cast<double>(shift * windows.windowSamples()) / static_cast<double>(steps)) / rate;
+            later.fromSeconds +=
+                std::round(static_cast<double>(shift * windows.windowSamples()) / static_cast<double>(steps)) / rate;
             if (detector.time().count <= detector.settings().stepsPerWindow)
                 return {}; // hardly longer than a window
             result.emplace_back(windows.recordingPointer(), windows.settings(), later);
@@ -55,8 +58,9 @@ namespace {
 
 } // namespace
 
-std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram, const NormaliserSettings &settings,
-                                                          const RunContext &context, BackgroundDepth depth)
+std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram,
+                                                          const NormaliserSettings &settings, const RunContext &context,
+                                                          BackgroundDepth depth)
 {
     const bool isSketch = depth == BackgroundDepth::Sketch;
     SpectrogramSettings coarse = spectrogram.settings();
@@ -76,29 +80,39 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     const Index frameCount = frames.time().count;
     const Index cells = frames.frequency().count;
     const Index mostBlocks = std::clamp<Index>(largestValueCount / std::max<Index>(1, cells), 1, largestBlockCount);
-    const Index framesWanted = std::max(static_cast<Index>(std::llround(settings.blockWindows)),
-                                        (frameCount + mostBlocks - 1) / mostBlocks);
+    const Index framesWanted =
+        std::max(static_cast<Index>(std::llround(settings.blockWindows)), (frameCount + mostBlocks - 1) / mostBlocks);
     const Index blockCount = isSketch ? 1 : std::max<Index>(1, frameCount / framesWanted);
     const double blockFrames = static_cast<double>(frameCount) / static_cast<double>(blockCount);
 
     auto background = std::make_shared<NoiseBackground>();
     const double step = blockFrames * frames.time().step;
-    background->time = {"time", "s", frames.time().first + 0.5 * (blockFrames - 1.0) * frames.time().step, step, blockCount, false};
+    background->time = {"time", "s",        frames.time().first + 0.5 * (blockFrames - 1.0) * frames.time().step,
+                        step,   blockCount, false};
     background->frequency = frames.frequency();
     background->lnUnit = 2.0 * std::numbers::ln2 * frames.scaleExponent();
 
     // Frames looked at lie on one even raster over all blocks, every frame where there are not too many of them.
     const auto mostUsed = static_cast<double>(
-        isSketch ? sketchFrames : std::clamp<Index>(valuesPerBlock / std::max<Index>(1, cells), fewestFramesPerBlock, framesPerBlock));
+        isSketch ? sketchFrames
+                 : std::clamp<Index>(valuesPerBlock / std::max<Index>(1, cells), fewestFramesPerBlock, framesPerBlock));
     const Index stride = static_cast<Index>(std::ceil(blockFrames / mostUsed));
-    background->bandCount = settings.followLevel && !isSketch ? NoiseBackground::subBandCount(static_cast<double>(cells)) : 0;
-    // Levels are those of the detector's own frames, which overlap: in between a sudden change would have to be guessed.
-    const std::vector<Spectrogram> shifted = stride == 1 && background->bandCount > 0 ? betweenWindows(spectrogram, frames) : std::vector<Spectrogram>{};
+    background->bandCount =
+        settings.followLevel && !isSketch ? NoiseBackground::subBandCount(static_cast<double>(cells)) : 0;
+    // Levels are those of the detector's own frames, which overlap: in between a sudden change would have to be
+    // guessed.
+    const std::vector<Spectrogram> shifted =
+        stride == 1 && background->bandCount > 0 ? betweenWindows(spectrogram, frames) : std::vector<Spectrogram>{};
     const Index steps = std::ssize(shifted) + 1;
-    background->levelTime = {"time", "s", frames.time().first, static_cast<double>(stride) * frames.time().step / static_cast<double>(steps),
-                             (frameCount + stride - 1) / stride * steps, false};
+    background->levelTime = {"time",
+                             "s",
+                             frames.time().first,
+                             static_cast<double>(stride) * frames.time().step / static_cast<double>(steps),
+                             (frameCount + stride - 1) / stride * steps,
+                             false};
     const Index columns = background->bandCount + 1;
-    std::vector<float> levels(background->bandCount > 0 ? static_cast<std::size_t>(background->levelTime.count * columns) : 0, levelNotKnown);
+    std::vector<float> levels(
+        background->bandCount > 0 ? static_cast<std::size_t>(background->levelTime.count * columns) : 0, levelNotKnown);
     std::vector<Index> blockOfLevel(static_cast<std::size_t>(background->levelTime.count), blockCount - 1);
     BlockRows rows;
     rows.lnPower.reserve(static_cast<std::size_t>(blockCount * cells));
@@ -115,9 +129,11 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         block.resize(static_cast<std::size_t>(used * cells));
         for (Index i = 0; i < (stride > 1 ? used : 1); ++i)
             frames.read(firstUsed + i * stride, stride > 1 ? 1 : used,
-                        std::span(block).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>((stride > 1 ? 1 : used) * cells)));
-        const std::vector<float> taken =
-            background->bandCount > 0 ? flatten(block, cells) : std::vector<float>(static_cast<std::size_t>(used), 0.0f);
+                        std::span(block).subspan(static_cast<std::size_t>(i * cells),
+                                                 static_cast<std::size_t>((stride > 1 ? 1 : used) * cells)));
+        const std::vector<float> taken = background->bandCount > 0
+                                             ? flatten(block, cells)
+                                             : std::vector<float>(static_cast<std::size_t>(used), 0.0f);
         const BlockBackground own = blockBackground(block, cells, settings.halfWidthCells);
         background->lnPower.insert(background->lnPower.end(), own.medians.begin(), own.medians.end());
         rows.lnPower.insert(rows.lnPower.end(), own.lnPower.begin(), own.lnPower.end());
@@ -148,7 +164,8 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
                 put(more, i, (first + i) * steps + shift, 0.0f);
         }
     }
-    averageWhileSteady(background->lnPower, rows.lnPower, cells, settings.halfWidthCells, std::min(mostUsed, blockFrames));
+    averageWhileSteady(background->lnPower, rows.lnPower, cells, settings.halfWidthCells,
+                       std::min(mostUsed, blockFrames));
     if (background->bandCount > 0) {
         removeOffsets(levels, offsets, blockOfLevel);
         moveToBackground(levels, rows, *background, blockOfLevel);
@@ -160,17 +177,21 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
     constexpr Index stretchBlocks = 13;
     constexpr double noticeable = 1.5;
     const double expected = Unevenness::ofNoise(likeness);
-    const Index together = std::clamp<Index>(static_cast<Index>(static_cast<double>(valuesPerBlock / cells) / blockFrames), 1, stretchBlocks);
+    const Index together = std::clamp<Index>(
+        static_cast<Index>(static_cast<double>(valuesPerBlock / cells) / blockFrames), 1, stretchBlocks);
     for (Index b = 0; b < blockCount; b += together) {
         const auto first = static_cast<Index>(std::floor(static_cast<double>(b) * blockFrames));
-        const Index end = b + together < blockCount ? static_cast<Index>(std::floor(static_cast<double>(b + together) * blockFrames)) : frameCount;
+        const Index end = b + together < blockCount
+                              ? static_cast<Index>(std::floor(static_cast<double>(b + together) * blockFrames))
+                              : frameCount;
         Unevenness change;
         for (Index each = b; each < std::min(blockCount, b + together); ++each) {
             change.sum += changes[static_cast<std::size_t>(each)].sum;
             change.freedom += changes[static_cast<std::size_t>(each)].freedom;
         }
         if (change.variance() > noticeable * expected)
-            addStretch(*background, {first, end - first, steps, frames, shifted}, settings.halfWidthCells, likeness, levels);
+            addStretch(*background, {first, end - first, steps, frames, shifted}, settings.halfWidthCells, likeness,
+                       levels);
     }
     if (!background->stretches.empty())
         background->lnLevel = finishLevels(levels, *background, overlap, likeness);

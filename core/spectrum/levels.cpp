@@ -28,12 +28,14 @@ namespace {
         const std::ptrdiff_t n = std::ssize(x);
         std::vector<double> result(x.size());
         for (std::ptrdiff_t i = 0; i < n; ++i)
-            result[static_cast<std::size_t>(i)] = 0.25 * x[static_cast<std::size_t>(reflected(i - lag, n))] + 0.5 * x[static_cast<std::size_t>(i)]
+            result[static_cast<std::size_t>(i)] = 0.25 * x[static_cast<std::size_t>(reflected(i - lag, n))]
+                                                  + 0.5 * x[static_cast<std::size_t>(i)]
                                                   + 0.25 * x[static_cast<std::size_t>(reflected(i + lag, n))];
         return result;
     }
 
-    /// Standard deviation of a scale's details of white noise of deviation 1: the root of the energy of the details of a single 1.
+    /// Standard deviation of a scale's details of white noise of deviation 1: the root of the energy of the details of
+    /// a single 1.
     const std::array<double, scales> &detailDeviations()
     {
         static const std::array<double, scales> deviations = [] {
@@ -81,7 +83,8 @@ double medianMean(int n)
 
 double lnMedianMean(std::ptrdiff_t n)
 {
-    return std::log(medianMean(static_cast<int>(n))) - 0.5 * inverseLn2 * inverseLn2 * likeness / static_cast<double>(n);
+    return std::log(medianMean(static_cast<int>(n)))
+           - 0.5 * inverseLn2 * inverseLn2 * likeness / static_cast<double>(n);
 }
 
 double medianScatter(double cells)
@@ -114,8 +117,8 @@ float truncatedMean(std::span<const float> cells, float guess)
 
 std::vector<float> beyondScatter(const std::vector<float> &series, double scatter)
 {
-    // Neighbours on either side, in steps of the scale, and the E/σ² that white noise hardly ever reaches with so many of them: the few
-    // see what is short, the many see what is faint.
+    // Neighbours on either side, in steps of the scale, and the E/σ² that white noise hardly ever reaches with so many
+    // of them: the few see what is short, the many see what is faint.
     struct Neighbourhood {
         std::ptrdiff_t half;
         double chance;
@@ -136,7 +139,8 @@ std::vector<float> beyondScatter(const std::vector<float> &series, double scatte
             for (const Neighbourhood &near : neighbourhoods) {
                 const std::ptrdiff_t from = std::max<std::ptrdiff_t>(0, i - near.half * lag);
                 const std::ptrdiff_t to = std::min(n, i + near.half * lag + 1);
-                const double mean = (energy[static_cast<std::size_t>(to)] - energy[static_cast<std::size_t>(from)]) / static_cast<double>(to - from);
+                const double mean = (energy[static_cast<std::size_t>(to)] - energy[static_cast<std::size_t>(from)])
+                                    / static_cast<double>(to - from);
                 if (mean > near.chance * deviation * deviation)
                     factor = std::max(factor, 1.0 - deviation * deviation / mean);
             }

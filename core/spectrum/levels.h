@@ -24,11 +24,12 @@ double lnMedianMean(std::ptrdiff_t n);
 /// Standard error of the logarithm of a median of cells.
 double medianScatter(double cells);
 
-/// Standard error of the logarithm of their `truncatedMean`, where so many neighbours tell as much as one (cellLikeness in Window.h).
+/// Standard error of the logarithm of their `truncatedMean`, where so many neighbours tell as much as one (cellLikeness
+/// in Window.h).
 double meanScatter(double cells, double likeness);
 
-/// Mean of exponential cells, from those below five times that mean, found in two steps from a first guess. As exact as can be,
-/// and no line counts for more than five cells of noise.
+/// Mean of exponential cells, from those below five times that mean, found in two steps from a first guess. As exact as
+/// can be, and no line counts for more than five cells of noise.
 float truncatedMean(std::span<const float> cells, float guess);
 
 /// What a series of levels, each with an independent standard error of `scatter`, does beyond its errors.
@@ -37,10 +38,11 @@ float truncatedMean(std::span<const float> cells, float guess);
 ///
 ///   c₀ = x,  c_{j+1}(i) = ¼ c_j(i - 2ʲ) + ½ c_j(i) + ¼ c_j(i + 2ʲ),  d_j = c_j - c_{j+1},
 ///
-/// the à trous transform with a triangle, in which a straight ramp has no details. A detail is kept as far as the mean square of those
-/// about it, E, is beyond what errors make, σ_j²: by the factor 1 - σ_j²/E, and not at all where E may be chance. Hence a steady level is
-/// averaged over some two hundred values, a drift over as many as it allows, and a step is kept as it is.
-/// Source: Starck, Murtagh and Fadili, Sparse Image and Signal Processing, section 3.5. Cost: some hundred operations a value.
+/// the à trous transform with a triangle, in which a straight ramp has no details. A detail is kept as far as the mean
+/// square of those about it, E, is beyond what errors make, σ_j²: by the factor 1 - σ_j²/E, and not at all where E may
+/// be chance. Hence a steady level is averaged over some two hundred values, a drift over as many as it allows, and a
+/// step is kept as it is. Source: Starck, Murtagh and Fadili, Sparse Image and Signal Processing, section 3.5. Cost:
+/// some hundred operations a value.
 std::vector<float> beyondScatter(const std::vector<float> &series, double scatter);
 
 } // namespace faintline

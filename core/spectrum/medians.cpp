@@ -13,7 +13,8 @@ namespace {
 
     constexpr std::size_t lanes = 32; ///< columns at a time, in a few registers
 
-    /// The value of a rank in every one of `lanes` columns, found bit by bit: floats that are not negative are ordered as their bits are.
+    /// The value of a rank in every one of `lanes` columns, found bit by bit: floats that are not negative are ordered
+    /// as their bits are.
     template <int bytes>
     [[gnu::always_inline]] inline void rankedBy(const float *columns, std::size_t rows, std::int32_t rank, float *out)
     {
@@ -97,7 +98,8 @@ std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
     return medians;
 }
 
-void runningMean(std::span<const double> values, std::span<const double> weights, Index half, std::span<double> out, double least)
+void runningMean(std::span<const double> values, std::span<const double> weights, Index half, std::span<double> out,
+                 double least)
 {
     const std::size_t n = values.size();
     std::vector<double> sum(n + 1, 0.0);

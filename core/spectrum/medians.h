@@ -18,8 +18,9 @@ void columnMedians(std::span<const float> frames, std::span<float> out);
 /// Running median of a sequence over ±half, continued beyond its ends by point reflection about its robust ends.
 std::vector<float> runningMedian(const std::vector<float> &sequence, Index half);
 
-/// Weighted mean of the values within ±half, from sums up to each value: the same cost for any width. Where the weights add up
-/// to less than `least`: 1.
-void runningMean(std::span<const double> values, std::span<const double> weights, Index half, std::span<double> out, double least = 0.5);
+/// Weighted mean of the values within ±half, from sums up to each value: the same cost for any width. Where the weights
+/// add up to less than `least`: 1.
+void runningMean(std::span<const double> values, std::span<const double> weights, Index half, std::span<double> out,
+                 double least = 0.5);
 
 } // namespace faintline

@@ -34,8 +34,9 @@ std::string noiseMeanWarning(const NormalisedFrames &frames)
         return {};
     char digits[32];
     std::snprintf(digits, sizeof digits, "%.2g", mean);
-    return std::string("the mean of the noise is about ") + digits + ", not 1; threshold and false-alarm rate are "
-                                                                     "valid for frames divided by it";
+    return std::string("the mean of the noise is about ") + digits
+           + ", not 1; threshold and false-alarm rate are "
+             "valid for frames divided by it";
 }
 
 } // namespace faintline

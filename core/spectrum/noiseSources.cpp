@@ -66,13 +66,15 @@ namespace {
         explicit Scratch(std::size_t cells) : sum(cells), pull(cells), inverse(cells) {}
     };
 
-    void weigh(const NoiseSources &sources, std::span<const float> frame, std::span<const float> levels, Scratch &scratch)
+    void weigh(const NoiseSources &sources, std::span<const float> frame, std::span<const float> levels,
+               Scratch &scratch)
     {
         sources.addUp(levels, scratch.sum);
         weigh(frame.data(), scratch.sum.data(), frame.size(), scratch.pull.data(), scratch.inverse.data());
     }
 
-    void updateLevels(const NoiseSources &sources, std::span<const float> frame, std::vector<float> &levels, Scratch &scratch)
+    void updateLevels(const NoiseSources &sources, std::span<const float> frame, std::vector<float> &levels,
+                      Scratch &scratch)
     {
         weigh(sources, frame, levels, scratch);
         for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -126,15 +128,16 @@ namespace {
         return sum / static_cast<double>(a.size());
     }
 
-    /// Colours to begin with: of the frames that lie farthest from those taken already, a few of the oddest left aside, each with those
-    /// nearest to it.
+    /// Colours to begin with: of the frames that lie farthest from those taken already, a few of the oddest left aside,
+    /// each with those nearest to it.
     NoiseSources firstSources(std::span<const float> frames, Index cells, Index count)
     {
         constexpr double oddest = 0.03;
         constexpr std::size_t alike = 5;
         std::vector<std::vector<float>> profiles;
         for (Index first = 0; first < std::ssize(frames); first += cells)
-            profiles.push_back(profileOf(frames.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(cells))));
+            profiles.push_back(
+                profileOf(frames.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(cells))));
         std::vector<float> centre(profiles.front().size());
         for (std::size_t part = 0; part < centre.size(); ++part) {
             std::vector<float> values;
@@ -156,7 +159,8 @@ namespace {
             for (std::size_t i = 0; i < profiles.size(); ++i)
                 near[i] = distance(profiles[i], profiles[seed]);
             std::iota(order.begin(), order.end(), std::size_t(0));
-            std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return near[a] < near[b]; });
+            std::stable_sort(order.begin(), order.end(),
+                             [&](std::size_t a, std::size_t b) { return near[a] < near[b]; });
             const std::size_t taken = std::min(alike, order.size());
             const Index parts = std::ssize(centre);
             for (Index cell = 0; cell < cells; ++cell) {
@@ -211,7 +215,8 @@ NoiseSources fitSources(std::span<const float> frames, Index cells, Index count,
     const auto size = static_cast<std::size_t>(cells);
     std::vector<float> loud; // the frames that are no digital silence
     for (std::size_t first = 0; first < frames.size(); first += size)
-        if (const auto row = frames.subspan(first, size); std::any_of(row.begin(), row.end(), [](float y) { return y > 0.0f; }))
+        if (const auto row = frames.subspan(first, size);
+            std::any_of(row.begin(), row.end(), [](float y) { return y > 0.0f; }))
             loud.insert(loud.end(), row.begin(), row.end());
     if (loud.empty())
         return {};

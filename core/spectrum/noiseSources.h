@@ -7,8 +7,8 @@
 
 namespace faintline {
 
-/// Noise that is a sum of independent sources, each of which keeps its colour and changes its level, such as a receiver's own noise and a
-/// wind that comes and goes:
+/// Noise that is a sum of independent sources, each of which keeps its colour and changes its level, such as a
+/// receiver's own noise and a wind that comes and goes:
 ///
 ///   B(t, f) = Σ_k P_k(t)·a_k(f),  y(t, f)/B(t, f) exponential of mean 1
 ///
@@ -16,9 +16,9 @@ namespace faintline {
 ///
 ///   P_k ← P_k·Σ_f a_k min(y, cB)/B² / Σ_f a_k/B,  and for a_k likewise over t.
 ///
-/// Colours go through a running median over ±half cells each time, so that no line is part of a colour. Sources begin as the frames that
-/// differ most from one another.
-/// Source: Févotte, Bertin and Durrieu 2009, Nonnegative matrix factorization with the Itakura-Saito divergence, section 3.
+/// Colours go through a running median over ±half cells each time, so that no line is part of a colour. Sources begin
+/// as the frames that differ most from one another. Source: Févotte, Bertin and Durrieu 2009, Nonnegative matrix
+/// factorization with the Itakura-Saito divergence, section 3.
 struct NoiseSources {
     Index cells = 0;
     std::vector<float> colours; ///< sources × cells

@@ -51,7 +51,8 @@ std::shared_ptr<const PeakPyramid> pictureOfFrame(const PeakPyramid &picture, co
     return result;
 }
 
-std::shared_ptr<const PeakPyramid> pictureOf(const Axis &rows, const Axis &columns, std::span<const float> values, ByteScale scale)
+std::shared_ptr<const PeakPyramid> pictureOf(const Axis &rows, const Axis &columns, std::span<const float> values,
+                                             ByteScale scale)
 {
     auto result = std::make_shared<PeakPyramid>(rows, columns.count, std::move(scale));
     result->append(values);

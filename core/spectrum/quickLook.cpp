@@ -12,8 +12,8 @@ namespace {
 
 } // namespace
 
-std::shared_ptr<const PeakPyramid> quickLook(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings,
-                                          const RunContext &context)
+std::shared_ptr<const PeakPyramid> quickLook(std::shared_ptr<const Spectrogram> spectrogram,
+                                             const NormaliserSettings &settings, const RunContext &context)
 {
     const auto background = estimateBackground(*spectrogram, settings, context, BackgroundDepth::Sketch);
     const NormalisedSpectrogram frames(spectrogram, background, settings);

@@ -14,7 +14,8 @@ namespace {
 
 } // namespace
 
-Unevenness unevenness(std::span<const float> frames, const std::vector<float> &ofCell, const std::vector<float> &ofFrame)
+Unevenness unevenness(std::span<const float> frames, const std::vector<float> &ofCell,
+                      const std::vector<float> &ofFrame)
 {
     constexpr float most = 5.0f;
     const Index cells = std::ssize(ofCell);
@@ -52,7 +53,8 @@ Unevenness unevenness(std::span<const float> frames, const std::vector<float> &o
     return result;
 }
 
-Unevenness changesOf(const std::vector<float> &frames, const BlockBackground &block, const std::vector<float> &levels, Index bands)
+Unevenness changesOf(const std::vector<float> &frames, const BlockBackground &block, const std::vector<float> &levels,
+                     Index bands)
 {
     std::vector<float> ofCell;
     for (const float ln : block.lnPower)

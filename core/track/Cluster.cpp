@@ -68,7 +68,8 @@ std::vector<Cluster> findClusters(const Grid &grid, std::span<const float> stati
         if (cluster.peakStatistic > static_cast<float>(threshold))
             clusters.push_back(std::move(cluster));
     }
-    std::sort(clusters.begin(), clusters.end(), [](const Cluster &a, const Cluster &b) { return a.peakCell < b.peakCell; });
+    std::sort(clusters.begin(), clusters.end(),
+              [](const Cluster &a, const Cluster &b) { return a.peakCell < b.peakCell; });
     return clusters;
 }
 

@@ -9,13 +9,13 @@ namespace faintline {
 
 /// Threshold crossings of one frame that belong together.
 struct Cluster {
-    Index peakCell = 0;        ///< where the statistic is largest (the lowest cell among equals)
+    Index peakCell = 0; ///< where the statistic is largest (the lowest cell among equals)
     float peakStatistic = 0.0f;
-    std::vector<Index> cells;  ///< flat indices, ascending
+    std::vector<Index> cells; ///< flat indices, ascending
 };
 
-/// Groups the cells whose statistic exceeds `shoulder`: two belong together when they lie within `linkCells` of each other
-/// along every axis (one number per axis), or are linked by others that do. Only clusters whose peak exceeds
+/// Groups the cells whose statistic exceeds `shoulder`: two belong together when they lie within `linkCells` of each
+/// other along every axis (one number per axis), or are linked by others that do. Only clusters whose peak exceeds
 /// `threshold` ≥ `shoulder` count; the cells between the two are the same excursion's flanks. Strictly greater exceeds.
 /// Ordered by peak cell. Cost: grid size, plus crossings × link box.
 std::vector<Cluster> findClusters(const Grid &grid, std::span<const float> statistic, double threshold, double shoulder,

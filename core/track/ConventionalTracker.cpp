@@ -14,10 +14,8 @@ const std::vector<Field<ConventionalSettings>> &ConventionalSettings::fields()
               "Power above which a cell of a ping is a hit of the conventional detector."),
         field(&S::hits, "hits", "pings", 1.0, 1000.0, "M: number of pings with a hit that form a conventional track."),
         field(&S::window, "window", "pings", 1.0, 1000.0, "N: number of latest pings that must contain these hits."),
-        field(&S::fastestCells, "fastestCells", "cells/ping", 0.0, 1e5,
-              "Largest range rate that the gate admits."),
-        field(&S::fastestAcross, "fastestAcross", "cells/ping", 0.0, 1e5,
-              "Largest bearing rate that the gate admits."),
+        field(&S::fastestCells, "fastestCells", "cells/ping", 0.0, 1e5, "Largest range rate that the gate admits."),
+        field(&S::fastestAcross, "fastestAcross", "cells/ping", 0.0, 1e5, "Largest bearing rate that the gate admits."),
     };
     return table;
 }
@@ -27,7 +25,10 @@ int ConventionalTracker::Candidate::recentHits() const
     return static_cast<int>(std::count(recent.begin(), recent.end(), true));
 }
 
-ConventionalTracker::ConventionalTracker(const Grid &grid, const ConventionalSettings &settings) : m_grid(grid), m_settings(settings) {}
+ConventionalTracker::ConventionalTracker(const Grid &grid, const ConventionalSettings &settings)
+    : m_grid(grid), m_settings(settings)
+{
+}
 
 bool ConventionalTracker::isInGate(const TrackPoint &from, Index frame, Index cell) const
 {
@@ -44,7 +45,8 @@ bool ConventionalTracker::isInGate(const TrackPoint &from, Index frame, Index ce
     return true;
 }
 
-ConventionalTracker::Hit *ConventionalTracker::strongestInGate(const TrackPoint &from, Index frame, std::vector<Hit> &hits) const
+ConventionalTracker::Hit *ConventionalTracker::strongestInGate(const TrackPoint &from, Index frame,
+                                                               std::vector<Hit> &hits) const
 {
     Hit *best = nullptr;
     for (Hit &hit : hits)
@@ -60,9 +62,9 @@ void ConventionalTracker::take(Candidate &candidate, Index frame, const Hit &hit
     std::vector<float> strongest = candidate.powers;
     std::sort(strongest.begin(), strongest.end(), std::greater<>());
     strongest.resize(std::min(strongest.size(), static_cast<std::size_t>(m_settings.hits)));
-    track.peakStatistic =
-        std::accumulate(strongest.begin(), strongest.end(), 0.0, [](double sum, float y) { return sum + static_cast<double>(y); })
-        / static_cast<double>(strongest.size());
+    track.peakStatistic = std::accumulate(strongest.begin(), strongest.end(), 0.0,
+                                          [](double sum, float y) { return sum + static_cast<double>(y); })
+                          / static_cast<double>(strongest.size());
     track.detectStatistic = track.peakStatistic;
     track.points.push_back({frame, hit.cell, 0, static_cast<double>(hit.y)});
     track.endFrame = frame;
@@ -106,7 +108,8 @@ void ConventionalTracker::drop(Index frame)
             candidate.track.detectFrame = candidate.track.confirmFrame = frame;
             candidate.track.isConfirmed = true;
         }
-        // Hits that will still be in the window however long one waits: a young candidate's all, an old one's all but the oldest.
+        // Hits that will still be in the window however long one waits: a young candidate's all, an old one's all but
+        // the oldest.
         const int frames = static_cast<int>(candidate.recent.size());
         const bool isHopeless = found + (m_settings.window - frames) < m_settings.hits;
         if (!isHopeless)

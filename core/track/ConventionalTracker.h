@@ -13,11 +13,11 @@ namespace faintline {
 
 /// How the conventional detector decides.
 struct ConventionalSettings {
-    double hitThreshold = 9.2;    ///< y of a hit, × noise: 10⁻⁴ of noise cells (Parsons 2008, Table 2)
-    int hits = 3;                 ///< M pings with a hit …
-    int window = 5;               ///< … among the latest N
-    double fastestCells = 20.0;   ///< largest speed along the first axis, cells a frame
-    double fastestAcross = 1.0;   ///< along the other axes
+    double hitThreshold = 9.2;  ///< y of a hit, × noise: 10⁻⁴ of noise cells (Parsons 2008, Table 2)
+    int hits = 3;               ///< M pings with a hit …
+    int window = 5;             ///< … among the latest N
+    double fastestCells = 20.0; ///< largest speed along the first axis, cells a frame
+    double fastestAcross = 1.0; ///< along the other axes
 
     static const std::vector<Field<ConventionalSettings>> &fields();
     bool operator==(const ConventionalSettings &) const = default;
@@ -27,11 +27,12 @@ struct ConventionalSettings {
 ///
 ///   hit: y(cell) > hitThreshold;   gate: |hit - last hit| ≤ speed · (frames since) along every axis;   track: M hits within N frames
 ///
-/// The oldest track chooses first and takes the strongest hit of its gate, the lowest cell among equals; a hit that no gate took starts a track,
-/// which is reported once it has M hits in N frames and ends when it can have so many no more. It has a point for each hit; its statistic
-/// is the mean y of its M strongest hits. The gate grows with the largest speed, and false tracks with it: a price that a recursion over
-/// states does not pay. Source: Parsons 2008, sections 1 and 4 (the processing he compares with).
-/// Oracle: matrices by eye. Cost: one comparison a cell, and hits × tracks. One object per thread.
+/// The oldest track chooses first and takes the strongest hit of its gate, the lowest cell among equals; a hit that no
+/// gate took starts a track, which is reported once it has M hits in N frames and ends when it can have so many no
+/// more. It has a point for each hit; its statistic is the mean y of its M strongest hits. The gate grows with the
+/// largest speed, and false tracks with it: a price that a recursion over states does not pay. Source: Parsons 2008,
+/// sections 1 and 4 (the processing he compares with). Oracle: matrices by eye. Cost: one comparison a cell, and hits ×
+/// tracks. One object per thread.
 class ConventionalTracker
 {
 public:

@@ -32,8 +32,8 @@ namespace {
         return memoryShares::pathRecord / (sizeof(float) * states);
     }
 
-    /// A path usually comes to its signal over some frames of noise that happened to suit it. The signal begins where the score
-    /// begins to grow: the change point between no growth and half the path's own mean growth.
+    /// A path usually comes to its signal over some frames of noise that happened to suit it. The signal begins where
+    /// the score begins to grow: the change point between no growth and half the path's own mean growth.
     void trimOnset(std::vector<TrackPoint> &points)
     {
         const double tilt = 0.5 * points.back().statistic / static_cast<double>(points.size());
@@ -52,19 +52,21 @@ namespace {
 
 } // namespace
 
-DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<PathDetector> detector, ChainSettings settings)
+DetectionChain::DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<PathDetector> detector,
+                               ChainSettings settings)
     : DetectionChain(std::vector{model}, grid, std::move(detector), std::move(settings))
 {
 }
 
-DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<PathDetector> detector,
-                               ChainSettings settings)
+DetectionChain::DetectionChain(std::vector<MarkovModel> models, const Grid &grid,
+                               std::unique_ptr<PathDetector> detector, ChainSettings settings)
     : m_models(std::move(models)), m_grid(grid), m_detector(std::move(detector)), m_settings(std::move(settings)),
-      m_seenLimit(framesOf(grid, m_settings)), m_checkpointLimit(checkpointsOf(m_models, m_settings)), m_lambda(static_cast<std::size_t>(grid.size()))
+      m_seenLimit(framesOf(grid, m_settings)), m_checkpointLimit(checkpointsOf(m_models, m_settings)),
+      m_lambda(static_cast<std::size_t>(grid.size()))
 {
     for (const MarkovModel &model : m_models)
-        m_trackerModels.push_back(
-            std::make_unique<TrackerModel>(model, grid, m_settings.track, m_settings.trackThreshold.value_or(m_settings.threshold)));
+        m_trackerModels.push_back(std::make_unique<TrackerModel>(
+            model, grid, m_settings.track, m_settings.trackThreshold.value_or(m_settings.threshold)));
 }
 
 void DetectionChain::update(Index frame, std::span<const float> y, std::span<float> statistic)
@@ -97,7 +99,8 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         seen.lnK.push_back(m_detector->regulation(i).stepLnK);
     remember(frame, std::move(seen));
 
-    const auto clusters = findClusters(m_grid, statistic, m_settings.threshold, m_settings.shoulder, m_settings.linkCells);
+    const auto clusters =
+        findClusters(m_grid, statistic, m_settings.threshold, m_settings.shoulder, m_settings.linkCells);
     for (const Cluster &cluster : clusters)
         startTrack(frame, cluster, y);
     if (m_settings.resets)
@@ -124,10 +127,11 @@ void DetectionChain::remember(Index frame, Seen seen)
 
     if (m_checkpointLimit == 0 || frame % checkpointFrames != 0)
         return;
-    // Those before the frames that are remembered lead nowhere. The oldest one's memory is used again: fresh pages cost as much as what
-    // is written to them.
+    // Those before the frames that are remembered lead nowhere. The oldest one's memory is used again: fresh pages cost
+    // as much as what is written to them.
     Checkpoint checkpoint;
-    if (!m_checkpoints.empty() && (m_checkpoints.size() == m_checkpointLimit || m_checkpoints.front().frame < m_firstSeen)) {
+    if (!m_checkpoints.empty()
+        && (m_checkpoints.size() == m_checkpointLimit || m_checkpoints.front().frame < m_firstSeen)) {
         checkpoint = std::move(m_checkpoints.front());
         m_checkpoints.pop_front();
     }
@@ -147,8 +151,8 @@ std::span<const CellBox> DetectionChain::forgottenBoxes() const
 
 void DetectionChain::keepExcursions()
 {
-    // A whole excursion is forgotten with its track's start: in the frame after it, all of that is kept from the detector, be it wider
-    // than the box its track has by now.
+    // A whole excursion is forgotten with its track's start: in the frame after it, all of that is kept from the
+    // detector, be it wider than the box its track has by now.
     m_excursions = m_settings.trackThreshold && m_settings.forgetCells.empty() ? m_newBoxes.size() : 0;
     const auto begun = static_cast<std::ptrdiff_t>(m_excursions);
     m_boxes.erase(m_boxes.begin(), m_boxes.end() - begun);
@@ -240,7 +244,8 @@ std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceI
 
 void DetectionChain::endDuplicates()
 {
-    // Two trackers on one signal: the younger one ends. It was a second report of the same, unless it had a longer life of its own.
+    // Two trackers on one signal: the younger one ends. It was a second report of the same, unless it had a longer life
+    // of its own.
     if (m_trackers.size() < 2)
         return;
     std::vector<std::vector<Index>> places;
@@ -279,7 +284,8 @@ CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<con
 {
     CellBox box{centre, m_settings.inhibitCells};
     const Index middle = m_grid.cell(centre);
-    const double level = static_cast<double>(std::max(0.0f, y[static_cast<std::size_t>(middle)])); // 0 where nothing was observed
+    const double level =
+        static_cast<double>(std::max(0.0f, y[static_cast<std::size_t>(middle)])); // 0 where nothing was observed
     if (m_settings.leakageExtent)
         box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.leakageExtent(level));
     if (m_settings.skirtStep <= 0 || level < skirtLevel)
@@ -339,22 +345,25 @@ RecursionRecord DetectionChain::record(std::size_t model) const
 {
     RecursionRecord result;
     result.firstFrame = m_firstSeen;
-    const auto at = [this](Index frame) -> const Seen & { return m_seen[static_cast<std::size_t>(frame - m_firstSeen)]; };
+    const auto at = [this](Index frame) -> const Seen & {
+        return m_seen[static_cast<std::size_t>(frame - m_firstSeen)];
+    };
     result.frame = [at](Index frame) { return std::span<const float>(at(frame).y); };
     result.lnK = [at, model](Index frame) { return at(frame).lnK[model]; };
     result.forgotten = [at](Index frame) { return std::span<const CellBox>(at(frame).forgotten); };
     result.checkpoint = [this, model](Index before) {
         const auto latest = std::find_if(m_checkpoints.rbegin(), m_checkpoints.rend(),
-                                        [before](const Checkpoint &checkpoint) { return checkpoint.frame < before; });
+                                         [before](const Checkpoint &checkpoint) { return checkpoint.frame < before; });
         return latest == m_checkpoints.rend() ? RecursionRecord::Checkpoint{}
-                                             : RecursionRecord::Checkpoint{latest->frame, latest->scores[model]};
+                                              : RecursionRecord::Checkpoint{latest->frame, latest->scores[model]};
     };
     return result;
 }
 
 std::vector<PathStep> DetectionChain::detectorPathInto(Index state, std::size_t model) const
 {
-    return tracePath(m_models[model], m_grid, record(model), m_firstSeen + std::ssize(m_seen) - 1, state, scoreOf(state, model));
+    return tracePath(m_models[model], m_grid, record(model), m_firstSeen + std::ssize(m_seen) - 1, state,
+                     scoreOf(state, model));
 }
 
 std::size_t ChainState::bytes() const
@@ -429,7 +438,8 @@ void DetectionChain::startTrack(Index frame, const Cluster &cluster, std::span<c
     track.detectStatistic = static_cast<double>(cluster.peakStatistic);
     const double offset = m_settings.trackThreshold ? 0.0 : track.detectStatistic - scoreOf(state, model);
     m_boxTracks.push_back(track.id);
-    m_trackers.emplace_back(*m_trackerModels[model], std::move(track), state, cluster.cells, m_detector->scores(model), offset);
+    m_trackers.emplace_back(*m_trackerModels[model], std::move(track), state, cluster.cells, m_detector->scores(model),
+                            offset);
 
     // The box must hold the whole cluster, or its rim would start a second track in the next frame.
     CellBox box = boxRound(m_grid.coordinates(cluster.peakCell), y);
@@ -464,7 +474,8 @@ std::vector<Track> DetectionChain::takeJoinedTracks()
         for (std::size_t axis = 0; axis < reach.size(); ++axis)
             reach[axis] = std::max(reach[axis], model->reach[axis]);
     return joinTracks(std::exchange(m_ended, {}), m_grid,
-                      {m_trackerModels.front()->threshold, m_settings.track.smoothingFrames, m_settings.linkCells, reach, m_trackerModels.front()->halfWidth});
+                      {m_trackerModels.front()->threshold, m_settings.track.smoothingFrames, m_settings.linkCells,
+                       reach, m_trackerModels.front()->halfWidth});
 }
 
 } // namespace faintline

@@ -20,29 +20,34 @@ namespace faintline {
 
 /// What the chain needs to know besides the model: everything in cells of the grid and nats.
 struct ChainSettings {
-    double threshold = 0.0;           ///< on the detector's statistic
-    /// Nat, where the statistic is not the score of the paths that trackers follow (GuidedDetector): what a tracker's level is held against,
-    /// and begins with at least, because its signal has been detected.
+    double threshold = 0.0; ///< on the detector's statistic
+    /// Nat, where the statistic is not the score of the paths that trackers follow (GuidedDetector): what a tracker's
+    /// level is held against, and begins with at least, because its signal has been detected.
     std::optional<double> trackThreshold;
-    double shoulder = 0.0;            ///< cells above this around a crossing belong to the same excursion and are forgotten with it
-    std::vector<Index> linkCells;     ///< crossings this near belong to one cluster, per axis
-    std::vector<Index> inhibitCells;  ///< half the box inhibited around a track, per axis
-    std::vector<Index> forgetCells;   ///< half the box reset around a new track, per axis; may be empty: as inhibitCells
-    /// Cells where no signal is looked for, by coordinates: kept from the detector as if a track were there all the time.
+    double shoulder =
+        0.0; ///< cells above this around a crossing belong to the same excursion and are forgotten with it
+    std::vector<Index> linkCells;    ///< crossings this near belong to one cluster, per axis
+    std::vector<Index> inhibitCells; ///< half the box inhibited around a track, per axis
+    std::vector<Index> forgetCells;  ///< half the box reset around a new track, per axis; may be empty: as inhibitCells
+    /// Cells where no signal is looked for, by coordinates: kept from the detector as if a track were there all the
+    /// time.
     std::vector<std::vector<Index>> excluded;
     TrackSettings track;
-    /// How far back the beginning of a new track is looked for; 0: as far as its path goes. 1: no traceback, no past is kept.
+    /// How far back the beginning of a new track is looked for; 0: as far as its path goes. 1: no traceback, no past is
+    /// kept.
     Index onsetFrames = 0;
-    bool feedback = true;             ///< false: detector only, no reset, no inhibition, no tracks
-    bool resets = true;               ///< the detector forgets what a track has taken over
-    bool inhibits = true;             ///< y is inhibited around the tracks
+    bool feedback = true; ///< false: detector only, no reset, no inhibition, no tracks
+    bool resets = true;   ///< the detector forgets what a track has taken over
+    bool inhibits = true; ///< y is inhibited around the tracks
     /// Half-width along the last axis over which a signal of power y leaks into its neighbours; may be empty.
     std::function<Index(double y)> leakageExtent;
-    /// Bins of one resolution cell along the last axis: a strong signal's skirts are followed outward in such steps; 0: not.
+    /// Bins of one resolution cell along the last axis: a strong signal's skirts are followed outward in such steps; 0:
+    /// not.
     Index skirtStep = 0;
 };
 
-/// What the next frames' statistic depends on: the detector's state, and for each track in progress its window, whatever its age.
+/// What the next frames' statistic depends on: the detector's state, and for each track in progress its window,
+/// whatever its age.
 struct ChainState {
     std::shared_ptr<const DetectorState> detector;
     std::vector<HmmTracker> trackers;
@@ -57,19 +62,22 @@ struct ChainState {
 
 /// From frames to tracks: Parsons' Figure 1.
 ///
-/// For each frame, in this order: the trackers take the raw frame, and those whose signal is gone end; y is set to 0 in a box
-/// around every track and the detector takes the rest; crossings are clustered; the peak of each cluster starts a track,
-/// whose past is traced back to its onset, and the detector resets the box around it. The statistic shown is the
-/// detector's, raised to the trackers' scores where they follow something. Under a bank of models a track belongs to the model
-/// whose statistic crossed: its path is traced, and followed, with that one. Of a detector that is guided, a track's cell shows the statistic
-/// that it was detected with, for its tracker's scores are something else. Deterministic; one object per thread.
+/// For each frame, in this order: the trackers take the raw frame, and those whose signal is gone end; y is set to 0 in
+/// a box around every track and the detector takes the rest; crossings are clustered; the peak of each cluster starts a
+/// track, whose past is traced back to its onset, and the detector resets the box around it. The statistic shown is the
+/// detector's, raised to the trackers' scores where they follow something. Under a bank of models a track belongs to
+/// the model whose statistic crossed: its path is traced, and followed, with that one. Of a detector that is guided, a
+/// track's cell shows the statistic that it was detected with, for its tracker's scores are something else.
+/// Deterministic; one object per thread.
 class DetectionChain
 {
 public:
-    DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<PathDetector> detector, ChainSettings settings);
+    DetectionChain(const MarkovModel &model, const Grid &grid, std::unique_ptr<PathDetector> detector,
+                   ChainSettings settings);
 
     /// One model for each member of the detector, all with the same likelihood.
-    DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<PathDetector> detector, ChainSettings settings);
+    DetectionChain(std::vector<MarkovModel> models, const Grid &grid, std::unique_ptr<PathDetector> detector,
+                   ChainSettings settings);
 
     /// Takes frame number `frame` (ascending, no gaps); writes the statistic of every cell.
     void update(Index frame, std::span<const float> y, std::span<float> statistic);
@@ -90,7 +98,8 @@ public:
 
     /// Null where the detector cannot tell its state.
     std::shared_ptr<const ChainState> state() const;
-    /// Goes on from there, with the same bytes: a state of this chain, or of one made alike. Paths and tracks begin anew.
+    /// Goes on from there, with the same bytes: a state of this chain, or of one made alike. Paths and tracks begin
+    /// anew.
     void setState(const ChainState &state);
 
     /// The boxes that the detector forgets before it takes the next frame.
@@ -142,9 +151,10 @@ private:
     std::vector<HmmTracker> m_trackers;
     std::vector<Track> m_ended;
     std::vector<CellBox> m_boxes;
-    std::vector<CellBox> m_newBoxes;  ///< of them, those of tracks started in the last frame
-    std::vector<int> m_boxTracks;     ///< the track of each box
-    std::size_t m_excursions = 0;     ///< the first of the boxes: what was forgotten before the last frame with the tracks that had just begun
+    std::vector<CellBox> m_newBoxes; ///< of them, those of tracks started in the last frame
+    std::vector<int> m_boxTracks;    ///< the track of each box
+    std::size_t m_excursions =
+        0; ///< the first of the boxes: what was forgotten before the last frame with the tracks that had just begun
     std::deque<Seen> m_seen;
     Index m_firstSeen = 0;
     std::size_t m_seenLimit;

@@ -16,7 +16,9 @@ namespace {
     {
         std::vector<Index> result;
         for (std::size_t axis = 0; axis < space.axes().size(); ++axis) {
-            const double wanted = settings.windowCells.empty() ? 12.0 : settings.windowCells[std::min(axis, settings.windowCells.size() - 1)];
+            const double wanted = settings.windowCells.empty()
+                                      ? 12.0
+                                      : settings.windowCells[std::min(axis, settings.windowCells.size() - 1)];
             const Index largest = (space.axes()[axis].cells - 1) / 2;
             result.push_back(std::clamp(static_cast<Index>(std::llround(wanted)), Index(0), largest));
         }
@@ -72,24 +74,30 @@ const std::vector<Field<TrackSettings>> &TrackSettings::fields()
     static const std::vector<Field<S>> table{
         field(&S::windowCells, "windowCells", "bins", 0.0, 10000.0,
               "Half width of the window of states that follows a signal, per axis; the last number repeats."),
-        field(&S::decayNats, "decayNats", "nat", 0.0, 1000.0, "Amount subtracted from a track's level every frame, so "
-                                                              "that a track on noise fades."),
+        field(&S::decayNats, "decayNats", "nat", 0.0, 1000.0,
+              "Amount subtracted from a track's level every frame, so "
+              "that a track on noise fades."),
         field(&S::ceilingNats, "ceilingNats", "nat", 0.0, 1e6, "Upper limit of a track's level above the threshold."),
         field(&S::endNats, "endNats", "nat", 0.0, 1e6, "A track ends when its level is this far below the threshold."),
-        field(&S::confirmNats, "confirmNats", "nat", 0.0, 1e6, "A track is confirmed when its level is this far above the threshold."),
+        field(&S::confirmNats, "confirmNats", "nat", 0.0, 1e6,
+              "A track is confirmed when its level is this far above the threshold."),
         field(&S::confirmFrames, "confirmFrames", "frames", 1.0, 1e6, "Lowest age at which a track is confirmed."),
-        field(&S::smoothingFrames, "smoothingFrames", "frames", 1.0, 10000.0, "Lag of the smoothing of a track's path."),
-        field(&S::bothWays, "bothWays", "Whether complete tracks of lines are also followed backward to refine onset, "
-                                        "end and frequency."),
+        field(&S::smoothingFrames, "smoothingFrames", "frames", 1.0, 10000.0,
+              "Lag of the smoothing of a track's path."),
+        field(&S::bothWays, "bothWays",
+              "Whether complete tracks of lines are also followed backward to refine onset, "
+              "end and frequency."),
     };
     return table;
 }
 
-TrackerModel::TrackerModel(const MarkovModel &model, const Grid &frameGrid, const TrackSettings &trackSettings, double thresholdNats)
-    : space(model.space), grid(frameGrid), settings(trackSettings), threshold(thresholdNats), transitionScale(model.transitionScale),
-      halfWidth(halfWidths(space, settings)), reach(reaches(space)),
-      window(space.window(sides(halfWidth, std::vector<Index>(halfWidth.size(), 0)))), padded(space.window(sides(halfWidth, reach))),
-      recursion(padded, model.transitionScale), scores(static_cast<std::size_t>(padded.stateCount()))
+TrackerModel::TrackerModel(const MarkovModel &model, const Grid &frameGrid, const TrackSettings &trackSettings,
+                           double thresholdNats)
+    : space(model.space), grid(frameGrid), settings(trackSettings), threshold(thresholdNats),
+      transitionScale(model.transitionScale), halfWidth(halfWidths(space, settings)), reach(reaches(space)),
+      window(space.window(sides(halfWidth, std::vector<Index>(halfWidth.size(), 0)))),
+      padded(space.window(sides(halfWidth, reach))), recursion(padded, model.transitionScale),
+      scores(static_cast<std::size_t>(padded.stateCount()))
 {
     for (std::size_t axis = 0; axis < halfWidth.size(); ++axis)
         largestExtent = std::max(largestExtent, 2 * (halfWidth[axis] + reach[axis]));
@@ -126,8 +134,8 @@ Index TrackerModel::inPadded(Index cell, const std::vector<Index> &moved) const
     return flat;
 }
 
-HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells, std::span<const float> detectorScores,
-                       double scoreOffset)
+HmmTracker::HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells,
+                       std::span<const float> detectorScores, double scoreOffset)
     : m_model(&model), m_track(std::move(start)), m_best(state)
 {
     Slice slice;
@@ -171,9 +179,11 @@ HmmTracker HmmTracker::withoutPast(TrackerModel &model) const
 std::size_t HmmTracker::bytes() const
 {
     constexpr std::size_t dequeBytes = 512 + 8 * sizeof(void *); // one node and the map of them
-    std::size_t total = sizeof *this + dequeBytes + m_track.points.capacity() * sizeof(TrackPoint) + m_beside.capacity() * sizeof(Beside);
+    std::size_t total = sizeof *this + dequeBytes + m_track.points.capacity() * sizeof(TrackPoint)
+                        + m_beside.capacity() * sizeof(Beside);
     for (const Slice &slice : m_history)
-        total += sizeof slice + slice.centre.capacity() * sizeof(Index) + (slice.scores.capacity() + slice.lambda.capacity()) * sizeof(float);
+        total += sizeof slice + slice.centre.capacity() * sizeof(Index)
+                 + (slice.scores.capacity() + slice.lambda.capacity()) * sizeof(float);
     return total;
 }
 
@@ -245,7 +255,8 @@ void HmmTracker::follow(Index frame, std::span<const float> lambda, double lnK)
 
     std::vector<Index> centre = model.padded.coordinates(local).cells;
     for (std::size_t axis = 0; axis < centre.size(); ++axis)
-        centre[axis] = model.grid.axes[axis].wrapped(centre[axis] + last.centre[axis] - model.halfWidth[axis] - model.reach[axis]);
+        centre[axis] =
+            model.grid.axes[axis].wrapped(centre[axis] + last.centre[axis] - model.halfWidth[axis] - model.reach[axis]);
     m_best = model.padded.planeOf(local) * model.space.cellCount() + model.grid.cell(centre);
     m_history.push_back(cutOut(frame, centre, lambda, lnK));
 }
@@ -255,7 +266,8 @@ HmmTracker::Slice HmmTracker::cutOut(Index frame, const std::vector<Index> &cent
 {
     const TrackerModel &model = *m_model;
     const Slice &last = m_history.back();
-    Slice slice{frame, centre, std::vector<float>(static_cast<std::size_t>(model.window.stateCount()), unreached), m_statistic, {}, lnK};
+    Slice slice{frame,       centre, std::vector<float>(static_cast<std::size_t>(model.window.stateCount()), unreached),
+                m_statistic, {},     lnK};
     for (Index cell = 0; cell < model.window.cellCount(); ++cell) {
         const Index global = model.windowCell(centre, cell);
         slice.lambda.push_back(global < 0 ? 0.0f : lambda[static_cast<std::size_t>(global)]);
@@ -269,7 +281,8 @@ HmmTracker::Slice HmmTracker::cutOut(Index frame, const std::vector<Index> &cent
         const Index source = model.inPadded(cell, moved);
         for (Index plane = 0; source >= 0 && plane < model.window.planeCount(); ++plane)
             slice.scores[static_cast<std::size_t>(plane * cells + cell)] = static_cast<float>(
-                static_cast<double>(model.scores[static_cast<std::size_t>(plane * model.padded.cellCount() + source)]) + shift);
+                static_cast<double>(model.scores[static_cast<std::size_t>(plane * model.padded.cellCount() + source)])
+                + shift);
     }
     return slice;
 }
@@ -342,7 +355,8 @@ std::vector<HmmTracker::Origin> HmmTracker::origins() const
             continue;
         const Index state = model.window.planeOf(local) * model.space.cellCount() + cell;
         PathStep step;
-        result.push_back({state, m_history.size() < 2 ? state : predecessorIn(m_history[m_history.size() - 2], state, step)});
+        result.push_back(
+            {state, m_history.size() < 2 ? state : predecessorIn(m_history[m_history.size() - 2], state, step)});
     }
     return result;
 }
@@ -358,7 +372,8 @@ std::vector<PathStep> HmmTracker::explain(Index state) const
         step.state = state;
         step.score = slice.offset + static_cast<double>(slice.scores[static_cast<std::size_t>(local)]);
         if (i > 0) {
-            step.logLikelihoodRatio = static_cast<double>(slice.lambda[static_cast<std::size_t>(m_model->window.cellOf(local))]);
+            step.logLikelihoodRatio =
+                static_cast<double>(slice.lambda[static_cast<std::size_t>(m_model->window.cellOf(local))]);
             step.lnK = slice.lnK;
             state = predecessorIn(m_history[i - 1], state, step);
         }

@@ -15,13 +15,13 @@ namespace faintline {
 /// How a detected signal is followed and given up.
 struct TrackSettings {
     std::vector<double> windowCells{12.0}; ///< half the window that follows the state, per axis (the last one repeats)
-    double decayNats = 0.05;   ///< taken off the level every frame, so that a track on noise fades
-    double ceilingNats = 8.0;  ///< the level never stands higher above the threshold than this
-    double endNats = 8.0;      ///< a track ends when its level is this far below the threshold
-    double confirmNats = 0.0;  ///< a track is confirmed this far above the threshold …
-    int confirmFrames = 1;     ///< … and at this age
-    int smoothingFrames = 48;  ///< lag of the path's smoothing
-    bool bothWays = true;      ///< complete tracks are looked at from both ends (analysis/secondLook.h)
+    double decayNats = 0.05;               ///< taken off the level every frame, so that a track on noise fades
+    double ceilingNats = 8.0;              ///< the level never stands higher above the threshold than this
+    double endNats = 8.0;                  ///< a track ends when its level is this far below the threshold
+    double confirmNats = 0.0;              ///< a track is confirmed this far above the threshold …
+    int confirmFrames = 1;                 ///< … and at this age
+    int smoothingFrames = 48;              ///< lag of the path's smoothing
+    bool bothWays = true;                  ///< complete tracks are looked at from both ends (analysis/secondLook.h)
 
     static const std::vector<Field<TrackSettings>> &fields();
     bool operator==(const TrackSettings &) const = default;
@@ -40,13 +40,19 @@ struct TrackerModel {
     std::vector<Index> reach;     ///< largest displacement in one step, per axis
     Index largestExtent = 0;      ///< beyond this distance a cell cannot matter to a tracker
     StateSpace window;
-    StateSpace padded;            ///< the window with room for one step
+    StateSpace padded; ///< the window with room for one step
     Recursion<MaxPlus<float>> recursion;
-    std::vector<float> scores;    ///< padded
+    std::vector<float> scores; ///< padded
 
     /// Grid cell of a cell of the window, or of the padded one, that is centred there; -1 off the grid.
-    Index windowCell(const std::vector<Index> &centre, Index cell) const { return gridCell(centre, windowOffsets, cell); }
-    Index paddedCell(const std::vector<Index> &centre, Index cell) const { return gridCell(centre, paddedOffsets, cell); }
+    Index windowCell(const std::vector<Index> &centre, Index cell) const
+    {
+        return gridCell(centre, windowOffsets, cell);
+    }
+    Index paddedCell(const std::vector<Index> &centre, Index cell) const
+    {
+        return gridCell(centre, paddedOffsets, cell);
+    }
     /// Cell of the padded window where a cell of the window lies that has moved against it; -1 outside.
     Index inPadded(Index cell, const std::vector<Index> &moved) const;
 
@@ -59,25 +65,25 @@ private:
 
 /// Follows one signal on a small window of the state space that moves with the most probable state.
 ///
-/// The same recursion as the detector's, without reset: u = λ + ln K + max_m [ln P(n|m) + u(m)]. Two scores are kept. The
-/// *statistic* is the path's own and goes on from the detector's. The *level* decides about the end: it follows the
+/// The same recursion as the detector's, without reset: u = λ + ln K + max_m [ln P(n|m) + u(m)]. Two scores are kept.
+/// The *statistic* is the path's own and goes on from the detector's. The *level* decides about the end: it follows the
 /// statistic, loses `decayNats` a frame, is held below threshold + `ceilingNats`, and the track ends when it falls
-/// below threshold - `endNats`. The path is smoothed by tracing back from the best state `smoothingFrames` or more later.
-/// The end is put where the level's final fall began. Source: Parsons 2008 section 2.3 and Figure 1.
+/// below threshold - `endNats`. The path is smoothed by tracing back from the best state `smoothingFrames` or more
+/// later. The end is put where the level's final fall began. Source: Parsons 2008 section 2.3 and Figure 1.
 class HmmTracker
 {
 public:
     /// Seeded from the detector's scores in the cells of the excursion whose best state crossed the threshold (`cells`,
     /// ascending); `start` has the path so far.
-    HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells, std::span<const float> detectorScores,
-               double scoreOffset);
+    HmmTracker(TrackerModel &model, Track start, Index state, std::span<const Index> cells,
+               std::span<const float> detectorScores, double scoreOffset);
 
     // Trackers are moved as their vector grows, never copied: their history is large.
     HmmTracker(HmmTracker &&) noexcept = default;
     HmmTracker &operator=(HmmTracker &&) noexcept = default;
 
-    /// One that follows the signal on as this one does, to the bit, but knows no path before the newest frame: of a size that does not
-    /// depend on its age.
+    /// One that follows the signal on as this one does, to the bit, but knows no path before the newest frame: of a
+    /// size that does not depend on its age.
     HmmTracker withoutPast(TrackerModel &model) const;
 
     /// What it takes of memory.
@@ -109,15 +115,16 @@ public:
     /// Score of the best state in a cell, -∞ outside of the window; and that state.
     double scoreAt(Index cell, Index *state = nullptr) const;
 
-    /// The states of the newest frame's window that can be reached, and where each came from in the frame before (itself when seeded).
+    /// The states of the newest frame's window that can be reached, and where each came from in the frame before
+    /// (itself when seeded).
     struct Origin {
         Index state;
         Index before;
     };
     std::vector<Origin> origins() const;
 
-    /// The terms of the path to a state in the newest frame, back to the state it was seeded from (first step, score only).
-    /// As far as the history goes: ask for a long smoothing lag first.
+    /// The terms of the path to a state in the newest frame, back to the state it was seeded from (first step, score
+    /// only). As far as the history goes: ask for a long smoothing lag first.
     std::vector<PathStep> explain(Index state) const;
 
     /// Ends the track, its points traced and cut at the last evidence.
@@ -146,9 +153,9 @@ private:
     Track m_track;
     std::deque<Slice> m_history;
     Index m_age = 0;
-    Index m_fallFrame = 0;        ///< frames from detection to where the level's fall began, if it is the last
-    double m_fallLevel = 0.0;     ///< the tilted level there: the largest so far
-    Index m_best = 0;             ///< global index of the most probable state
+    Index m_fallFrame = 0;    ///< frames from detection to where the level's fall began, if it is the last
+    double m_fallLevel = 0.0; ///< the tilted level there: the largest so far
+    Index m_best = 0;         ///< global index of the most probable state
     std::vector<Beside> m_beside;
     double m_statistic = 0.0;
     double m_level = 0.0;

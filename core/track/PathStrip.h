@@ -23,7 +23,8 @@ struct PathStrip {
     float valueAt(Index at, Index cell) const
     {
         const Index i = cell - firstCell(at);
-        return i < 0 || i >= width() ? std::numeric_limits<float>::quiet_NaN() : y[static_cast<std::size_t>(at * width() + i)];
+        return i < 0 || i >= width() ? std::numeric_limits<float>::quiet_NaN()
+                                     : y[static_cast<std::size_t>(at * width() + i)];
     }
 };
 

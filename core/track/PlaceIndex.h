@@ -8,11 +8,13 @@
 
 namespace faintline {
 
-/// Places on a grid, sorted by where they lie along its first axis: who is near is found without looking at all of them.
+/// Places on a grid, sorted by where they lie along its first axis: who is near is found without looking at all of
+/// them.
 class PlaceIndex
 {
 public:
-    PlaceIndex(const Grid &grid, std::vector<std::vector<Index>> places) : m_places(std::move(places)), m_axis(grid.axes.front())
+    PlaceIndex(const Grid &grid, std::vector<std::vector<Index>> places)
+        : m_places(std::move(places)), m_axis(grid.axes.front())
     {
         for (std::size_t i = 0; i < m_places.size(); ++i)
             m_order.emplace_back(m_places[i].front(), i);
@@ -22,8 +24,8 @@ public:
     std::size_t size() const { return m_places.size(); }
     const std::vector<Index> &operator[](std::size_t number) const { return m_places[number]; }
 
-    /// Calls visit(number), once each, for all places that lie within `reach` of this one along the first axis, the short way round on a
-    /// cyclic one; whether they do along the others is the caller's to see.
+    /// Calls visit(number), once each, for all places that lie within `reach` of this one along the first axis, the
+    /// short way round on a cyclic one; whether they do along the others is the caller's to see.
     template <class Visit>
     void forEachNear(const std::vector<Index> &place, Index reach, Visit visit) const
     {

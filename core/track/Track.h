@@ -25,24 +25,25 @@ struct SmoothedPoint {
 
 /// One signal from its onset to its end, and the decision that started it.
 struct Track {
-    int id = 0;              ///< counted from 1, in order of detection, then of cell
-    Index onsetFrame = 0;    ///< where the detecting path's score began to grow
-    Index detectFrame = 0;   ///< where the statistic first exceeded the threshold
-    Index endFrame = 0;      ///< last frame with evidence
+    int id = 0;                 ///< counted from 1, in order of detection, then of cell
+    Index onsetFrame = 0;       ///< where the detecting path's score began to grow
+    Index detectFrame = 0;      ///< where the statistic first exceeded the threshold
+    Index endFrame = 0;         ///< last frame with evidence
     double peakStatistic = 0.0; ///< largest score of the path, nat
     bool isConfirmed = false;
-    bool isOpen = false;     ///< still followed when the data ended
-    std::vector<TrackPoint> points; ///< onset … end, one per frame
-    Index confirmFrame = -1; ///< where it was confirmed, -1: never
-    std::size_t model = 0;   ///< which of a bank's models found it and follows it
-    double detectStatistic = 0.0; ///< the detector's, in its own unit, where it was detected
+    bool isOpen = false;                   ///< still followed when the data ended
+    std::vector<TrackPoint> points;        ///< onset … end, one per frame
+    Index confirmFrame = -1;               ///< where it was confirmed, -1: never
+    std::size_t model = 0;                 ///< which of a bank's models found it and follows it
+    double detectStatistic = 0.0;          ///< the detector's, in its own unit, where it was detected
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
 
     /// Where a point is along the last axis, in cells, as exactly as is known.
     double lastPosition(std::size_t point, const Axis &axis) const
     {
         const Index cell = points[point].cell;
-        return !smoothed.empty() ? smoothed[point].position : static_cast<double>(axis.count > 0 ? cell % axis.count : cell);
+        return !smoothed.empty() ? smoothed[point].position
+                                 : static_cast<double>(axis.count > 0 ? cell % axis.count : cell);
     }
 
     /// The same on all axes, in their units.
@@ -59,7 +60,8 @@ struct Track {
     /// All but what there is for each frame, without copying them first.
     Track withoutPoints() const
     {
-        return {id, onsetFrame, detectFrame, endFrame, peakStatistic, isConfirmed, isOpen, {}, confirmFrame, model, detectStatistic};
+        return {id,     onsetFrame, detectFrame,  endFrame, peakStatistic,  isConfirmed,
+                isOpen, {},         confirmFrame, model,    detectStatistic};
     }
 };
 

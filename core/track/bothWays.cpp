@@ -12,8 +12,8 @@ namespace faintline {
 namespace {
 
     constexpr double corridorCells = 3.0; ///< resolution cells on either side of the path
-    constexpr Index levelFrames = 12; ///< either way
-    constexpr double leastChange = 2.0; ///< nat, that an interruption costs however low the threshold is
+    constexpr Index levelFrames = 12;     ///< either way
+    constexpr double leastChange = 2.0;   ///< nat, that an interruption costs however low the threshold is
     constexpr double leastLevel = 0.5;
     constexpr double largestLevel = 4.0;
     constexpr double levelOfOneFrame = 10.0; ///< from that SNR on, a frame's neighbours are enough for its position
@@ -53,7 +53,10 @@ namespace {
             return expectedSlopeChanges(corridor(run(), false), *m_model.axis, lnChange(), m_strip.firstFrame);
         }
 
-        double strongest() { return strongestPath(corridor(alongCentres(), true), *m_model.axis, m_model.lnK, m_strip.firstFrame); }
+        double strongest()
+        {
+            return strongestPath(corridor(alongCentres(), true), *m_model.axis, m_model.lnK, m_strip.firstFrame);
+        }
 
     private:
         BothWays alongCentres() const
@@ -85,11 +88,14 @@ namespace {
         /// The likelihood at a track's own level, in half octaves.
         const Likelihood &likelihoodAt(double level)
         {
-            const auto step = static_cast<int>(std::lround(2.0 * std::log2(std::clamp(level, leastLevel, largestLevel) / leastLevel)));
+            const auto step = static_cast<int>(
+                std::lround(2.0 * std::log2(std::clamp(level, leastLevel, largestLevel) / leastLevel)));
             const auto found = m_likelihoods.find(step);
-            return found != m_likelihoods.end()
-                ? found->second
-                : m_likelihoods.emplace(step, Likelihood(m_model.likelihood.kind(), leastLevel * std::pow(2.0, 0.5 * step))).first->second;
+            return found != m_likelihoods.end() ? found->second
+                                                : m_likelihoods
+                                                      .emplace(step, Likelihood(m_model.likelihood.kind(),
+                                                                                leastLevel * std::pow(2.0, 0.5 * step)))
+                                                      .first->second;
         }
 
         /// `byDesign`: with the detector's likelihood instead of that of the track's own level.
@@ -106,8 +112,10 @@ namespace {
                 result.firstCells.push_back(first);
                 for (Index i = 0; i < result.width; ++i)
                     y[static_cast<std::size_t>(i)] = m_strip.valueAt(at, first + i);
-                const std::span<float> lambda = std::span(result.lambda).subspan(static_cast<std::size_t>(at * result.width), y.size());
-                (byDesign ? m_model.likelihood : likelihoodAt(seen.levels[static_cast<std::size_t>(at)])).apply(y, lambda);
+                const std::span<float> lambda =
+                    std::span(result.lambda).subspan(static_cast<std::size_t>(at * result.width), y.size());
+                (byDesign ? m_model.likelihood : likelihoodAt(seen.levels[static_cast<std::size_t>(at)]))
+                    .apply(y, lambda);
                 for (Index i = 0; i < result.width; ++i)
                     if (first + i < 0 || first + i >= cells)
                         lambda[static_cast<std::size_t>(i)] = -std::numeric_limits<float>::infinity();
@@ -121,7 +129,8 @@ namespace {
             std::vector<double> result;
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
                 const float y = m_strip.valueAt(at, nearest(seen.presence.mean[static_cast<std::size_t>(at)]));
-                result.push_back(m_model.likelihood.at(static_cast<double>(y)) + m_model.lnK[static_cast<std::size_t>(at)] + staying);
+                result.push_back(m_model.likelihood.at(static_cast<double>(y))
+                                 + m_model.lnK[static_cast<std::size_t>(at)] + staying);
             }
             return result;
         }
@@ -133,7 +142,8 @@ namespace {
             const double below = std::floor(position);
             const double share = position - below;
             const auto cell = static_cast<Index>(below);
-            return (1.0 - share) * static_cast<double>(m_strip.valueAt(at, cell)) + share * static_cast<double>(m_strip.valueAt(at, cell + 1));
+            return (1.0 - share) * static_cast<double>(m_strip.valueAt(at, cell))
+                   + share * static_cast<double>(m_strip.valueAt(at, cell + 1));
         }
 
         std::vector<double> refined(const BothWays &seen) const
@@ -142,16 +152,21 @@ namespace {
             std::vector<double> result;
             for (Index at = 0; at < m_strip.frameCount(); ++at) {
                 const double level = seen.levels[static_cast<std::size_t>(at)];
-                const auto half = static_cast<Index>(std::clamp(levelOfOneFrame / std::max(level, 0.1), 1.0, framesAtMost));
+                const auto half =
+                    static_cast<Index>(std::clamp(levelOfOneFrame / std::max(level, 0.1), 1.0, framesAtMost));
                 std::array<double, 2 * farthest + 1> power{};
-                for (Index other = std::max<Index>(0, at - half); other <= std::min(m_strip.frameCount() - 1, at + half); ++other)
+                for (Index other = std::max<Index>(0, at - half);
+                     other <= std::min(m_strip.frameCount() - 1, at + half); ++other)
                     for (std::size_t i = 0; i < power.size(); ++i)
-                        if (const double y = powerBeside(seen, other, static_cast<double>(i) - farthest); !std::isnan(y))
+                        if (const double y = powerBeside(seen, other, static_cast<double>(i) - farthest);
+                            !std::isnan(y))
                             power[i] += y;
-                const auto peak = static_cast<std::size_t>(std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
+                const auto peak =
+                    static_cast<std::size_t>(std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
                 const auto ln = [&](std::size_t i) { return std::log(std::max(power[i], 1e-9)); };
                 const double curvature = ln(peak - 1) - 2.0 * ln(peak) + ln(peak + 1);
-                const double within = curvature < 0.0 ? std::clamp(0.5 * (ln(peak - 1) - ln(peak + 1)) / curvature, -0.5, 0.5) : 0.0;
+                const double within =
+                    curvature < 0.0 ? std::clamp(0.5 * (ln(peak - 1) - ln(peak + 1)) / curvature, -0.5, 0.5) : 0.0;
                 result.push_back(seen.presence.mean[static_cast<std::size_t>(at)]
                                  + std::clamp(static_cast<double>(peak) - farthest + within, -1.0, 1.0));
             }

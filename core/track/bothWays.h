@@ -12,10 +12,10 @@ namespace faintline {
 /// What the look from both ends has to know of the detection that found a track.
 struct BothWaysModel {
     const KinematicAxis *axis = nullptr;
-    Likelihood likelihood;          ///< the detector's
-    double threshold = 0.0;         ///< nat
+    Likelihood likelihood;  ///< the detector's
+    double threshold = 0.0; ///< nat
     double binsPerCell = 1.0;
-    std::vector<double> lnK;        ///< of each frame of the strip
+    std::vector<double> lnK; ///< of each frame of the strip
 };
 
 /// A track seen from both ends; one value a frame of its strip.
@@ -23,14 +23,15 @@ struct BothWays {
     Presence presence;
     std::vector<double> positions; ///< below a cell
     std::vector<double> levels;    ///< signal power over the noise's, mean along the path over ±12 frames
-    std::vector<double> gains;     ///< what the detector's account says of the mean path in each frame: λ + ln K + ln h(0), nat
+    std::vector<double>
+        gains; ///< what the detector's account says of the mean path in each frame: λ + ln K + ln h(0), nat
 };
 
 /// Half-width of a strip that this look needs, in bins.
 Index bothWaysHalfWidth(double binsPerCell);
 
-/// Takes the posterior of presence and place in a corridor of ±3 resolution cells around the strip's path, twice, the second time around the first
-/// one's mean.
+/// Takes the posterior of presence and place in a corridor of ±3 resolution cells around the strip's path, twice, the
+/// second time around the first one's mean.
 ///
 ///   r(t) = mean of y along the path over ±12 frames, less 1; λ is the likelihood's at SNR clamp(r, ½, 4), in half octaves
 ///   an onset or an end costs max(T/2, 2) nat, T the threshold

@@ -14,7 +14,10 @@ namespace {
         double low;
         double high;
 
-        bool meets(const Range &other, double margin) const { return low <= other.high + margin && other.low <= high + margin; }
+        bool meets(const Range &other, double margin) const
+        {
+            return low <= other.high + margin && other.low <= high + margin;
+        }
     };
 
     /// A track in seconds and hertz.
@@ -105,7 +108,8 @@ double energyKept(const TracksOnAxes &shorter, const TracksOnAxes &longer, doubl
             continue;
         const double kept = energyNear(path, ofLonger, shorter.cellHz);
         if (kept > 0.0)
-            shares.emplace_back(kept / energyNear(path, ofShorter, shorter.cellHz), static_cast<double>(path.hz.size()));
+            shares.emplace_back(kept / energyNear(path, ofShorter, shorter.cellHz),
+                                static_cast<double>(path.hz.size()));
     }
     return weightedMedian(shares);
 }

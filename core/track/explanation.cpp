@@ -8,10 +8,10 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index piece = 64;             ///< frames
-    constexpr double perCell = 16.0;        ///< of the leakage's table
+    constexpr Index piece = 64;      ///< frames
+    constexpr double perCell = 16.0; ///< of the leakage's table
     constexpr double margin = 2.0;
-    constexpr double negligible = 0.02;     ///< of the noise
+    constexpr double negligible = 0.02; ///< of the noise
     constexpr double farthestCells = 4096.0;
 
 } // namespace
@@ -33,7 +33,8 @@ std::span<const float> Explanations::skirtAt(const ExplainedSignal &signal, std:
 {
     if (signal.skirts.empty())
         return {};
-    return signal.skirts[std::min(at / static_cast<std::size_t>(ExplainedSignal::skirtFrames), signal.skirts.size() - 1)];
+    return signal
+        .skirts[std::min(at / static_cast<std::size_t>(ExplainedSignal::skirtFrames), signal.skirts.size() - 1)];
 }
 
 /// Cells on either side over which a signal adds what is not negligible.
@@ -42,7 +43,8 @@ double Explanations::reachAt(const ExplainedSignal &signal, std::size_t at) cons
     const double least = negligible / (margin * std::max(1e-3, static_cast<double>(signal.levels[at])));
     const auto end = std::partition_point(m_leakage.begin(), m_leakage.end(),
                                           [least](float share) { return static_cast<double>(share) > least; });
-    return std::max(static_cast<double>(end - m_leakage.begin()) / perCell, static_cast<double>(skirtAt(signal, at).size()));
+    return std::max(static_cast<double>(end - m_leakage.begin()) / perCell,
+                    static_cast<double>(skirtAt(signal, at).size()));
 }
 
 void Explanations::add(ExplainedSignal signal)
@@ -53,7 +55,8 @@ void Explanations::add(ExplainedSignal signal)
     for (auto i = static_cast<std::size_t>(std::max<Index>(0, signal.firstFrame - 1) / piece); i <= last; ++i) {
         const Index begin = static_cast<Index>(i) * piece - signal.firstFrame;
         const Index end = std::ssize(signal.positions) - 1;
-        Entry entry{m_signals.size(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+        Entry entry{m_signals.size(), std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
         for (Index at = std::clamp<Index>(begin, 0, end); at <= std::clamp<Index>(begin + piece - 1, 0, end); ++at) {
             const auto number = static_cast<std::size_t>(at);
             const double reach = reachAt(signal, number);
@@ -73,11 +76,12 @@ void Explanations::read(Index frame, Index firstCell, std::span<float> floor) co
         return;
     for (const Entry &entry : m_byTime[number]) {
         const ExplainedSignal &signal = m_signals[entry.signal];
-        const bool isBeside = entry.highest < static_cast<double>(firstCell) || entry.lowest > static_cast<double>(firstCell + std::ssize(floor));
+        const bool isBeside = entry.highest < static_cast<double>(firstCell)
+                              || entry.lowest > static_cast<double>(firstCell + std::ssize(floor));
         if (isBeside || frame < signal.firstFrame - 1 || frame > signal.endFrame())
             continue;
-        const auto at = static_cast<std::size_t>(
-            std::clamp<Index>(frame - signal.firstFrame, 0, std::ssize(signal.positions) - 1));
+        const auto at =
+            static_cast<std::size_t>(std::clamp<Index>(frame - signal.firstFrame, 0, std::ssize(signal.positions) - 1));
         const double position = signal.positions[at] - static_cast<double>(firstCell);
         const auto level = static_cast<double>(signal.levels[at]);
         const std::span<const float> skirt = skirtAt(signal, at);

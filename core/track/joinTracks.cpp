@@ -29,7 +29,7 @@ namespace {
     struct Joint {
         std::size_t point = 0; ///< of the later track
         Index gapFrames = 0;
-        Index distance = 0;    ///< largest over the axes, cells
+        Index distance = 0; ///< largest over the axes, cells
         bool isFound = false;
     };
 
@@ -43,7 +43,8 @@ namespace {
             joint.gapFrames = later.points[i].frame - end.frame;
             if (joint.gapFrames < 1)
                 continue;
-            if (joint.gapFrames > rule.largestGapFrames || static_cast<double>(joint.gapFrames - 1) * weaker > rule.threshold)
+            if (joint.gapFrames > rule.largestGapFrames
+                || static_cast<double>(joint.gapFrames - 1) * weaker > rule.threshold)
                 return {};
             const std::vector<Index> to = grid.coordinates(later.points[i].cell);
             joint.distance = 0;
@@ -51,7 +52,8 @@ namespace {
             for (std::size_t axis = 0; axis < to.size(); ++axis) {
                 const Index steps = std::abs(stepsTo(grid.axes[axis], from[axis], to[axis]));
                 joint.isFound = joint.isFound
-                    && steps <= std::min(rule.linkCells[axis] + joint.gapFrames * rule.reachCells[axis], rule.windowCells[axis]);
+                                && steps <= std::min(rule.linkCells[axis] + joint.gapFrames * rule.reachCells[axis],
+                                                     rule.windowCells[axis]);
                 joint.distance = std::max(joint.distance, steps);
             }
             joint.point = i;
@@ -72,12 +74,14 @@ namespace {
             std::vector<Index> c = from;
             for (std::size_t axis = 0; axis < c.size(); ++axis) {
                 const double share = static_cast<double>(i) / static_cast<double>(joint.gapFrames);
-                const auto steps = std::llround(share * static_cast<double>(stepsTo(grid.axes[axis], from[axis], to[axis])));
+                const auto steps =
+                    std::llround(share * static_cast<double>(stepsTo(grid.axes[axis], from[axis], to[axis])));
                 c[axis] = grid.axes[axis].wrapped(from[axis] + static_cast<Index>(steps));
             }
             earlier.points.push_back({end.frame + i, grid.cell(c), next.plane, end.statistic});
         }
-        earlier.points.insert(earlier.points.end(), later.points.begin() + static_cast<std::ptrdiff_t>(joint.point), later.points.end());
+        earlier.points.insert(earlier.points.end(), later.points.begin() + static_cast<std::ptrdiff_t>(joint.point),
+                              later.points.end());
         earlier.endFrame = later.endFrame;
         earlier.detectStatistic = std::max(earlier.detectStatistic, later.detectStatistic);
         earlier.peakStatistic = std::max(earlier.peakStatistic, later.peakStatistic);
@@ -98,7 +102,7 @@ std::vector<Track> joinTracks(std::vector<Track> tracks, const Grid &grid, const
                 continue;
             const Joint candidate = jointOf(earlier, track, grid, rule);
             const bool isBetter = !best || candidate.gapFrames < joint.gapFrames
-                || (candidate.gapFrames == joint.gapFrames && candidate.distance < joint.distance);
+                                  || (candidate.gapFrames == joint.gapFrames && candidate.distance < joint.distance);
             if (candidate.isFound && isBetter) {
                 best = &earlier;
                 joint = candidate;

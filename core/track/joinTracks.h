@@ -8,14 +8,15 @@ namespace faintline {
 
 /// When two tracks are pieces of one signal.
 struct JoinRule {
-    double threshold = 0.0;            ///< nat, the detector's
+    double threshold = 0.0; ///< nat, the detector's
     Index largestGapFrames = 48;
-    std::vector<Index> linkCells;      ///< nearness that needs no explanation, per axis
-    std::vector<Index> reachCells;     ///< farthest move in one frame, per axis
-    std::vector<Index> windowCells;    ///< farthest a tracker looks, per axis
+    std::vector<Index> linkCells;   ///< nearness that needs no explanation, per axis
+    std::vector<Index> reachCells;  ///< farthest move in one frame, per axis
+    std::vector<Index> windowCells; ///< farthest a tracker looks, per axis
 };
 
-/// Joins each track to the one that it continues: a signal that a tracker lost for a while and the detector found again.
+/// Joins each track to the one that it continues: a signal that a tracker lost for a while and the detector found
+/// again.
 ///
 /// A track that was detected after another one's evidence had ended, n frames later, continues it if
 ///

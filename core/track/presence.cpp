@@ -23,8 +23,8 @@ namespace {
         double lnProbability;
     };
 
-    /// Calls take(from, to, move) for every way from a corridor's cells in one frame into those of the next: a move goes between corridors that
-    /// lie apart by what the path moved.
+    /// Calls take(from, to, move) for every way from a corridor's cells in one frame into those of the next: a move
+    /// goes between corridors that lie apart by what the path moved.
     template <class Take>
     void forEachWay(const Corridor &corridor, const std::vector<Step> &steps, Index frame, Take take)
     {
@@ -45,7 +45,8 @@ namespace {
         for (Index phase = 0; phase < axis.phaseCount(); ++phase) {
             steps.emplace_back();
             for (const KinematicAxis::Move &move : axis.moves(phase))
-                steps.back().push_back({move.fromRate * width, move.toRate * width, move.cells, std::exp(move.lnProbability), move.lnProbability});
+                steps.back().push_back({move.fromRate * width, move.toRate * width, move.cells,
+                                        std::exp(move.lnProbability), move.lnProbability});
         }
         return steps;
     }
@@ -135,10 +136,12 @@ namespace {
                 on += before[s];
                 arrivals += next[s];
             }
-            double all = before.back() * ((1.0 - m_change) * next.back() + m_birth * arrivals) + on * m_change * next.back();
+            double all =
+                before.back() * ((1.0 - m_change) * next.back() + m_birth * arrivals) + on * m_change * next.back();
             std::vector<double> found(changes.size());
             forEachWay(m_corridor, stepsInto(frame), frame, [&](Index from, Index to, const Step &step) {
-                const double weight = before[static_cast<std::size_t>(from)] * step.probability * next[static_cast<std::size_t>(to)];
+                const double weight =
+                    before[static_cast<std::size_t>(from)] * step.probability * next[static_cast<std::size_t>(to)];
                 found[static_cast<std::size_t>(std::abs(step.to - step.from) / m_width)] += weight;
                 all += weight;
             });
@@ -155,7 +158,8 @@ namespace {
         template <class Take>
         void forEachMove(Index frame, Take take) const
         {
-            forEachWay(m_corridor, stepsInto(frame), frame, [&](Index from, Index to, const Step &step) { take(from, to, step.probability); });
+            forEachWay(m_corridor, stepsInto(frame), frame,
+                       [&](Index from, Index to, const Step &step) { take(from, to, step.probability); });
         }
 
         void applyEvidence(Index frame, Weights &weights) const
@@ -240,24 +244,28 @@ Presence presenceIn(const Corridor &corridor, const KinematicAxis &axis, double 
     const auto count = static_cast<std::size_t>(corridor.frameCount());
     Presence result{std::vector<float>(count), std::vector<double>(count), std::vector<float>(count),
                     std::vector<float>(count)};
-    forwardBackward(chain, corridor.frameCount(), [&](Index frame, const Weights &, const Weights &alpha, const Weights &beta) {
-        chain.addTo(result, alpha, beta, frame);
-    });
+    forwardBackward(chain, corridor.frameCount(),
+                    [&](Index frame, const Weights &, const Weights &alpha, const Weights &beta) {
+                        chain.addTo(result, alpha, beta, frame);
+                    });
     return result;
 }
 
-std::vector<double> expectedSlopeChanges(const Corridor &corridor, const KinematicAxis &axis, double lnChange, Index firstStep)
+std::vector<double> expectedSlopeChanges(const Corridor &corridor, const KinematicAxis &axis, double lnChange,
+                                         Index firstStep)
 {
     const Chain chain(corridor, axis, lnChange, firstStep);
     std::vector<double> changes(axis.rateChange.size());
-    forwardBackward(chain, corridor.frameCount(), [&](Index frame, const Weights &before, const Weights &, const Weights &beta) {
-        if (frame > 0)
-            chain.addChangesTo(changes, before, beta, frame);
-    });
+    forwardBackward(chain, corridor.frameCount(),
+                    [&](Index frame, const Weights &before, const Weights &, const Weights &beta) {
+                        if (frame > 0)
+                            chain.addChangesTo(changes, before, beta, frame);
+                    });
     return changes;
 }
 
-double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const std::vector<double> &lnK, Index firstStep)
+double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const std::vector<double> &lnK,
+                     Index firstStep)
 {
     const auto steps = stepsOf(axis, corridor.width);
     const auto states = static_cast<std::size_t>(corridor.width * axis.rateCount);
@@ -276,7 +284,7 @@ double strongestPath(const Corridor &corridor, const KinematicAxis &axis, const 
         for (std::size_t s = 0; s < states; ++s) {
             const auto cell = static_cast<Index>(s) % corridor.width;
             next[s] = std::max(0.0, next[s] + lnK[static_cast<std::size_t>(frame)])
-                + static_cast<double>(corridor.lambda[static_cast<std::size_t>(frame * corridor.width + cell)]);
+                      + static_cast<double>(corridor.lambda[static_cast<std::size_t>(frame * corridor.width + cell)]);
             largest = std::max(largest, next[s]);
         }
         std::swap(scores, next);

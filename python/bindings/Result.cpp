@@ -10,7 +10,8 @@ std::size_t Result::valueCount() const
     const auto cells = static_cast<double>(m_analysis->grid().size());
     const auto frames = static_cast<double>(m_analysis->time().count);
     if (cells * frames > most)
-        throw Error("result", "has more than 2³¹ values, which are not held in memory; detect in a shorter part (from_seconds, to_seconds) or "
+        throw Error("result", "has more than 2³¹ values, which are not held in memory; detect in a shorter part "
+                              "(from_seconds, to_seconds) or "
                               "save(statistic=...)");
     return static_cast<std::size_t>(cells * frames);
 }
@@ -27,7 +28,9 @@ Result::Values Result::input(const RunOptions &options)
         for (Index first = 0; first < frames.time().count; first += atOnce) {
             context.checkpoint(static_cast<double>(first) / static_cast<double>(frames.time().count), "reading");
             const Index count = std::min(atOnce, frames.time().count - first);
-            frames.read(first, count, std::span(*values).subspan(static_cast<std::size_t>(first * cells), static_cast<std::size_t>(count * cells)));
+            frames.read(first, count,
+                        std::span(*values).subspan(static_cast<std::size_t>(first * cells),
+                                                   static_cast<std::size_t>(count * cells)));
         }
     });
     m_input = values;
@@ -50,7 +53,11 @@ Result::Values Result::statistic(const RunOptions &options)
     const auto values = std::make_shared<std::vector<float>>(valueCount());
     const Index cells = m_analysis->grid().size();
     runInterruptibly(options, [&](const RunContext &context) {
-        streamStatistic([&](Index first, std::span<const float> block) { std::ranges::copy(block, values->begin() + first * cells); }, context);
+        streamStatistic(
+            [&](Index first, std::span<const float> block) {
+                std::ranges::copy(block, values->begin() + first * cells);
+            },
+            context);
     });
     m_statistic = values;
     return m_statistic;

@@ -11,7 +11,8 @@ namespace faintline::python {
 
 /// A read-only array over values that `owner` keeps alive: nothing is copied.
 template <class T>
-pybind11::array_t<T> viewOf(std::shared_ptr<const void> owner, const T *values, const std::vector<pybind11::ssize_t> &shape)
+pybind11::array_t<T> viewOf(std::shared_ptr<const void> owner, const T *values,
+                            const std::vector<pybind11::ssize_t> &shape)
 {
     const auto *kept = new std::shared_ptr<const void>(std::move(owner));
     const pybind11::capsule base(kept, [](void *held) { delete static_cast<std::shared_ptr<const void> *>(held); });

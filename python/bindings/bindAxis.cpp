@@ -42,8 +42,8 @@ void bindAxis(py::module_ &module)
     py::class_<Axis>(module, "Axis", R"(One sampled dimension: cell i lies at first + i*step, in the axis's unit.
 
 On a cyclic axis the cell after the last one is the first one, as of a sonar's bearings.)")
-        .def(py::init(&makeAxis), py::arg("name"), py::arg("count"), py::kw_only(), py::arg("unit") = "", py::arg("first") = 0.0,
-             py::arg("step") = 1.0, py::arg("cyclic") = false)
+        .def(py::init(&makeAxis), py::arg("name"), py::arg("count"), py::kw_only(), py::arg("unit") = "",
+             py::arg("first") = 0.0, py::arg("step") = 1.0, py::arg("cyclic") = false)
         .def_readonly("name", &Axis::name)
         .def_readonly("unit", &Axis::unit)
         .def_readonly("first", &Axis::first)
@@ -52,7 +52,8 @@ On a cyclic axis the cell after the last one is the first one, as of a sonar's b
         .def_readonly("cyclic", &Axis::cyclic)
         .def_property_readonly("values", &valuesOf, "The value of every cell, float64 of shape (count,).")
         .def("__len__", [](const Axis &axis) { return axis.count; })
-        .def("__eq__", [](const Axis &axis, const Axis &other) { return axis == other; }, py::is_operator())
+        .def(
+            "__eq__", [](const Axis &axis, const Axis &other) { return axis == other; }, py::is_operator())
         .def("__repr__", &textOf);
 }
 

@@ -23,7 +23,8 @@ namespace {
     {
         if (py::isinstance<HeldRecording>(given) || py::isinstance<HeldFrames>(given)) {
             if (rate)
-                throw Error("rate", "is known of a recording and has no place with frames; it is for samples in an array");
+                throw Error("rate",
+                            "is known of a recording and has no place with frames; it is for samples in an array");
             return given;
         }
         if (py::isinstance<py::str>(given) || py::hasattr(given, "__fspath__"))
@@ -34,16 +35,19 @@ namespace {
     }
 
     /// Of a file of power the part that the settings select, normalised as they say.
-    NormalisedFramesPointer framesFor(const HeldFrames &held, const AnalysisSettings &settings, const RunContext &context)
+    NormalisedFramesPointer framesFor(const HeldFrames &held, const AnalysisSettings &settings,
+                                      const RunContext &context)
     {
         if (!held.power || (settings.selection == SelectionSettings() && settings.noise == NormaliserSettings()))
             return held.frames;
-        return std::make_shared<NormalisedPower>(held.power, partOf(held.power->info(), settings.selection), settings.noise, context);
+        return std::make_shared<NormalisedPower>(held.power, partOf(held.power->info(), settings.selection),
+                                                 settings.noise, context);
     }
 
     std::shared_ptr<Result> detectIn(const HeldFrames &held, const AskedSettings &asked, const RunOptions &options)
     {
-        const AnalysisSettings settings = settingsFromPython(asked, held.isPings ? preset("sonar").settings : AnalysisSettings());
+        const AnalysisSettings settings =
+            settingsFromPython(asked, held.isPings ? preset("sonar").settings : AnalysisSettings());
         std::shared_ptr<const Analysis> analysis;
         runInterruptibly(options, [&](const RunContext &context) {
             const NormalisedFramesPointer frames = framesFor(held, settings, context.part(0.0, held.power ? 0.1 : 0.0));
@@ -59,12 +63,15 @@ namespace {
         const AnalysisSettings settings = withSlopesInBins(settingsFromPython(asked), held.recording->info());
         checkSettings(settings);
         std::shared_ptr<const Analysis> analysis;
-        runInterruptibly(options, [&](const RunContext &context) { analysis = analyseInChosenWindow(held.recording, settings, context); });
+        runInterruptibly(options, [&](const RunContext &context) {
+            analysis = analyseInChosenWindow(held.recording, settings, context);
+        });
         return std::make_shared<Result>(analysis);
     }
 
-    std::shared_ptr<Result> detect(const py::object &x, const std::optional<double> &rate, double centreHz, const py::object &preset,
-                                   const py::object &settings, int threads, const py::object &progress, const py::kwargs &keywords)
+    std::shared_ptr<Result> detect(const py::object &x, const std::optional<double> &rate, double centreHz,
+                                   const py::object &preset, const py::object &settings, int threads,
+                                   const py::object &progress, const py::kwargs &keywords)
     {
         const py::object source = sourceOf(x, rate, centreHz);
         const AskedSettings asked{preset, settings, keywords};
@@ -78,7 +85,8 @@ namespace {
 void bindDetect(py::module_ &module)
 {
     module.def("detect", &detect, py::arg("x"), py::arg("rate") = py::none(), py::kw_only(), py::arg("centre_hz") = 0.0,
-               py::arg("preset") = py::none(), py::arg("settings") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
+               py::arg("preset") = py::none(), py::arg("settings") = py::none(), py::arg("threads") = 0,
+               py::arg("progress") = py::none(),
                R"(Finds lines in a recording, or signals in ready-made frames: the same bytes as faintline-cli detect.
 
 x: a Recording, Frames, a path, or samples in an array of shape (samples,) or (samples, channels), complex for I/Q; an array needs rate (Hz).

@@ -31,10 +31,12 @@ namespace {
         {
             const auto axes = static_cast<py::ssize_t>(m_axes.size());
             if (frame.ndim() != axes && frame.ndim() != axes + 1)
-                throw Error("frame", "must have the shape " + shapeText() + ", or one more axis before it for several frames");
+                throw Error("frame",
+                            "must have the shape " + shapeText() + ", or one more axis before it for several frames");
             for (py::ssize_t axis = 0; axis < axes; ++axis)
                 if (frame.shape(frame.ndim() - axes + axis) != m_axes[static_cast<std::size_t>(axis)].count)
-                    throw Error("frame", "must have the shape " + shapeText() + ", or one more axis before it for several frames");
+                    throw Error("frame", "must have the shape " + shapeText()
+                                             + ", or one more axis before it for several frames");
             const std::span<const float> y(frame.data(), static_cast<std::size_t>(frame.size()));
             check(y);
             std::vector<float> statistic(y.size());
@@ -89,7 +91,8 @@ namespace {
             if (m_model.likelihood.kind() != LikelihoodKind::Given)
                 return checkFrameValues(y, "frame");
             if (std::any_of(y.begin(), y.end(), [](float value) { return std::isinf(value); }))
-                throw Error("frame", "holds infinity; log-likelihood ratios are finite, or NaN where nothing was observed");
+                throw Error("frame",
+                            "holds infinity; log-likelihood ratios are finite, or NaN where nothing was observed");
         }
 
         std::string shapeText() const
@@ -117,12 +120,14 @@ namespace {
     Json completed(Json model, const std::vector<Axis> &axes, const std::string &where)
     {
         if (!model.is_object())
-            throw Error(where, "must be a dict, such as {'axes': [{'rates': [-1, 0, 1], 'rateChange': [0.8, 0.1]}], 'reset': {'lnK': -0.5}}");
+            throw Error(where, "must be a dict, such as {'axes': [{'rates': [-1, 0, 1], 'rateChange': [0.8, 0.1]}], "
+                               "'reset': {'lnK': -0.5}}");
         if (!model.contains("likelihood"))
             model["likelihood"] = {{"kind", "given"}};
         Json &laws = model["axes"];
         if (!laws.is_array() || laws.size() != axes.size())
-            throw Error(where + ".axes", "must be a list of one law for each of the grid's " + std::to_string(axes.size()) + " axes");
+            throw Error(where + ".axes",
+                        "must be a list of one law for each of the grid's " + std::to_string(axes.size()) + " axes");
         for (std::size_t i = 0; i < axes.size(); ++i) {
             const std::string law = where + ".axes[" + std::to_string(i) + "]";
             if (!laws[i].is_object())
@@ -148,7 +153,9 @@ namespace {
 
 void bindDetector(py::module_ &module)
 {
-    py::class_<StreamDetector>(module, "Detector", R"(The recursion by itself, for streams and for likelihoods of one's own: frames in, statistic out.
+    py::class_<StreamDetector>(
+        module, "Detector",
+        R"(The recursion by itself, for streams and for likelihoods of one's own: frames in, statistic out.
 
     u(n, t) = λ(n, t) + max(ln K + max over m of [ln P(n|m) + u(m, t-1)], 0),    D(t, cell) = max over rates
 
@@ -160,16 +167,22 @@ left out {"kind": "given"}: frames hold log-likelihood ratios λ themselves, any
 
 Source: Billon 2005, section 3. One object for each thread. Raises Error naming the key.)")
         .def(py::init(&makeDetector), py::arg("grid"), py::arg("model"))
-        .def("update", &StreamDetector::update, py::arg("frame"), py::kw_only(), py::arg("threads") = 1, py::arg("progress") = py::none(),
-             R"(Takes one frame, an array of the grid's shape, or several with one more axis before; returns the statistic, float32 of that shape.
+        .def(
+            "update", &StreamDetector::update, py::arg("frame"), py::kw_only(), py::arg("threads") = 1,
+            py::arg("progress") = py::none(),
+            R"(Takes one frame, an array of the grid's shape, or several with one more axis before; returns the statistic, float32 of that shape.
 
 Frame by frame or many at once, and on any number of threads: the same bytes. Raises Error for a shape or a value that does not fit.)")
         .def_property_readonly("axes", &StreamDetector::axes)
         .def_property_readonly("frames", &StreamDetector::frames, "Frames taken so far.")
-        .def_property_readonly("scores", &StreamDetector::scores, "Scores of all states, float32 of shape (rates…, cells…), nat above background.")
-        .def_property_readonly("ln_k", [](const StreamDetector &self) { return self.regulation().lnK; }, "What the reset law gave for the last frame, nat.")
-        .def_property_readonly("continued_fraction", [](const StreamDetector &self) { return self.regulation().continuedFraction; },
-                               "Of the states, those whose path went on in the last frame rather than being reset.");
+        .def_property_readonly("scores", &StreamDetector::scores,
+                               "Scores of all states, float32 of shape (rates…, cells…), nat above background.")
+        .def_property_readonly(
+            "ln_k", [](const StreamDetector &self) { return self.regulation().lnK; },
+            "What the reset law gave for the last frame, nat.")
+        .def_property_readonly(
+            "continued_fraction", [](const StreamDetector &self) { return self.regulation().continuedFraction; },
+            "Of the states, those whose path went on in the last frame rather than being reset.");
 }
 
 } // namespace faintline::python

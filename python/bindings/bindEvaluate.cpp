@@ -39,13 +39,14 @@ namespace {
         std::vector<std::string> detectors;
         for (const CurvePoint &point : points)
             detectors.push_back(point.detector);
-        return tableOf({{"detector", textColumn(detectors)},
-                        column("snr_db", points, [](const CurvePoint &p) { return p.snrDb; }),
-                        column("pd", points, [](const CurvePoint &p) { return p.pd; }),
-                        column("pd_low", points, [](const CurvePoint &p) { return p.interval.low; }),
-                        column("pd_high", points, [](const CurvePoint &p) { return p.interval.high; }),
-                        trials(points),
-                        column("threshold", points, [](const CurvePoint &p) { return p.threshold.value_or(unknown); })});
+        return tableOf(
+            {{"detector", textColumn(detectors)},
+             column("snr_db", points, [](const CurvePoint &p) { return p.snrDb; }),
+             column("pd", points, [](const CurvePoint &p) { return p.pd; }),
+             column("pd_low", points, [](const CurvePoint &p) { return p.interval.low; }),
+             column("pd_high", points, [](const CurvePoint &p) { return p.interval.high; }),
+             trials(points),
+             column("threshold", points, [](const CurvePoint &p) { return p.threshold.value_or(unknown); })});
     }
 
     py::array sweepTable(const std::vector<SweepPoint> &points)
@@ -53,16 +54,16 @@ namespace {
         const auto latency = [](double SweepPoint::*which) {
             return [which](const SweepPoint &p) { return p.detections > 0 ? p.*which : unknown; };
         };
-        return tableOf({column("value", points, [](const SweepPoint &p) { return p.value; }),
-                        column("pd", points, [](const SweepPoint &p) { return p.pd; }),
-                        column("pd_low", points, [](const SweepPoint &p) { return p.pdInterval.low; }),
-                        column("pd_high", points, [](const SweepPoint &p) { return p.pdInterval.high; }),
-                        trials(points),
-                        column("false_alarms_per_hour", points, [](const SweepPoint &p) { return p.falseAlarmsPerHour; }),
-                        column("false_alarms_low", points, [](const SweepPoint &p) { return p.falseAlarmInterval.low; }),
-                        column("false_alarms_high", points, [](const SweepPoint &p) { return p.falseAlarmInterval.high; }),
-                        column("latency_s", points, latency(&SweepPoint::latencySeconds)),
-                        column("threshold", points, [](const SweepPoint &p) { return p.threshold; })});
+        return tableOf(
+            {column("value", points, [](const SweepPoint &p) { return p.value; }),
+             column("pd", points, [](const SweepPoint &p) { return p.pd; }),
+             column("pd_low", points, [](const SweepPoint &p) { return p.pdInterval.low; }),
+             column("pd_high", points, [](const SweepPoint &p) { return p.pdInterval.high; }), trials(points),
+             column("false_alarms_per_hour", points, [](const SweepPoint &p) { return p.falseAlarmsPerHour; }),
+             column("false_alarms_low", points, [](const SweepPoint &p) { return p.falseAlarmInterval.low; }),
+             column("false_alarms_high", points, [](const SweepPoint &p) { return p.falseAlarmInterval.high; }),
+             column("latency_s", points, latency(&SweepPoint::latencySeconds)),
+             column("threshold", points, [](const SweepPoint &p) { return p.threshold; })});
     }
 
     Campaign carriedOut(const Experiment &experiment, const std::string &out, const RunContext &context)
@@ -79,7 +80,8 @@ namespace {
         return campaign;
     }
 
-    py::array evaluate(const py::object &given, int seed, const py::object &out, int threads, const py::object &progress)
+    py::array evaluate(const py::object &given, int seed, const py::object &out, int threads,
+                       const py::object &progress)
     {
         std::string where = "experiment";
         const Json json = jsonOrFile(given, where);
@@ -88,16 +90,18 @@ namespace {
             setSeed(experiment, seed);
         const std::string path = out.is_none() ? std::string() : pathFromPython(out);
         Campaign campaign;
-        runInterruptibly({threads, progress}, [&](const RunContext &context) { campaign = carriedOut(experiment, path, context); });
-        return std::holds_alternative<SweepExperiment>(campaign.experiment) ? sweepTable(sweepCurve(campaign)) : curveTable(pdCurve(campaign));
+        runInterruptibly({threads, progress},
+                         [&](const RunContext &context) { campaign = carriedOut(experiment, path, context); });
+        return std::holds_alternative<SweepExperiment>(campaign.experiment) ? sweepTable(sweepCurve(campaign))
+                                                                            : curveTable(pdCurve(campaign));
     }
 
 } // namespace
 
 void bindEvaluate(py::module_ &module)
 {
-    module.def("evaluate", &evaluate, py::arg("experiment"), py::kw_only(), py::arg("seed") = -1, py::arg("out") = py::none(),
-               py::arg("threads") = 0, py::arg("progress") = py::none(),
+    module.def("evaluate", &evaluate, py::arg("experiment"), py::kw_only(), py::arg("seed") = -1,
+               py::arg("out") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
                R"(Monte-Carlo detection probability of an experiment.
 
 experiment: a dict, or the path of a JSON file, as faintline-cli evaluate takes it: {"kind": "lines", "snrDb": [-3, 0, 3], "runs": 8, …}, of kind

@@ -34,14 +34,17 @@ namespace {
         const Grid &grid = self.analysis->grid();
         const StateSpace &space = spaceOf(self);
         std::vector<Column> columns;
-        const auto add = [&](const std::string &name, const auto &take) { columns.push_back(column(self, name, take)); };
+        const auto add = [&](const std::string &name, const auto &take) {
+            columns.push_back(column(self, name, take));
+        };
         const bool isLine = grid.axes.size() == 1;
         add("t", [&](const PathStep &s) { return self.analysis->time().value(static_cast<double>(s.frame)); });
         for (std::size_t axis = 0; axis < grid.axes.size(); ++axis) {
             add(isLine ? "f" : grid.axes[axis].name, [&](const PathStep &s) {
                 return grid.axes[axis].value(static_cast<double>(grid.coordinates(space.cellOf(s.state))[axis]));
             });
-            add(isLine ? "rate" : grid.axes[axis].name + "_rate", [&](const PathStep &s) { return space.ratesOfPlane(space.planeOf(s.state))[axis]; });
+            add(isLine ? "rate" : grid.axes[axis].name + "_rate",
+                [&](const PathStep &s) { return space.ratesOfPlane(space.planeOf(s.state))[axis]; });
         }
         add("llr", [](const PathStep &s) { return s.logLikelihoodRatio; });
         add("ln_transition", [](const PathStep &s) { return s.lnTransition; });
@@ -68,16 +71,25 @@ namespace {
 
 void bindExplanation(py::module_ &module)
 {
-    py::class_<HeldExplanation>(module, "Explanation", "Why a cell has the statistic it has: the best path that ends there, term by term.")
+    py::class_<HeldExplanation>(module, "Explanation",
+                                "Why a cell has the statistic it has: the best path that ends there, term by term.")
         .def_property_readonly("time", member(&Explanation::seconds), "Of the frame, s.")
         .def_property_readonly("position", member(&Explanation::position), "Of the cell, one number for each axis.")
-        .def_property_readonly("statistic", member(&Explanation::statistic), "Sum of all terms and the offset, nat above background.")
-        .def_property_readonly("displayed", member(&Explanation::displayed), "What Result.statistic has there, in the detector's unit.")
+        .def_property_readonly("statistic", member(&Explanation::statistic),
+                               "Sum of all terms and the offset, nat above background.")
+        .def_property_readonly("displayed", member(&Explanation::displayed),
+                               "What Result.statistic has there, in the detector's unit.")
         .def_property_readonly("threshold", member(&Explanation::threshold), "In the detector's unit.")
         .def_property_readonly("offset", member(&Explanation::offset), "nat that all states are given alike.")
-        .def_property_readonly("is_tracked", member(&Explanation::isTracked), "A tracker follows this cell; its path goes on without reset.")
-        .def_property_readonly("reset", [](const HeldExplanation &self) { return resetNames[static_cast<std::size_t>(self.explanation.reset.kind)]; },
-                               "Why the path begins where it does: 'beginning', 'background' or 'forgotten' (a track took over what came before).")
+        .def_property_readonly("is_tracked", member(&Explanation::isTracked),
+                               "A tracker follows this cell; its path goes on without reset.")
+        .def_property_readonly(
+            "reset",
+            [](const HeldExplanation &self) {
+                return resetNames[static_cast<std::size_t>(self.explanation.reset.kind)];
+            },
+            "Why the path begins where it does: 'beginning', 'background' or 'forgotten' (a track took over what came "
+            "before).")
         .def_property_readonly("steps", &steps,
                                R"(The path from its last reset on, a structured array with a record a frame.
 

@@ -29,7 +29,8 @@ namespace {
     {
         const NormalisedFrames &frames = *self.frames;
         if (first < 0 || first > frames.time().count)
-            throw Error("first = " + std::to_string(first), "there are the frames 0 … " + std::to_string(frames.time().count - 1));
+            throw Error("first = " + std::to_string(first),
+                        "there are the frames 0 … " + std::to_string(frames.time().count - 1));
         const Index wanted = std::clamp<Index>(count.value_or(frames.time().count), 0, frames.time().count - first);
         std::vector<float> values(static_cast<std::size_t>(wanted * frames.grid().size()));
         {
@@ -47,13 +48,15 @@ namespace {
             grid.axes = py::cast<std::vector<Axis>>(axes);
         else
             for (std::size_t i = 1; i <= cellAxes; ++i)
-                grid.axes.push_back({"axis " + std::to_string(i), "", 0.0, 1.0, values.shape(static_cast<py::ssize_t>(i)), false});
+                grid.axes.push_back(
+                    {"axis " + std::to_string(i), "", 0.0, 1.0, values.shape(static_cast<py::ssize_t>(i)), false});
         if (grid.axes.size() != cellAxes)
             throw Error("axes", "must be one Axis for each of the frames' " + std::to_string(cellAxes) + " cell axes");
         for (std::size_t i = 0; i < cellAxes; ++i)
             if (grid.axes[i].count != values.shape(static_cast<py::ssize_t>(i + 1)))
                 throw Error("axes[" + std::to_string(i) + "].count = " + std::to_string(grid.axes[i].count),
-                            "the frames have " + std::to_string(values.shape(static_cast<py::ssize_t>(i + 1))) + " cells there");
+                            "the frames have " + std::to_string(values.shape(static_cast<py::ssize_t>(i + 1)))
+                                + " cells there");
         return grid;
     }
 
@@ -78,7 +81,8 @@ namespace {
         std::string cells;
         for (const Axis &axis : self.frames->grid().axes)
             cells += (cells.empty() ? "" : " × ") + std::to_string(axis.count) + " (" + axis.name + ")";
-        return py::str("<faintline.Frames {} of {} cells, {:g} s a frame>").format(self.frames->time().count, cells, self.frames->time().step);
+        return py::str("<faintline.Frames {} of {} cells, {:g} s a frame>")
+            .format(self.frames->time().count, cells, self.frames->time().step);
     }
 
 } // namespace
@@ -103,11 +107,17 @@ Frames(y, axes=None, time=None) makes them of an array y of shape (frames, cells
 finite and not negative, NaN where nothing was observed. axes: one Axis for each cell axis; time: seconds from frame to frame, or an Axis.
 Raises Error for other values and for axes that do not fit.)")
         .def(py::init(&framesOfArray), py::arg("y"), py::arg("axes") = py::none(), py::arg("time") = py::none())
-        .def_property_readonly("axes", [](const HeldFrames &self) { return self.frames->grid().axes; }, "The cells' axes, slowest first.")
-        .def_property_readonly("time", [](const HeldFrames &self) { return self.frames->time(); }, "The frames' axis, s.")
-        .def_property_readonly("shape", [](const HeldFrames &self) { return py::tuple(py::cast(shapeOf(*self.frames, self.frames->time().count))); })
-        .def_property_readonly("truth", [](const HeldFrames &self) { return pythonFromJson(self.truth); },
-                               "Of simulated pings: where the targets really are, a dict; otherwise None.")
+        .def_property_readonly(
+            "axes", [](const HeldFrames &self) { return self.frames->grid().axes; }, "The cells' axes, slowest first.")
+        .def_property_readonly(
+            "time", [](const HeldFrames &self) { return self.frames->time(); }, "The frames' axis, s.")
+        .def_property_readonly("shape",
+                               [](const HeldFrames &self) {
+                                   return py::tuple(py::cast(shapeOf(*self.frames, self.frames->time().count)));
+                               })
+        .def_property_readonly(
+            "truth", [](const HeldFrames &self) { return pythonFromJson(self.truth); },
+            "Of simulated pings: where the targets really are, a dict; otherwise None.")
         .def("__len__", [](const HeldFrames &self) { return self.frames->time().count; })
         .def("read", &readFramesOf, py::arg("first") = 0, py::arg("count") = py::none(),
              "Frames first … first+count-1, fewer at the end: float32 of shape (frames, cells…).")

@@ -47,7 +47,9 @@ py::object openSource(const std::string &path, const py::kwargs &options)
 void bindOpen(py::module_ &module)
 {
     module.def(
-        "open", [](const py::object &path, const py::kwargs &options) { return openSource(pathFromPython(path), options); }, py::arg("path"),
+        "open",
+        [](const py::object &path, const py::kwargs &options) { return openSource(pathFromPython(path), options); },
+        py::arg("path"),
         R"(Opens a recording or ready-made frames, by content; reads no more than headers.
 
 path: audio (WAV, FLAC, …), SigMF, GWOSC strain (.hdf5), raw samples (give raw_type, such as "ci16_le", and raw_rate in Hz), a NumPy file of normalised frames

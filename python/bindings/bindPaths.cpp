@@ -22,7 +22,8 @@ namespace {
     KinematicAxis axisOfMatrix(const DoubleArray &matrix, Index cells, const std::string &where)
     {
         if (matrix.ndim() != 2 || matrix.shape(0) != cells || matrix.shape(1) != cells)
-            throw Error(where, "must have the shape (" + std::to_string(cells) + ", " + std::to_string(cells) + "): P(from, to)");
+            throw Error(where, "must have the shape (" + std::to_string(cells) + ", " + std::to_string(cells)
+                                   + "): P(from, to)");
         KinematicAxis axis;
         axis.cells = cells;
         axis.transition.assign(matrix.data(), matrix.data() + matrix.size());
@@ -36,7 +37,8 @@ namespace {
             return axisOfMatrix(DoubleArray::ensure(law), cells, where);
         Json json = jsonFromPython(law, where);
         if (!json.is_object())
-            throw Error(where, "must be a dict, such as {'rates': [-1, 0, 1], 'rateChange': [0.8, 0.1]} or {'step': [0.6, 0.2]}, or a matrix P(from, to)");
+            throw Error(where, "must be a dict, such as {'rates': [-1, 0, 1], 'rateChange': [0.8, 0.1]} or {'step': "
+                               "[0.6, 0.2]}, or a matrix P(from, to)");
         if (json.contains("cells") && json["cells"] != cells)
             throw Error(where + ".cells", "is not the log-likelihoods' " + std::to_string(cells));
         json["cells"] = cells;
@@ -56,7 +58,8 @@ namespace {
         std::vector<double> lambda(logLikelihood.data(), logLikelihood.data() + logLikelihood.size());
         for (double &value : lambda) {
             if (value == std::numeric_limits<double>::infinity())
-                throw Error("loglik", "holds +inf; log-likelihoods are below that, -inf for what cannot be, NaN where nothing was observed");
+                throw Error("loglik", "holds +inf; log-likelihoods are below that, -inf for what cannot be, NaN where "
+                                      "nothing was observed");
             if (std::isnan(value))
                 value = 0.0;
         }
@@ -70,12 +73,14 @@ namespace {
         if (given.is_none())
             return std::vector<double>(states, 1.0 / static_cast<double>(states));
         const auto array = DoubleArray::ensure(given);
-        if (!array || (static_cast<std::size_t>(array.size()) != states && static_cast<std::size_t>(array.size()) != cells))
-            throw Error("initial", "must hold the probability of each of the " + std::to_string(cells) + " cells, or of each of the "
-                                       + std::to_string(states) + " states");
+        if (!array
+            || (static_cast<std::size_t>(array.size()) != states && static_cast<std::size_t>(array.size()) != cells))
+            throw Error("initial", "must hold the probability of each of the " + std::to_string(cells)
+                                       + " cells, or of each of the " + std::to_string(states) + " states");
         std::vector<double> initial(states);
         const auto size = static_cast<std::size_t>(array.size());
-        const double share = static_cast<double>(size) / static_cast<double>(states); // of a cell's probability for each of its rates
+        const double share =
+            static_cast<double>(size) / static_cast<double>(states); // of a cell's probability for each of its rates
         for (std::size_t n = 0; n < states; ++n)
             initial[n] = array.data()[n % size] * share;
         if (!std::all_of(initial.begin(), initial.end(), [](double p) { return p >= 0.0 && p <= 1.0; }))
@@ -91,10 +96,12 @@ namespace {
         const bool isList = py::isinstance<py::list>(law) || py::isinstance<py::tuple>(law);
         const py::list laws = isList ? py::list(law) : py::list(py::make_tuple(law));
         if (laws.size() != axes)
-            throw Error("law", "must be one law for each of the log-likelihoods' " + std::to_string(axes) + " cell axes");
+            throw Error("law",
+                        "must be one law for each of the log-likelihoods' " + std::to_string(axes) + " cell axes");
         std::vector<KinematicAxis> motion;
         for (std::size_t i = 0; i < axes; ++i)
-            motion.push_back(axisOf(laws[i], logLikelihood.shape(static_cast<py::ssize_t>(i + 1)), isList ? "law[" + std::to_string(i) + "]" : "law"));
+            motion.push_back(axisOf(laws[i], logLikelihood.shape(static_cast<py::ssize_t>(i + 1)),
+                                    isList ? "law[" + std::to_string(i) + "]" : "law"));
         Lattice lattice{StateSpace(std::move(motion)), lambdaOf(logLikelihood), {}, logLikelihood.shape(0)};
         lattice.initial = initialOf(initial, lattice.space);
         return lattice;
@@ -124,7 +131,8 @@ namespace {
         return {arrayOf(std::move(cells), shape), arrayOf(std::move(rates), shape), map.lnScore};
     }
 
-    Path viterbi(const DoubleArray &logLikelihood, const py::object &law, const py::object &initial, const py::object &progress)
+    Path viterbi(const DoubleArray &logLikelihood, const py::object &law, const py::object &initial,
+                 const py::object &progress)
     {
         const Lattice lattice = latticeOf(logLikelihood, law, initial);
         SequentialModel model;
@@ -150,7 +158,8 @@ namespace {
         double logEvidence = 0.0;
     };
 
-    HeldPosterior forwardBackwardOf(const DoubleArray &logLikelihood, const py::object &law, const py::object &initial, const py::object &progress)
+    HeldPosterior forwardBackwardOf(const DoubleArray &logLikelihood, const py::object &law, const py::object &initial,
+                                    const py::object &progress)
     {
         const Lattice lattice = latticeOf(logLikelihood, law, initial);
         Posterior posterior;
@@ -160,7 +169,8 @@ namespace {
             const Index cells = lattice.space.cellCount();
             const Index states = lattice.space.stateCount();
             for (Index i = 0; i < std::ssize(posterior.probability); ++i)
-                ofCells[static_cast<std::size_t>(i / states * cells + i % states % cells)] += posterior.probability[static_cast<std::size_t>(i)];
+                ofCells[static_cast<std::size_t>(i / states * cells + i % states % cells)] +=
+                    posterior.probability[static_cast<std::size_t>(i)];
         });
         std::vector<py::ssize_t> shape{lattice.frames};
         for (const KinematicAxis &axis : lattice.space.axes())
@@ -168,7 +178,8 @@ namespace {
         for (const KinematicAxis &axis : lattice.space.axes())
             shape.push_back(axis.cells);
         return {arrayOf(std::move(posterior.probability), shape),
-                arrayOf(std::move(ofCells), {logLikelihood.shape(), logLikelihood.shape() + logLikelihood.ndim()}), posterior.lnEvidence};
+                arrayOf(std::move(ofCells), {logLikelihood.shape(), logLikelihood.shape() + logLikelihood.ndim()}),
+                posterior.lnEvidence};
     }
 
     constexpr const char *viterbiText = R"(The most probable path through log-likelihoods whose transitions obey a law.
@@ -186,7 +197,8 @@ Returns a Path: cells, int64 of shape (frames,), on several axes (frames, axes);
 its evidence. Ties: the lowest state. In double precision; the law is never written out as a matrix, so a frame costs states × moves.
 Source: Viterbi 1967; Grossi and Lops 2006, Algorithm 3.2. Raises Error where no path is possible.)";
 
-    constexpr const char *forwardBackwardText = R"(Where a target has been, given all frames: the posterior of every cell of every frame.
+    constexpr const char *forwardBackwardText =
+        R"(Where a target has been, given all frames: the posterior of every cell of every frame.
 
 loglik, law, initial: as for faintline.viterbi.
 
@@ -201,14 +213,15 @@ void bindPaths(py::module_ &module)
         .def_readonly("cells", &Path::cells, "int64 of shape (frames,), on several axes (frames, axes).")
         .def_readonly("rates", &Path::rates, "Cells a frame, float64 of the same shape.")
         .def_readonly("score", &Path::score, "ln of the path's probability with its evidence.");
-    py::class_<HeldPosterior>(module, "Posterior", "Where a target has been, given all frames (faintline.forward_backward).")
+    py::class_<HeldPosterior>(module, "Posterior",
+                              "Where a target has been, given all frames (faintline.forward_backward).")
         .def_readonly("p", &HeldPosterior::cells, "float64 of shape (frames, cells…); each frame adds up to 1.")
         .def_readonly("p_states", &HeldPosterior::states, "float64 of shape (frames, rates…, cells…).")
         .def_readonly("log_evidence", &HeldPosterior::logEvidence, "ln of the sum over all paths.");
     module.def("viterbi", &viterbi, py::arg("loglik"), py::arg("law"), py::kw_only(), py::arg("initial") = py::none(),
                py::arg("progress") = py::none(), viterbiText);
-    module.def("forward_backward", &forwardBackwardOf, py::arg("loglik"), py::arg("law"), py::kw_only(), py::arg("initial") = py::none(),
-               py::arg("progress") = py::none(), forwardBackwardText);
+    module.def("forward_backward", &forwardBackwardOf, py::arg("loglik"), py::arg("law"), py::kw_only(),
+               py::arg("initial") = py::none(), py::arg("progress") = py::none(), forwardBackwardText);
 }
 
 } // namespace faintline::python

@@ -45,9 +45,11 @@ namespace {
     {
         const RecordingInfo &info = self.recording->info();
         if (channel < 0 || channel >= info.channelCount)
-            throw Error("channel = " + std::to_string(channel), "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
+            throw Error("channel = " + std::to_string(channel),
+                        "the recording has " + std::to_string(info.channelCount) + " channel(s), counted from 0");
         if (first < 0 || first > info.sampleCount)
-            throw Error("first = " + std::to_string(first), "the recording has the samples 0 … " + std::to_string(info.sampleCount - 1));
+            throw Error("first = " + std::to_string(first),
+                        "the recording has the samples 0 … " + std::to_string(info.sampleCount - 1));
         const Index wanted = std::clamp<Index>(count.value_or(info.sampleCount), 0, info.sampleCount - first);
         std::vector<float> samples(static_cast<std::size_t>(wanted * info.floatsPerSample()));
         {
@@ -60,7 +62,8 @@ namespace {
         return viewOf(owner, reinterpret_cast<const std::complex<float> *>(owner->data()), {wanted});
     }
 
-    void save(const HeldRecording &self, const py::object &path, const std::string &type, int threads, const py::object &progress)
+    void save(const HeldRecording &self, const py::object &path, const std::string &type, int threads,
+              const py::object &progress)
     {
         if (type != "float32" && type != "int16")
             throw Error("type = " + type, "must be float32 or int16");
@@ -74,7 +77,8 @@ namespace {
     {
         const RecordingInfo &info = self.recording->info();
         return py::str("<faintline.Recording {!r}, {}, {} samples at {:g} Hz, {} channel(s){}>")
-            .format(pythonPath(info.path), info.container, info.sampleCount, info.sampleRateHz, info.channelCount, info.isComplex ? ", I/Q" : "");
+            .format(pythonPath(info.path), info.container, info.sampleCount, info.sampleRateHz, info.channelCount,
+                    info.isComplex ? ", I/Q" : "");
     }
 
     /// A member of RecordingInfo as a property.
@@ -92,45 +96,52 @@ HeldRecording recordingOfArray(const py::object &given, double rateHz, double ce
     if (!samples)
         throw Error("samples", "must be an array of real or complex numbers");
     if (samples.ndim() < 1 || samples.ndim() > 2)
-        throw Error("samples", "must have the shape (samples,) or (samples, channels), not " + std::to_string(samples.ndim()) + " axes");
+        throw Error("samples", "must have the shape (samples,) or (samples, channels), not "
+                                   + std::to_string(samples.ndim()) + " axes");
     ArrayLayout layout;
     layout.sampleRateHz = rateHz;
     layout.sampleCount = samples.shape(0);
     layout.channelCount = samples.ndim() == 2 ? static_cast<int>(std::min<py::ssize_t>(samples.shape(1), 1 << 20)) : 1;
     layout.isComplex = samples.dtype().kind() == 'c';
     layout.centreHz = centreHz;
-    const auto floats = layout.isComplex
-        ? floatsOf<std::complex<float>>(samples)
-        : floatsOf<float>(samples);
+    const auto floats = layout.isComplex ? floatsOf<std::complex<float>>(samples) : floatsOf<float>(samples);
     return {std::make_shared<ArrayRecording>("samples", floats, layout), nullptr};
 }
 
 void bindRecording(py::module_ &module)
 {
-    py::class_<HeldRecording>(module, "Recording", R"(A recording: random access to its samples, without holding them in memory.
+    py::class_<HeldRecording>(module, "Recording",
+                              R"(A recording: random access to its samples, without holding them in memory.
 
 faintline.open and faintline.simulate make one, or Recording(samples, rate) from an array of shape (samples,) or (samples, channels).
 Complex samples are I/Q. Signed integers are scaled to ±1 at full scale, floats keep their unit. Single-precision arrays are not copied.)")
         .def(py::init(&recordingOfArray), py::arg("samples"), py::arg("rate"), py::arg("centre_hz") = 0.0)
-        .def_property_readonly("path", [](const HeldRecording &self) { return pythonPath(self.recording->info().path); })
+        .def_property_readonly("path",
+                               [](const HeldRecording &self) { return pythonPath(self.recording->info().path); })
         .def_property_readonly("container", info(&RecordingInfo::container), "'WAV', 'FLAC', 'SigMF', 'array' …")
         .def_property_readonly("sample_type", info(&RecordingInfo::sampleType))
         .def_property_readonly("rate", info(&RecordingInfo::sampleRateHz), "Samples per second, Hz.")
         .def_property_readonly("channels", info(&RecordingInfo::channelCount))
         .def_property_readonly("is_complex", info(&RecordingInfo::isComplex), "True for I/Q.")
-        .def_property_readonly("centre_hz", info(&RecordingInfo::centreHz), "Frequency that 0 Hz of the samples stands for, Hz.")
-        .def_property_readonly("start", info(&RecordingInfo::startUnixSeconds), "UTC of the first sample, s after 1970, or None.")
+        .def_property_readonly("centre_hz", info(&RecordingInfo::centreHz),
+                               "Frequency that 0 Hz of the samples stands for, Hz.")
+        .def_property_readonly("start", info(&RecordingInfo::startUnixSeconds),
+                               "UTC of the first sample, s after 1970, or None.")
         .def_property_readonly("notes", info(&RecordingInfo::notes), "What was repaired or assumed while opening.")
-        .def_property_readonly("duration", [](const HeldRecording &self) { return self.recording->info().durationSeconds(); }, "s")
-        .def_property_readonly("truth", [](const HeldRecording &self) { return pythonFromJson(self.truth); },
-                               "Of a simulated recording: where its lines really are, a dict; otherwise None.")
+        .def_property_readonly(
+            "duration", [](const HeldRecording &self) { return self.recording->info().durationSeconds(); }, "s")
+        .def_property_readonly(
+            "truth", [](const HeldRecording &self) { return pythonFromJson(self.truth); },
+            "Of a simulated recording: where its lines really are, a dict; otherwise None.")
         .def("__len__", info(&RecordingInfo::sampleCount), "Samples per channel.")
         .def("read", &readSamples, py::arg("first") = 0, py::arg("count") = py::none(), py::arg("channel") = 0,
              R"(Samples first … first+count-1 of one channel, fewer at the end: float32, or complex64 of I/Q.
 
 Samples that are not finite read as 0. Raises Error for a channel or a first sample that is not there.)")
-        .def("save", &save, py::arg("path"), py::kw_only(), py::arg("type") = "float32", py::arg("threads") = 0, py::arg("progress") = py::none(),
-             R"(Writes the recording, the kind by the extension: .wav, .flac, .w64, .aiff, .caf, .au, or a SigMF pair (.sigmf-meta).
+        .def(
+            "save", &save, py::arg("path"), py::kw_only(), py::arg("type") = "float32", py::arg("threads") = 0,
+            py::arg("progress") = py::none(),
+            R"(Writes the recording, the kind by the extension: .wav, .flac, .w64, .aiff, .caf, .au, or a SigMF pair (.sigmf-meta).
 
 type is "float32" or "int16" (clipped at ±1). The file appears only when it is complete. Raises Error.)")
         .def("__repr__", &textOf);

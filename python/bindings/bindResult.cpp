@@ -43,9 +43,12 @@ namespace {
     }
 
     /// What the command line writes with --events, --tracks and --statistic.
-    void save(const Result &self, const py::object &events, const py::object &tracks, const py::object &statistic, const py::object &progress)
+    void save(const Result &self, const py::object &events, const py::object &tracks, const py::object &statistic,
+              const py::object &progress)
     {
-        const auto nameOf = [](const py::object &path) { return path.is_none() ? std::string() : pathFromPython(path); };
+        const auto nameOf = [](const py::object &path) {
+            return path.is_none() ? std::string() : pathFromPython(path);
+        };
         const std::string eventsPath = nameOf(events);
         const std::string tracksPath = nameOf(tracks);
         const std::string statisticPath = nameOf(statistic);
@@ -75,12 +78,15 @@ namespace {
     {
         const std::vector<Axis> &axes = self.analysis()->grid().axes;
         if (position.size() != axes.size())
-            throw Error("explain", "takes a time and " + std::to_string(axes.size()) + " position(s), one for each axis");
+            throw Error("explain",
+                        "takes a time and " + std::to_string(axes.size()) + " position(s), one for each axis");
         std::vector<double> at;
         for (const py::handle each : position)
             at.push_back(py::cast<double>(each));
         std::optional<Explanation> explanation;
-        runInterruptibly({0, progress}, [&](const RunContext &context) { explanation = explain(*self.analysis(), time, at, context); });
+        runInterruptibly({0, progress}, [&](const RunContext &context) {
+            explanation = explain(*self.analysis(), time, at, context);
+        });
         return {self.analysis(), *explanation};
     }
 
@@ -99,48 +105,74 @@ namespace {
     {
         const Analysis &a = *self.analysis();
         return py::str("<faintline.Result: {} event(s) in {} frames of {} cells, threshold {:.4g} {}>")
-            .format(a.tracks.size(), a.time().count, a.grid().size(), a.threshold, std::string(statisticUnit(a.settings.detector)));
+            .format(a.tracks.size(), a.time().count, a.grid().size(), a.threshold,
+                    std::string(statisticUnit(a.settings.detector)));
     }
 
 } // namespace
 
 void bindResult(py::module_ &module)
 {
-    py::class_<Result, std::shared_ptr<Result>>(module, "Result", "What faintline.detect has found. Immutable; arrays it hands out are read-only.")
-        .def_property_readonly("events", [](const Result &self) { return eventArray(*self.analysis()); },
-                               R"(The detected signals, a structured array with a record an event, ordered by onset, then frequency.
+    py::class_<Result, std::shared_ptr<Result>>(
+        module, "Result", "What faintline.detect has found. Immutable; arrays it hands out are read-only.")
+        .def_property_readonly(
+            "events", [](const Result &self) { return eventArray(*self.analysis()); },
+            R"(The detected signals, a structured array with a record an event, ordered by onset, then frequency.
 
 Fields as the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz at detection; on several axes one field for each),
 drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and where tracks were looked at from both ends snr_db, band_hz,
 noise_probability. Fields of f are offsets from the recording's centre_hz.)")
         .def_property_readonly("tracks", &tracks, "A Track for each event, in order of detection.")
-        .def_property_readonly("input", [](Result &self) { return wholeArray(self, self.input({0, py::none()})); },
-                               R"(Normalised power, float32 of shape (frames, cells…): noise has mean 1, NaN was not observed.
+        .def_property_readonly(
+            "input",
+            [](Result &self) {
+                return wholeArray(self, self.input({0, py::none()}));
+            },
+            R"(Normalised power, float32 of shape (frames, cells…): noise has mean 1, NaN was not observed.
 
 Computed when it is first asked for, then kept by the result; the array is a view of that. Raises Error for more than 2**31 values.)")
-        .def_property_readonly("statistic", [](Result &self) { return wholeArray(self, self.statistic({0, py::none()})); },
-                               R"(The detector's statistic, float32 of shape (frames, cells…), in statistic_unit; -inf where nothing was decided.
+        .def_property_readonly(
+            "statistic",
+            [](Result &self) {
+                return wholeArray(self, self.statistic({0, py::none()}));
+            },
+            R"(The detector's statistic, float32 of shape (frames, cells…), in statistic_unit; -inf where nothing was decided.
 
 Computed by a second run of the detector when it is first asked for, then kept by the result; the array is a view of that. The same values as
 the command line's --statistic. Raises Error for more than 2**31 values.)")
-        .def_property_readonly("time", [](const Result &self) { return self.analysis()->time(); }, "The frames' axis: middle of each window, s.")
-        .def_property_readonly("axes", [](const Result &self) { return self.analysis()->grid().axes; }, "The cells' axes, slowest first.")
-        .def_property_readonly("frequency", [](const Result &self) { return self.analysis()->grid().axes.back(); }, "The last axis; Hz of a recording.")
-        .def_property_readonly("threshold", [](const Result &self) { return self.analysis()->threshold; }, "In statistic_unit.")
-        .def_property_readonly("statistic_unit", [](const Result &self) { return std::string(statisticUnit(self.analysis()->settings.detector)); })
-        .def_property_readonly("ln_k", [](const Result &self) { return self.analysis()->calibration->lnK; },
-                               "Calibrated ln K: bonus for continuing a path instead of restarting it, nat.")
+        .def_property_readonly(
+            "time", [](const Result &self) { return self.analysis()->time(); },
+            "The frames' axis: middle of each window, s.")
+        .def_property_readonly(
+            "axes", [](const Result &self) { return self.analysis()->grid().axes; }, "The cells' axes, slowest first.")
+        .def_property_readonly(
+            "frequency", [](const Result &self) { return self.analysis()->grid().axes.back(); },
+            "The last axis; Hz of a recording.")
+        .def_property_readonly(
+            "threshold", [](const Result &self) { return self.analysis()->threshold; }, "In statistic_unit.")
+        .def_property_readonly(
+            "statistic_unit",
+            [](const Result &self) { return std::string(statisticUnit(self.analysis()->settings.detector)); })
+        .def_property_readonly(
+            "ln_k", [](const Result &self) { return self.analysis()->calibration->lnK; },
+            "Calibrated ln K: bonus for continuing a path instead of restarting it, nat.")
         .def_property_readonly("false_alarms_per_hour", &falseAlarmsPerHour, "On noise, at the threshold.")
-        .def_property_readonly("settings", [](const Result &self) { return pythonFromJson(parseJson(settingsToJson(self.analysis()->settings, false), "settings")); },
-                               "All settings in use, a dict by full names; the window is the one that was chosen.")
-        .def_property_readonly("window_choice", &windowChoice, "Why this window, where it was left to the recording; otherwise None.")
-        .def("explain", &explainAt, py::arg("time"), py::kw_only(), py::arg("progress") = py::none(),
-             R"(Why a cell has the statistic it has: explain(time, frequency), on several axes explain(time, position, position, …).
+        .def_property_readonly(
+            "settings",
+            [](const Result &self) {
+                return pythonFromJson(parseJson(settingsToJson(self.analysis()->settings, false), "settings"));
+            },
+            "All settings in use, a dict by full names; the window is the one that was chosen.")
+        .def_property_readonly("window_choice", &windowChoice,
+                               "Why this window, where it was left to the recording; otherwise None.")
+        .def(
+            "explain", &explainAt, py::arg("time"), py::kw_only(), py::arg("progress") = py::none(),
+            R"(Why a cell has the statistic it has: explain(time, frequency), on several axes explain(time, position, position, …).
 
 time in s, frequency in Hz (the last axis's unit); the nearest frame and cell are taken. Returns an Explanation. Raises Error for a time
 outside of the recording.)")
-        .def("save", &save, py::kw_only(), py::arg("events") = py::none(), py::arg("tracks") = py::none(), py::arg("statistic") = py::none(),
-             py::arg("progress") = py::none(),
+        .def("save", &save, py::kw_only(), py::arg("events") = py::none(), py::arg("tracks") = py::none(),
+             py::arg("statistic") = py::none(), py::arg("progress") = py::none(),
              R"(Writes what the command line writes, byte for byte, the kind by the extension.
 
 events: .csv, .json, .txt (Audacity labels) or .sigmf-meta; tracks: .csv or .json; statistic: .npy. Files appear together when all are

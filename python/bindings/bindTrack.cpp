@@ -30,14 +30,17 @@ namespace {
             const Track &track = self.track();
             const Axis &axis = self.analysis->grid().axes.back();
             return ofPoints(self, [&](std::size_t i) {
-                return track.smoothed.empty() ? std::numeric_limits<double>::quiet_NaN() : take(track.smoothed[i], axis);
+                return track.smoothed.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                              : take(track.smoothed[i], axis);
             });
         };
     }
 
     py::array times(const HeldTrack &self)
     {
-        return ofPoints(self, [&](std::size_t i) { return self.analysis->time().value(static_cast<double>(self.track().points[i].frame)); });
+        return ofPoints(self, [&](std::size_t i) {
+            return self.analysis->time().value(static_cast<double>(self.track().points[i].frame));
+        });
     }
 
     py::array lastPositions(const HeldTrack &self)
@@ -64,13 +67,16 @@ namespace {
 
     auto seconds(Index Track::*which)
     {
-        return [which](const HeldTrack &self) { return self.analysis->time().value(static_cast<double>(self.track().*which)); };
+        return [which](const HeldTrack &self) {
+            return self.analysis->time().value(static_cast<double>(self.track().*which));
+        };
     }
 
     std::string textOf(const HeldTrack &self)
     {
         return py::str("<faintline.Track {}: {} points, {:g} … {:g} s>")
-            .format(self.track().id, self.track().points.size(), seconds(&Track::onsetFrame)(self), seconds(&Track::endFrame)(self));
+            .format(self.track().id, self.track().points.size(), seconds(&Track::onsetFrame)(self),
+                    seconds(&Track::endFrame)(self));
     }
 
 } // namespace
@@ -83,25 +89,39 @@ f05, f95, p_present and snr_db are those of the look from both ends (forward and
 of frames on several axes, of the linear likelihood, and with both_ways=False.)")
         .def_property_readonly("id", member(&Track::id), "As in events['event'].")
         .def_property_readonly("t", &times, "Times of the points, s.")
-        .def_property_readonly("f", &lastPositions, "Positions along the last axis, below one cell where that is known; Hz of a recording.")
+        .def_property_readonly("f", &lastPositions,
+                               "Positions along the last axis, below one cell where that is known; Hz of a recording.")
         .def_property_readonly("position", &positions, "Positions on all axes, float64 of shape (points, axes).")
-        .def_property_readonly("statistic", [](const HeldTrack &self) { return ofPoints(self, [&](std::size_t i) { return self.track().points[i].statistic; }); },
-                               "Score of the path up to each point, nat above background.")
-        .def_property_readonly("f05", smoothed([](const SmoothedPoint &p, const Axis &axis) { return axis.value(static_cast<double>(p.low)); }),
+        .def_property_readonly(
+            "statistic",
+            [](const HeldTrack &self) {
+                return ofPoints(self, [&](std::size_t i) { return self.track().points[i].statistic; });
+            },
+            "Score of the path up to each point, nat above background.")
+        .def_property_readonly("f05", smoothed([](const SmoothedPoint &p, const Axis &axis) {
+                                   return axis.value(static_cast<double>(p.low));
+                               }),
                                "5 % of the position's posterior.")
-        .def_property_readonly("f95", smoothed([](const SmoothedPoint &p, const Axis &axis) { return axis.value(static_cast<double>(p.high)); }),
+        .def_property_readonly("f95", smoothed([](const SmoothedPoint &p, const Axis &axis) {
+                                   return axis.value(static_cast<double>(p.high));
+                               }),
                                "95 % of the position's posterior.")
-        .def_property_readonly("p_present", smoothed([](const SmoothedPoint &p, const Axis &) { return static_cast<double>(p.presence); }),
-                               "Probability that the signal is there.")
-        .def_property_readonly("snr_db", smoothed([](const SmoothedPoint &p, const Axis &) { return dbFromRatio(static_cast<double>(p.level)); }),
+        .def_property_readonly(
+            "p_present", smoothed([](const SmoothedPoint &p, const Axis &) { return static_cast<double>(p.presence); }),
+            "Probability that the signal is there.")
+        .def_property_readonly("snr_db", smoothed([](const SmoothedPoint &p, const Axis &) {
+                                   return dbFromRatio(static_cast<double>(p.level));
+                               }),
                                "Mean power along the path over the noise's in one frame, dB.")
         .def_property_readonly("t_onset", seconds(&Track::onsetFrame), "s")
-        .def_property_readonly("t_detect", seconds(&Track::detectFrame), "Where the statistic first exceeded the threshold, s.")
+        .def_property_readonly("t_detect", seconds(&Track::detectFrame),
+                               "Where the statistic first exceeded the threshold, s.")
         .def_property_readonly("t_end", seconds(&Track::endFrame), "s")
         .def_property_readonly("peak_statistic", member(&Track::peakStatistic), "Largest score of the path, nat.")
         .def_property_readonly("confirmed", member(&Track::isConfirmed))
         .def_property_readonly("open", member(&Track::isOpen), "Still followed when the data ended.")
-        .def_property_readonly("model", member(&Track::model), "Of a bank of models, the number of the one that found it.")
+        .def_property_readonly("model", member(&Track::model),
+                               "Of a bank of models, the number of the one that found it.")
         .def("__len__", [](const HeldTrack &self) { return self.track().points.size(); })
         .def("__repr__", &textOf);
 }

@@ -26,8 +26,12 @@ py::array eventArray(const Analysis &analysis)
     const std::vector<Event> found = events(analysis);
     const std::vector<Axis> &axes = analysis.grid().axes;
     std::vector<Column> columns;
-    const auto number = [&](const std::string &name, const auto &take) { columns.push_back(column<double>(name, found, take)); };
-    const auto truth = [&](const std::string &name, const auto &take) { columns.push_back(column<bool>(name, found, take)); };
+    const auto number = [&](const std::string &name, const auto &take) {
+        columns.push_back(column<double>(name, found, take));
+    };
+    const auto truth = [&](const std::string &name, const auto &take) {
+        columns.push_back(column<bool>(name, found, take));
+    };
     columns.push_back(column<std::int32_t>("event", found, [](const Event &e) { return e.id; }));
     number("t_onset", [](const Event &e) { return e.onsetSeconds; });
     number("t_detect", [](const Event &e) { return e.detectSeconds; });

@@ -6,7 +6,8 @@
 
 namespace faintline::python {
 
-/// The events of an analysis as a structured array, a record an event, with the names of the command line's CSV columns.
+/// The events of an analysis as a structured array, a record an event, with the names of the command line's CSV
+/// columns.
 pybind11::array eventArray(const Analysis &analysis);
 
 } // namespace faintline::python

@@ -61,7 +61,8 @@ namespace {
     {
         constexpr int most = 1024;
         if (asked < 0 || asked > most)
-            throw Error("threads = " + std::to_string(asked), "must lie in 1 … 1024, or be 0 for as many as the machine has");
+            throw Error("threads = " + std::to_string(asked),
+                        "must lie in 1 … 1024, or be 0 for as many as the machine has");
         return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     }
 

@@ -75,7 +75,8 @@ namespace {
             return fromSequence(value, where, depth + 1);
         if (PyNumber_Check(value.ptr()) && py::hasattr(value, "__float__"))
             return py::cast<double>(py::float_(py::reinterpret_borrow<py::object>(value)));
-        throw Error(where, "is of type " + typeName(value) + "; truths, numbers, texts, lists, arrays and dicts are taken");
+        throw Error(where,
+                    "is of type " + typeName(value) + "; truths, numbers, texts, lists, arrays and dicts are taken");
     }
 
 } // namespace

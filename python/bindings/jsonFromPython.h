@@ -8,7 +8,8 @@
 
 namespace faintline::python {
 
-/// None, truths, numbers, texts, paths, lists, arrays and mappings as JSON. Throws Error naming `where.key` for anything else.
+/// None, truths, numbers, texts, paths, lists, arrays and mappings as JSON. Throws Error naming `where.key` for
+/// anything else.
 Json jsonFromPython(pybind11::handle value, const std::string &where);
 
 /// The other way: dicts, lists, texts, numbers, truths, None.

@@ -40,7 +40,8 @@ namespace {
         if (!asked.settings.is_none()) {
             const Json json = jsonFromPython(asked.settings, "settings");
             if (!json.is_object())
-                throw Error("settings", "must be a dict of values by full names, such as {'spectrogram.windowSeconds': 0.5}");
+                throw Error("settings",
+                            "must be a dict of values by full names, such as {'spectrogram.windowSeconds': 0.5}");
             for (const auto &[name, value] : json.items())
                 all.emplace_back(name, value);
         }
@@ -74,16 +75,20 @@ std::string settingOfKeyword(const std::string &keyword)
     if (found.size() == 1)
         return found.front();
     if (found.empty())
-        throw Error(keyword, "unknown setting; faintline.describe() lists all, by full names for settings={...} and by keywords");
+        throw Error(
+            keyword,
+            "unknown setting; faintline.describe() lists all, by full names for settings={...} and by keywords");
     std::string all;
     for (const std::string &name : found)
         all += (all.empty() ? "" : ", ") + name;
-    throw Error(keyword, "is the name of several settings: " + all + "; give the full one, settings={'" + found.front() + "': ...}");
+    throw Error(keyword, "is the name of several settings: " + all + "; give the full one, settings={'" + found.front()
+                             + "': ...}");
 }
 
 AnalysisSettings settingsFromPython(const AskedSettings &asked, const AnalysisSettings &otherwise)
 {
-    AnalysisSettings settings = asked.preset.is_none() ? otherwise : preset(py::cast<std::string>(py::str(asked.preset))).settings;
+    AnalysisSettings settings =
+        asked.preset.is_none() ? otherwise : preset(py::cast<std::string>(py::str(asked.preset))).settings;
     Assignments all = assignmentsOf(asked);
     std::stable_partition(all.begin(), all.end(), [](const auto &one) { return one.first == "detector.kind"; });
     for (const auto &[name, value] : all)

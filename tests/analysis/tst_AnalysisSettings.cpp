@@ -53,13 +53,15 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
                 field.set(settings, random.uniform() < 0.5);
                 break;
             case FieldKind::Integer:
-                field.set(settings, static_cast<int>(std::max(3.0, field.minimum) + std::floor(random.uniform() * 10.0)));
+                field.set(settings,
+                          static_cast<int>(std::max(3.0, field.minimum) + std::floor(random.uniform() * 10.0)));
                 break;
             case FieldKind::Number:
                 field.set(settings, field.minimum + random.uniform() * (std::min(field.maximum, 1e6) - field.minimum));
                 break;
             case FieldKind::Choice:
-                field.set(settings, field.choices[static_cast<std::size_t>(random.uniform() * static_cast<double>(field.choices.size()))]);
+                field.set(settings, field.choices[static_cast<std::size_t>(
+                                        random.uniform() * static_cast<double>(field.choices.size()))]);
                 break;
             case FieldKind::Numbers:
                 field.set(settings, std::vector<double>{1.0, 2.5});
@@ -95,9 +97,12 @@ void tst_AnalysisSettings::jsonKeepsTheChoice()
 void tst_AnalysisSettings::refusals()
 {
     AnalysisSettings settings;
-    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.windowSecond", "1"); }), "did you mean spectrogram.windowSeconds"));
-    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.windowSeconds", "-1"); }), "must lie in 0 … 1e+06 s"));
-    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.window", "round"); }), "must be one of rectangular, hann"));
+    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.windowSecond", "1"); }),
+                     "did you mean spectrogram.windowSeconds"));
+    QVERIFY(
+        contains(errorOf([&] { setSetting(settings, "spectrogram.windowSeconds", "-1"); }), "must lie in 0 … 1e+06 s"));
+    QVERIFY(contains(errorOf([&] { setSetting(settings, "spectrogram.window", "round"); }),
+                     "must be one of rectangular, hann"));
     QVERIFY(contains(errorOf([&] { settingsFromJson("{\"a\": 1}", "x.json"); }), "unknown setting"));
     QVERIFY(contains(errorOf([&] { settingsFromJson("{", "x.json"); }), "x.json"));
     setSetting(settings, "model.slopeChange", "0.5, 0.1");

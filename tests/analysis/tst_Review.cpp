@@ -25,40 +25,42 @@ private slots:
 
 namespace {
 
-    /// Tracks on bins of 1 Hz from 0 Hz, frames of a second: (first frame, cells one per frame).
-    Analysis analysisOf(const std::vector<std::pair<Index, std::vector<Index>>> &tracks, Grid grid = {{{"frequency", "Hz", 0.0, 1.0, 400, false}}})
-    {
-        Analysis analysis;
-        const Axis time{"time", "s", 0.0, 1.0, 4, false};
-        analysis.frames = std::make_shared<FrameArray>(time, grid, std::vector<float>(static_cast<std::size_t>(4 * grid.size()), 1.0f));
-        for (const auto &[first, cells] : tracks) {
-            Track track;
-            track.id = static_cast<int>(analysis.tracks.size()) + 1;
-            track.onsetFrame = track.detectFrame = first;
-            for (Index cell : cells)
-                track.points.push_back({first + std::ssize(track.points), cell, 0, 1.0});
-            track.endFrame = first + std::ssize(cells) - 1;
-            track.peakStatistic = 20.0;
-            analysis.tracks.push_back(track);
-        }
-        return analysis;
+/// Tracks on bins of 1 Hz from 0 Hz, frames of a second: (first frame, cells one per frame).
+Analysis analysisOf(const std::vector<std::pair<Index, std::vector<Index>>> &tracks,
+                    Grid grid = {{{"frequency", "Hz", 0.0, 1.0, 400, false}}})
+{
+    Analysis analysis;
+    const Axis time{"time", "s", 0.0, 1.0, 4, false};
+    analysis.frames =
+        std::make_shared<FrameArray>(time, grid, std::vector<float>(static_cast<std::size_t>(4 * grid.size()), 1.0f));
+    for (const auto &[first, cells] : tracks) {
+        Track track;
+        track.id = static_cast<int>(analysis.tracks.size()) + 1;
+        track.onsetFrame = track.detectFrame = first;
+        for (Index cell : cells)
+            track.points.push_back({first + std::ssize(track.points), cell, 0, 1.0});
+        track.endFrame = first + std::ssize(cells) - 1;
+        track.peakStatistic = 20.0;
+        analysis.tracks.push_back(track);
     }
+    return analysis;
+}
 
-    std::vector<Index> line(Index from, Index step, Index count)
-    {
-        std::vector<Index> cells;
-        for (Index i = 0; i < count; ++i)
-            cells.push_back(from + i * step);
-        return cells;
-    }
+std::vector<Index> line(Index from, Index step, Index count)
+{
+    std::vector<Index> cells;
+    for (Index i = 0; i < count; ++i)
+        cells.push_back(from + i * step);
+    return cells;
+}
 
-    std::vector<Verdict> verdicts(const Analysis &analysis, const std::vector<Review> &reviews)
-    {
-        std::vector<Verdict> result;
-        for (const EventReview &one : eventReviews(analysis, events(analysis), reviews))
-            result.push_back(one.verdict);
-        return result;
-    }
+std::vector<Verdict> verdicts(const Analysis &analysis, const std::vector<Review> &reviews)
+{
+    std::vector<Verdict> result;
+    for (const EventReview &one : eventReviews(analysis, events(analysis), reviews))
+        result.push_back(one.verdict);
+    return result;
+}
 
 } // namespace
 
@@ -87,8 +89,8 @@ void tst_Review::boxesJudgeTheEventsInThem()
     // A note alone says something, a label alone does not; of several boxes the first counts.
     QCOMPARE(judge(box(5, 24, 299, 301, Verdict::None, "a fan")).reviews.size(), std::size_t(1));
     QCOMPARE(judge(Annotation{5, 24, 299.0, 301.0, "a fan", "", Verdict::None}).others.size(), std::size_t(1));
-    const JudgedByBoxes two =
-        judgeByBoxes(one.reviews, analysis, all, {box(5, 24, 290, 310, Verdict::Accepted), box(0, 30, 290, 310, Verdict::Rejected)});
+    const JudgedByBoxes two = judgeByBoxes(
+        one.reviews, analysis, all, {box(5, 24, 290, 310, Verdict::Accepted), box(0, 30, 290, 310, Verdict::Rejected)});
     QCOMPARE(verdicts(analysis, two.reviews), (std::vector{Verdict::Accepted, Verdict::Rejected}));
     QCOMPARE(two.judged, 1);
     QVERIFY(two.others.empty());
@@ -135,7 +137,8 @@ void tst_Review::acrossTheSeamOfBearings()
     const SignalPath path = pathOf(analysis, events(analysis).front());
     QCOMPARE(path.position.back()[1], 370.0);
     const Analysis later = analysisOf({{1, {5 * 36 + 35, 5 * 36, 5 * 36 + 1}}}, grid);
-    QCOMPARE(verdicts(later, withVerdict({}, analysis, events(analysis), {1}, Verdict::Accepted)).front(), Verdict::Accepted);
+    QCOMPARE(verdicts(later, withVerdict({}, analysis, events(analysis), {1}, Verdict::Accepted)).front(),
+             Verdict::Accepted);
 }
 
 void tst_Review::nothingSaidIsNoReview()
@@ -181,18 +184,20 @@ void tst_Review::asJsonAndBack()
     Annotations annotations;
     annotations.reviews = merged({}, analysis, events(analysis), {1, 2});
     annotations.reviews = withNote(annotations.reviews, analysis, events(analysis), 1, "a \"note\", späť\t");
-    annotations.boxes = {{1.0, 2.0, 3.0, 4.5, "box", "", Verdict::Rejected}, {0.1, 0.2, {}, {}, "", "n", Verdict::None}};
+    annotations.boxes = {{1.0, 2.0, 3.0, 4.5, "box", "", Verdict::Rejected},
+                         {0.1, 0.2, {}, {}, "", "n", Verdict::None}};
     const Json json = toJson(annotations);
     QVERIFY(annotationsFromJson(parseJson(json.dump(2), "x"), "x") == annotations);
 }
 
 void tst_Review::hostileJson()
 {
-    for (const char *text : {R"([])", R"({"boxes": [{"seconds": [2, 1], "label": ""}]})", R"({"boxes": [{"seconds": [1]}]})", R"({"boxes": [3]})",
-                             R"({"reviews": [{"paths": [{"seconds": [], "position": [], "tolerance": []}]}]})",
-                             R"({"reviews": [{"paths": [{"seconds": [1, 1], "position": [[1], [2]], "tolerance": [1]}]}]})",
-                             R"({"reviews": [{"paths": [{"seconds": [1], "position": [[1, 2]], "tolerance": [1]}]}]})",
-                             R"({"reviews": [{"verdict": "perhaps", "paths": []}]})", R"({"other": 1})"})
+    for (const char *text :
+         {R"([])", R"({"boxes": [{"seconds": [2, 1], "label": ""}]})", R"({"boxes": [{"seconds": [1]}]})",
+          R"({"boxes": [3]})", R"({"reviews": [{"paths": [{"seconds": [], "position": [], "tolerance": []}]}]})",
+          R"({"reviews": [{"paths": [{"seconds": [1, 1], "position": [[1], [2]], "tolerance": [1]}]}]})",
+          R"({"reviews": [{"paths": [{"seconds": [1], "position": [[1, 2]], "tolerance": [1]}]}]})",
+          R"({"reviews": [{"verdict": "perhaps", "paths": []}]})", R"({"other": 1})"})
         QVERIFY_EXCEPTION_THROWN(annotationsFromJson(Json::parse(text), "annotations"), std::exception);
 }
 

@@ -86,7 +86,8 @@ private slots:
         QVERIFY(!analysis.tracks.empty()); // so a tracker's window is among them
         StateReplay replay(run().analysis);
         for (const Index frame : {0, 3, 9, 15})
-            QCOMPARE(projected(*replay.at(frame), analysis.grid().size()), run().statistic[static_cast<std::size_t>(frame)]);
+            QCOMPARE(projected(*replay.at(frame), analysis.grid().size()),
+                     run().statistic[static_cast<std::size_t>(frame)]);
     }
 
     void backAndForthIsTheSame()
@@ -146,9 +147,10 @@ private slots:
         chosen.detector = SmdSettings{SmdSettings::Reset::Fixed, 0.6};
         chosen.decide.by = DecideSettings::By::Nats;
         chosen.decide.thresholdNats = 14.0;
-        const auto analysis = analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false},
-                                                                   Grid{{{"frequency", "Hz", 100.0, 0.5, cells, false}}}, std::move(y)),
-                                      chosen);
+        const auto analysis =
+            analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false},
+                                                 Grid{{{"frequency", "Hz", 100.0, 0.5, cells, false}}}, std::move(y)),
+                    chosen);
         QCOMPARE(analysis->checkpoints.count(), std::size_t(6)); // every 64 frames
         QVERIFY(!analysis->tracks.empty());
         Analysis alone = *analysis;

@@ -37,13 +37,16 @@ AnalysisSettings settings()
     return s;
 }
 
-std::shared_ptr<const Analysis> analysed(int threads = 1, const AnalysisSettings &s = settings(), std::vector<float> *statistic = nullptr)
+std::shared_ptr<const Analysis> analysed(int threads = 1, const AnalysisSettings &s = settings(),
+                                         std::vector<float> *statistic = nullptr)
 {
     RunContext context;
     context.threads = threads;
     StatisticSink sink;
     if (statistic)
-        sink = [statistic](Index, std::span<const float> block) { statistic->insert(statistic->end(), block.begin(), block.end()); };
+        sink = [statistic](Index, std::span<const float> block) {
+            statistic->insert(statistic->end(), block.begin(), block.end());
+        };
     return analyse(recording(), s, context, nullptr, sink);
 }
 
@@ -54,7 +57,8 @@ bool sameTracks(const Analysis &a, const Analysis &b)
     for (std::size_t i = 0; i < a.tracks.size(); ++i) {
         const Track &x = a.tracks[i];
         const Track &y = b.tracks[i];
-        if (x.onsetFrame != y.onsetFrame || x.endFrame != y.endFrame || x.peakStatistic != y.peakStatistic || x.points.size() != y.points.size())
+        if (x.onsetFrame != y.onsetFrame || x.endFrame != y.endFrame || x.peakStatistic != y.peakStatistic
+            || x.points.size() != y.points.size())
             return false;
         for (std::size_t j = 0; j < x.points.size(); ++j)
             if (x.points[j].cell != y.points[j].cell || x.points[j].statistic != y.points[j].statistic)
@@ -141,7 +145,8 @@ void tst_analyse::statisticSinkIsThePyramid()
     QCOMPARE(std::ssize(statistic), cells * analysis->time().count);
     for (Index frame : {Index(0), Index(400), analysis->time().count - 1}) {
         std::vector<std::uint8_t> bytes(static_cast<std::size_t>(cells));
-        analysis->statistic->scale().encode(std::span(statistic).subspan(static_cast<std::size_t>(frame * cells), bytes.size()), bytes);
+        analysis->statistic->scale().encode(
+            std::span(statistic).subspan(static_cast<std::size_t>(frame * cells), bytes.size()), bytes);
         QVERIFY(std::equal(bytes.begin(), bytes.end(), analysis->statistic->row(0, frame).begin()));
     }
     for (float value : statistic)
@@ -156,7 +161,8 @@ void tst_analyse::explanationAddsUp()
     const Track &track = analysis->tracks.front();
     const Index cells = analysis->grid().size();
     std::vector<std::pair<Index, Index>> places{{0, 5}, {100, 20}, {700, 3}}; // frame, cell
-    places.emplace_back(track.detectFrame, track.points[static_cast<std::size_t>(track.detectFrame - track.onsetFrame)].cell);
+    places.emplace_back(track.detectFrame,
+                        track.points[static_cast<std::size_t>(track.detectFrame - track.onsetFrame)].cell);
     places.emplace_back(track.endFrame, track.points.back().cell);
     for (const auto &[frame, cell] : places) {
         const Explanation why = explain(*analysis, analysis->time().value(static_cast<double>(frame)),
@@ -175,7 +181,8 @@ void tst_analyse::explanationAddsUp()
 
 void tst_analyse::calibratedKHalvesNoise()
 {
-    // Billon's five slopes on his frames: ln K = +0.6997 by his rule, -0.0794 for stable lines (independent programs' values).
+    // Billon's five slopes on his frames: ln K = +0.6997 by his rule, -0.0794 for stable lines (independent programs'
+    // values).
     const auto five = calibrate(settings());
     QVERIFY2(std::abs(five->lnK - 0.6997) < 0.015, qPrintable(QString::number(five->lnK)));
     QVERIFY(std::abs(five->continuedFraction - 0.5) < 0.01);
@@ -191,7 +198,8 @@ void tst_analyse::aKOutOfReachIsAnError()
     s.model.snr = 50.0;
     const std::string said = test::errorOf([&] { calibrate(s); });
     QVERIFY2(said.starts_with("model.snr = 50: permits no ln K at which half of the states continue on noise: at 20 "
-                              "nat "), said.c_str());
+                              "nat "),
+             said.c_str());
     QVERIFY2(said.ends_with("% do; choose a lower one"), said.c_str());
 }
 
@@ -221,8 +229,8 @@ void tst_analyse::noLinesInNoiseOfAnyKind_data()
 
 void tst_analyse::noLinesInNoiseOfAnyKind()
 {
-    // Ten minutes at 60 false alarms an hour, so 10 are ordered; more than 25 come once in 30000 times. Below 20 Hz belongs a tenth of
-    // one; more than two come once in 6000 times.
+    // Ten minutes at 60 false alarms an hour, so 10 are ordered; more than 25 come once in 30000 times. Below 20 Hz
+    // belongs a tenth of one; more than two come once in 6000 times.
     QFETCH(double, slopeDb);
     QFETCH(double, driftDb);
     LineScene scene;
@@ -239,7 +247,8 @@ void tst_analyse::noLinesInNoiseOfAnyKind()
     const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), s);
     QVERIFY2(analysis->tracks.size() <= 25, qPrintable(QString::number(analysis->tracks.size())));
     const std::vector<Event> found = events(*analysis);
-    QVERIFY(std::count_if(found.begin(), found.end(), [](const Event &event) { return event.position[0] < 20.0; }) <= 2);
+    QVERIFY(std::count_if(found.begin(), found.end(), [](const Event &event) { return event.position[0] < 20.0; })
+            <= 2);
 }
 
 void tst_analyse::aConstantIsNoLine()

@@ -105,7 +105,8 @@ private slots:
         const Found scaled = found(*analyse(open(type, scale), settings()));
         QCOMPARE(scaled.frames, ordinary.frames);
         QCOMPARE(scaled.cells, ordinary.cells);
-        QVERIFY2(std::abs(scaled.peaks[0] - ordinary.peaks[0]) < 1e-3 * ordinary.peaks[0], qPrintable(QString::number(scaled.peaks[0])));
+        QVERIFY2(std::abs(scaled.peaks[0] - ordinary.peaks[0]) < 1e-3 * ordinary.peaks[0],
+                 qPrintable(QString::number(scaled.peaks[0])));
         if (scale == std::ldexp(1.0, -60))
             QVERIFY(scaled == ordinary); // to the bit
     }
@@ -209,8 +210,9 @@ private slots:
         for (int i = 0; i < 4000; ++i) {
             const double number = i % 2 ? value : other;
             const auto narrow = static_cast<float>(number);
-            bytes.append(type == QLatin1String("rf64_le") ? QByteArray(reinterpret_cast<const char *>(&number), sizeof number)
-                                                          : QByteArray(reinterpret_cast<const char *>(&narrow), sizeof narrow));
+            bytes.append(type == QLatin1String("rf64_le")
+                             ? QByteArray(reinterpret_cast<const char *>(&number), sizeof number)
+                             : QByteArray(reinterpret_cast<const char *>(&narrow), sizeof narrow));
         }
         const RecordingPointer recording = openBytes(bytes, type.toStdString());
         const std::string said = errorOf([&] { analyse(recording, settings()); });
@@ -221,7 +223,8 @@ private slots:
     {
         std::vector<float> values(4000, 0.0f);
         values[3500] = 1e-3f;
-        QCOMPARE(errorOf([&] { analyse(openBytes(bytesOf<float>(values, 1.0), "rf32_le"), settings()); }), std::string());
+        QCOMPARE(errorOf([&] { analyse(openBytes(bytesOf<float>(values, 1.0), "rf32_le"), settings()); }),
+                 std::string());
     }
 
 private:
@@ -238,10 +241,12 @@ private:
     RecordingPointer open(const QString &type, double scale)
     {
         if (type != QLatin1String("sigmf"))
-            return openBytes(type == QLatin1String("rf64_le") ? bytesOf<double>(samples(), scale) : bytesOf<float>(samples(), scale),
+            return openBytes(type == QLatin1String("rf64_le") ? bytesOf<double>(samples(), scale)
+                                                              : bytesOf<float>(samples(), scale),
                              type.toStdString());
         const std::string stem = m_folder.filePath(QStringLiteral("%1").arg(++m_number)).toStdString();
-        writeBytes(stem + ".sigmf-meta", R"({"global": {"core:datatype": "rf64_le", "core:sample_rate": 400, "core:version": "1.0.0"},
+        writeBytes(stem + ".sigmf-meta",
+                   R"({"global": {"core:datatype": "rf64_le", "core:sample_rate": 400, "core:version": "1.0.0"},
                                              "captures": [{"core:sample_start": 0}], "annotations": []})");
         writeBytes(stem + ".sigmf-data", bytesOf<double>(samples(), scale));
         return openRecording(stem + ".sigmf-meta");

@@ -16,7 +16,8 @@ private slots:
     void steadyLinesLoseNothing();
 };
 
-// 30 Hz of 500 in windows of a quarter of a second: 15 bins. Scaled from a wide band 0.4 of the order came, at one an hour 0.26.
+// 30 Hz of 500 in windows of a quarter of a second: 15 bins. Scaled from a wide band 0.4 of the order came, at one an
+// hour 0.26.
 void tst_bandCalibration::aNarrowBandKeepsItsOrder()
 {
     LineScene scene;

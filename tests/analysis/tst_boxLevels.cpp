@@ -36,7 +36,8 @@ class tst_boxLevels : public QObject
         analysis->settings.spectrogram.window = window;
         const auto spectrogram = std::make_shared<Spectrogram>(analysis->recording, analysis->settings.spectrogram);
         const NormaliserSettings &noise = analysis->settings.noise;
-        analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, noise), noise);
+        analysis->frames =
+            std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, noise), noise);
         return analysis;
     }
 
@@ -52,7 +53,8 @@ private slots:
     void sumsAreThoseOfTheCells()
     {
         Analysis analysis;
-        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 3}, Grid{{Axis{"frequency", "Hz", 100.0, 10.0, 4}}},
+        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 3},
+                                                       Grid{{Axis{"frequency", "Hz", 100.0, 10.0, 4}}},
                                                        std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
         const BoxLevels levels = boxLevels(analysis, {1, 3, 1, 3});
         QVERIFY(std::abs(levels.meanDb - 10.0 * std::log10((6.0 + 7.0 + 10.0 + 11.0) / 4.0)) < 1e-12);
@@ -65,8 +67,8 @@ private slots:
     void whatIsNotThereIsRefused()
     {
         Analysis analysis;
-        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 1}, Grid{{Axis{"frequency", "Hz", 0.0, 1.0, 2}}},
-                                                       std::vector<float>{1, 2});
+        analysis.frames = std::make_shared<FrameArray>(
+            Axis{"time", "s", 0.0, 1.0, 1}, Grid{{Axis{"frequency", "Hz", 0.0, 1.0, 2}}}, std::vector<float>{1, 2});
         for (const FrameBox box : {FrameBox{0, 0, 0, 1}, FrameBox{0, 2, 0, 1}, FrameBox{0, 1, 1, 1},
                                    FrameBox{0, 1, -1, 1}, FrameBox{0, 1, 0, 3}})
             QVERIFY_EXCEPTION_THROWN(boxLevels(analysis, box), Error);
@@ -92,10 +94,12 @@ private slots:
         const auto analysis = sceneOf(snrDb, static_cast<WindowShape>(window));
         const BoxLevels levels = boxLevels(*analysis, boxOf(*analysis, cells));
         const double r = std::pow(10.0, 0.1 * snrDb);
-        // In each of 800 windows the sum over the cells has the variance of noise in all of them and of the line's beat with it.
+        // In each of 800 windows the sum over the cells has the variance of noise in all of them and of the line's beat
+        // with it.
         const double error = std::sqrt((2.0 * r + cells) / (seconds / 0.5));
         const double found = levels.snrDb ? std::pow(10.0, 0.1 * *levels.snrDb) : 0.0;
-        QVERIFY2(std::abs(found - r) < 4.0 * error, qPrintable(QStringLiteral("%1 for %2 ± %3").arg(found).arg(r).arg(error)));
+        QVERIFY2(std::abs(found - r) < 4.0 * error,
+                 qPrintable(QStringLiteral("%1 for %2 ± %3").arg(found).arg(r).arg(error)));
         QVERIFY(std::abs(levels.noiseDb) < 0.2);
     }
 

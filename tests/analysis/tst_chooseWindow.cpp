@@ -18,7 +18,8 @@ LineScene scene(double rateHz, double seconds, int seed)
     return result;
 }
 
-LineSettings line(double hz, double driftHzPerSecond, double from, double seconds, double snrDb, double referenceSeconds)
+LineSettings line(double hz, double driftHzPerSecond, double from, double seconds, double snrDb,
+                  double referenceSeconds)
 {
     LineSettings result;
     result.frequencyHz = hz;
@@ -48,7 +49,8 @@ LineScene constants()
     return result;
 }
 
-std::shared_ptr<const Analysis> analysed(const LineScene &lines, const AnalysisSettings &settings = {}, const Analysis *previous = nullptr)
+std::shared_ptr<const Analysis> analysed(const LineScene &lines, const AnalysisSettings &settings = {},
+                                         const Analysis *previous = nullptr)
 {
     return analyseInChosenWindow(std::make_shared<SimulatedRecording>(lines), settings, {}, previous);
 }
@@ -83,15 +85,33 @@ void tst_chooseWindow::whichSettingsLeaveItOpen_data()
     QTest::addColumn<QString>("setting");
     QTest::addColumn<QString>("value");
     QTest::addColumn<bool>("isOpen");
-    QTest::newRow("defaults") << "lines" << "decide.falseAlarmsPerHour" << "10" << true;
-    QTest::newRow("strong") << "strong" << "model.snr" << "1" << true;
-    QTest::newRow("a window") << "lines" << "spectrogram.windowSeconds" << "0.5" << false;
-    QTest::newRow("a law") << "whistles" << "model.snr" << "1" << false;
-    QTest::newRow("Billon's") << "billon" << "model.snr" << "1" << false;
-    QTest::newRow("a slope") << "lines" << "model.highestSlope" << "2" << false;
-    QTest::newRow("another detector") << "lines" << "detector.kind" << "integrator" << false;
-    QTest::newRow("no second look") << "lines" << "track.bothWays" << "false" << false;
-    QTest::newRow("pings") << "sonar" << "model.snr" << "1" << false;
+    QTest::newRow("defaults") << "lines"
+                              << "decide.falseAlarmsPerHour"
+                              << "10" << true;
+    QTest::newRow("strong") << "strong"
+                            << "model.snr"
+                            << "1" << true;
+    QTest::newRow("a window") << "lines"
+                              << "spectrogram.windowSeconds"
+                              << "0.5" << false;
+    QTest::newRow("a law") << "whistles"
+                           << "model.snr"
+                           << "1" << false;
+    QTest::newRow("Billon's") << "billon"
+                              << "model.snr"
+                              << "1" << false;
+    QTest::newRow("a slope") << "lines"
+                             << "model.highestSlope"
+                             << "2" << false;
+    QTest::newRow("another detector") << "lines"
+                                      << "detector.kind"
+                                      << "integrator" << false;
+    QTest::newRow("no second look") << "lines"
+                                    << "track.bothWays"
+                                    << "false" << false;
+    QTest::newRow("pings") << "sonar"
+                           << "model.snr"
+                           << "1" << false;
 }
 
 void tst_chooseWindow::whichSettingsLeaveItOpen()
@@ -127,7 +147,8 @@ void tst_chooseWindow::sweepsTakeAShorterOne()
     QVERIFY(analysis->statistic && analysis->input && !analysis->checkpoints.isEmpty());
     QVERIFY(analysis->answers(AnalysisSettings()));
     // One track each; two at most come of noise.
-    QVERIFY2(analysis->tracks.size() >= 8 && analysis->tracks.size() <= 10, qPrintable(QString::number(analysis->tracks.size())));
+    QVERIFY2(analysis->tracks.size() >= 8 && analysis->tracks.size() <= 10,
+             qPrintable(QString::number(analysis->tracks.size())));
 }
 
 void tst_chooseWindow::linesThatStandStillTakeALongerOne()
@@ -188,9 +209,11 @@ void tst_chooseWindow::itsWords()
     choice.trials = {{{}, 0.0025, 60, 1.15}, {{}, 0.01, 125, 0.11}, {{}, 0.04, 202, 0.9}, {{}, 0.16, 20, std::nan("")}};
     choice.automatic = 2;
     choice.chosen = 1;
-    QCOMPARE(windowChoiceWords(choice), std::string("window 0.01 s chosen; one of 0.04 s would follow 11 % of the energy along its tracks"));
+    QCOMPARE(windowChoiceWords(choice),
+             std::string("window 0.01 s chosen; one of 0.04 s would follow 11 % of the energy along its tracks"));
     choice.chosen = 3;
-    QCOMPARE(windowChoiceWords(choice), std::string("window 0.16 s chosen; it follows 90 % of the energy along the tracks of 0.04 s"));
+    QCOMPARE(windowChoiceWords(choice),
+             std::string("window 0.16 s chosen; it follows 90 % of the energy along the tracks of 0.04 s"));
     choice.chosen = 2;
     QCOMPARE(windowChoiceWords(choice), std::string("window 0.04 s (automatic)"));
 }

@@ -64,7 +64,8 @@ private:
         QCOMPARE(closeup.frameCount(), stretch.end - stretch.begin);
         QCOMPARE(closeup.time().first, whole.time().value(static_cast<double>(stretch.begin)));
         for (Index frame = stretch.begin; frame < stretch.end; ++frame)
-            QVERIFY2(std::ranges::equal(closeup.row(0, frame - stretch.begin), whole.row(0, frame)), QByteArray::number(qlonglong(frame)));
+            QVERIFY2(std::ranges::equal(closeup.row(0, frame - stretch.begin), whole.row(0, frame)),
+                     QByteArray::number(qlonglong(frame)));
     }
 
 private slots:
@@ -105,10 +106,12 @@ private slots:
         QVERIFY(more.contains({77, 174}));
         QCOMPARE(more.begin % 4, Index(0));
         // Room for what is visible, not for as much again beside it.
-        const FrameStretch least = closeupStretch(*fours, visible, 0.1, static_cast<std::size_t>(60 * single.cells() * 4 / 3));
+        const FrameStretch least =
+            closeupStretch(*fours, visible, 0.1, static_cast<std::size_t>(60 * single.cells() * 4 / 3));
         QVERIFY(least.contains(visible) && more.contains(least) && least.end - least.begin < 60);
         QCOMPARE(closeupStretch(*fours, {0, 5}, 0.1, plenty).begin, Index(0));
-        QCOMPARE(closeupStretch(*fours, {single.frameCount() - 3, single.frameCount()}, 0.1, plenty).end, single.frameCount());
+        QCOMPARE(closeupStretch(*fours, {single.frameCount() - 3, single.frameCount()}, 0.1, plenty).end,
+                 single.frameCount());
     }
 
     void withLittleMemoryRowsAreMergedAlike()

@@ -33,12 +33,14 @@ std::shared_ptr<const Analysis> scaledInjection(double thresholdNats, double lin
     settings.decide.linkCells = {linkCells};
     settings.model.slopeChange = {0.5, 0.2, 0.05};
     const Grid grid{{{"frequency", "Hz", 100.0, 0.5, cellCount, false}}};
-    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false}, grid, std::move(y)), settings);
+    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false}, grid, std::move(y)),
+                   settings);
 }
 
 Explanation at(const Analysis &analysis, Index frame, Index cell)
 {
-    return explain(analysis, analysis.time().value(static_cast<double>(frame)), {analysis.grid().axes[0].value(static_cast<double>(cell))});
+    return explain(analysis, analysis.time().value(static_cast<double>(frame)),
+                   {analysis.grid().axes[0].value(static_cast<double>(cell))});
 }
 
 /// The best two of the ways into a state in a frame, from all states' scores in the frame before.
@@ -74,7 +76,8 @@ private slots:
                 for (const PathStep &step : why.steps) {
                     if (&step == &why.steps.front())
                         continue;
-                    const auto [best, second] = bestWays(space, replay.at(step.frame - 1)->values, step.state, step.frame);
+                    const auto [best, second] =
+                        bestWays(space, replay.at(step.frame - 1)->values, step.state, step.frame);
                     QVERIFY(std::abs(step.runnerUp - (best - second)) < 1e-4);
                 }
                 const PathStep &first = why.steps.front();
@@ -84,10 +87,12 @@ private slots:
                     continue;
                 }
                 QCOMPARE(why.reset.kind, ResetCause::Kind::Background);
-                const double goingOn = bestWays(space, replay.at(first.frame - 1)->values, first.state, first.frame).first + 0.6;
+                const double goingOn =
+                    bestWays(space, replay.at(first.frame - 1)->values, first.state, first.frame).first + 0.6;
                 QVERIFY(goingOn <= 1e-6);
                 if (std::isfinite(goingOn)) // else nothing leads there: the slope comes from beyond the band
-                    QVERIFY2(std::abs(why.reset.lost + goingOn) < 1e-6, qPrintable(QString::number(why.reset.lost + goingOn)));
+                    QVERIFY2(std::abs(why.reset.lost + goingOn) < 1e-6,
+                             qPrintable(QString::number(why.reset.lost + goingOn)));
                 else
                     QCOMPARE(why.reset.lost, -goingOn);
                 ++resets;
@@ -146,7 +151,8 @@ private slots:
         const auto analysis = scaledInjection(14.0, 3.0, frames);
         QVERIFY(analysis->checkpoints.count() > 60);
         const Track &last = analysis->tracks.back();
-        QVERIFY(last.detectFrame > frames - 300 && last.endFrame > frames - 10); // so one is followed past several checkpoints
+        QVERIFY(last.detectFrame > frames - 300
+                && last.endFrame > frames - 10); // so one is followed past several checkpoints
         Analysis withoutAny = *analysis;
         withoutAny.checkpoints.clear();
         int tracked = 0;

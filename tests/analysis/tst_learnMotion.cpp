@@ -10,7 +10,8 @@ using namespace faintline;
 
 namespace {
 
-std::shared_ptr<const Analysis> analysisOf(double wanderHz, double wanderSeconds, double drift, const ModelSettings &law = {})
+std::shared_ptr<const Analysis> analysisOf(double wanderHz, double wanderSeconds, double drift,
+                                           const ModelSettings &law = {})
 {
     LineScene scene;
     scene.sampleRateHz = 400.0;
@@ -72,7 +73,9 @@ void tst_learnMotion::inertiaGainsWhereItLacked()
     const LearnedMotion motion = learnMotion(*analysisOf(0.0, 1.0, 0.05, laws::billon()));
     QVERIFY2(motion.learned.front() > 0.9, qPrintable(QString::number(motion.learned.front())));
     QVERIFY2(motion.gainPerFrame > 0.05, qPrintable(QString::number(motion.gainPerFrame)));
-    QVERIFY(std::abs(motion.gainOver(100.0) - 100.0 * motion.gainPerFrame - motion.presentThreshold + motion.learnedThreshold) < 1e-9);
+    QVERIFY(std::abs(motion.gainOver(100.0) - 100.0 * motion.gainPerFrame - motion.presentThreshold
+                     + motion.learnedThreshold)
+            < 1e-9);
     const LearnedMotion usual = learnMotion(*analysisOf(0.0, 1.0, 0.05));
     QVERIFY(usual.gainPerFrame < 0.2 * motion.gainPerFrame); // the default has enough of it
 }

@@ -27,7 +27,8 @@ NormalisedFramesPointer frames(int stepsPerWindow, double windows)
     settings.windowSeconds = windowSamples;
     settings.stepsPerWindow = stepsPerWindow;
     const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), settings);
-    return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, {}), NormaliserSettings{});
+    return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, {}),
+                                                   NormaliserSettings{});
 }
 
 Grid part(const NormalisedFrames &whole, Index first, Index count)
@@ -41,12 +42,14 @@ Grid part(const NormalisedFrames &whole, Index first, Index count)
 
 constexpr Index band = 10;
 
-/// White noise of variance 1 with a target in it that moves as the model says from one window to the next that does not overlap it. Its
-/// amplitude is complex normal and anew in each: of SNR ρ behind the Hann window, which leaves ⅔ of a rectangle's.
+/// White noise of variance 1 with a target in it that moves as the model says from one window to the next that does not
+/// overlap it. Its amplitude is complex normal and anew in each: of SNR ρ behind the Hann window, which leaves ⅔ of a
+/// rectangle's.
 class TargetInNoise final : public Recording
 {
 public:
-    TargetInNoise(const SequentialModel &model, int windows, std::uint64_t stream) : m_samples(static_cast<std::size_t>(2 * windows * windowSamples))
+    TargetInNoise(const SequentialModel &model, int windows, std::uint64_t stream)
+        : m_samples(static_cast<std::size_t>(2 * windows * windowSamples))
     {
         m_info.sampleRateHz = 1.0;
         m_info.sampleCount = windows * windowSamples;
@@ -61,7 +64,8 @@ public:
             const double turns = static_cast<double>(state % model.markov.space.cellCount()) / (2.0 * windowSamples);
             const std::complex<double> amplitude(deviation * random.normal(), deviation * random.normal());
             for (Index n = window * windowSamples; n < (window + 1) * windowSamples; ++n) {
-                const std::complex<double> value = amplitude * std::polar(1.0, 2.0 * std::numbers::pi * turns * static_cast<double>(n));
+                const std::complex<double> value =
+                    amplitude * std::polar(1.0, 2.0 * std::numbers::pi * turns * static_cast<double>(n));
                 m_samples[static_cast<std::size_t>(2 * n)] += static_cast<float>(value.real());
                 m_samples[static_cast<std::size_t>(2 * n + 1)] += static_cast<float>(value.imag());
             }
@@ -72,14 +76,17 @@ public:
 
     void read(int, Index first, Index count, std::span<float> out) const override
     {
-        fill(first, count, out, [this](Index from, std::span<float> part) { std::copy_n(m_samples.begin() + 2 * from, part.size(), part.begin()); });
+        fill(first, count, out, [this](Index from, std::span<float> part) {
+            std::copy_n(m_samples.begin() + 2 * from, part.size(), part.begin());
+        });
     }
 
 private:
     std::vector<float> m_samples;
 };
 
-/// Tests one after the other along the frames of noise, each from where the one before stopped: those decided, those that went wrong.
+/// Tests one after the other along the frames of noise, each from where the one before stopped: those decided, those
+/// that went wrong.
 struct Counted {
     int tests = 0;
     int wrong = 0;
@@ -131,11 +138,11 @@ void tst_lineSequentialModel::noModelLosesProbability_data()
     QTest::addColumn<int>("rounding");
     QTest::addColumn<int>("slopesPerBin");
     const std::vector<std::pair<const char *, std::vector<double>>> laws{{"third", {1.0 / 3.0, 1.0 / 3.0}},
-                                                                        {"inert", {0.9, 0.05}},
-                                                                        {"held", {1.0}},
-                                                                        {"wide", {0.2, 0.2, 0.1, 0.1}},
-                                                                        {"rounded", {0.3333334, 0.3333333}},
-                                                                        {"always changed", {0.0, 0.5}}};
+                                                                         {"inert", {0.9, 0.05}},
+                                                                         {"held", {1.0}},
+                                                                         {"wide", {0.2, 0.2, 0.1, 0.1}},
+                                                                         {"rounded", {0.3333334, 0.3333333}},
+                                                                         {"always changed", {0.0, 0.5}}};
     for (const auto &[name, law] : laws)
         for (const auto &[lowest, highest] : {std::pair{-2, 2}, {0, 0}, {-4, 4}, {-1, 3}, {0, 2}, {-10, 10}})
             for (const Rounding rounding : {Rounding::HalfDown, Rounding::Trunc})
@@ -165,11 +172,13 @@ void tst_lineSequentialModel::noModelLosesProbability()
             if (isCyclic && (std::max(-lowest, highest) + slopesPerBin - 1) / slopesPerBin >= cells)
                 continue; // refused: a step goes round
             const Grid grid{{{"frequency", "Hz", 0.0, 1.0, cells, isCyclic}}};
-            const FrameArray none({"time", "s", 0.0, 1.0, 1, false}, grid, std::vector<float>(static_cast<std::size_t>(cells)));
+            const FrameArray none({"time", "s", 0.0, 1.0, 1, false}, grid,
+                                  std::vector<float>(static_cast<std::size_t>(cells)));
             LikelihoodRatio ratio(lineSequentialModel(settings, grid, none));
             const std::vector<double> lambda(static_cast<std::size_t>(cells), 0.0);
             for (int stage = 0; stage < 40; ++stage)
-                QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12, qPrintable(QString("%1 cells, stage %2: %3").arg(cells).arg(stage).arg(ratio.lnLambda())));
+                QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12,
+                         qPrintable(QString("%1 cells, stage %2: %3").arg(cells).arg(stage).arg(ratio.lnLambda())));
         }
 }
 
@@ -211,7 +220,8 @@ void tst_lineSequentialModel::framesThatShareNoSample()
         QCOMPARE(framesApart(*made), Index(steps));
         QCOMPARE(lineSequentialModel({}, made->grid(), *made).observedEvery, Index(steps));
     }
-    const FrameArray ready({"time", "s", 0.0, 1.0, 2, false}, {{{"cell", "", 0.0, 1.0, 3, false}}}, std::vector<float>(6));
+    const FrameArray ready({"time", "s", 0.0, 1.0, 2, false}, {{{"cell", "", 0.0, 1.0, 3, false}}},
+                           std::vector<float>(6));
     QCOMPARE(framesApart(ready), Index(1));
 }
 
@@ -222,7 +232,8 @@ void verify(const Counted &counted)
 {
     QVERIFY2(counted.tests >= 300, qPrintable(QString::number(counted.tests)));
     const double expected = 0.02 * counted.tests;
-    QVERIFY2(counted.wrong < expected + 4.0 * std::sqrt(expected), qPrintable(QString("%1 of %2").arg(counted.wrong).arg(counted.tests)));
+    QVERIFY2(counted.wrong < expected + 4.0 * std::sqrt(expected),
+             qPrintable(QString("%1 of %2").arg(counted.wrong).arg(counted.tests)));
 }
 
 ModelSettings exponential(ModelSettings settings)
@@ -262,7 +273,8 @@ void tst_lineSequentialModel::targetsAreFound_data()
 
 void tst_lineSequentialModel::targetsAreFound()
 {
-    // Targets of the model's law and its SNR in samples, their main lobes over several bins; the noise's level is known.
+    // Targets of the model's law and its SNR in samples, their main lobes over several bins; the noise's level is
+    // known.
     QFETCH(int, stepsPerWindow);
     SpectrogramSettings windows;
     windows.windowSeconds = windowSamples;
@@ -274,13 +286,15 @@ void tst_lineSequentialModel::targetsAreFound()
                                    .space.axes()[0];
         SequentialModel model = makeSequentialModel({slopes}, {false}, Likelihood(LikelihoodKind::Exponential, 1.0));
         model.observedEvery = stepsPerWindow;
-        const Spectrogram spectrogram(std::make_shared<TargetInNoise>(model, 300, static_cast<std::uint64_t>(run)), windows);
+        const Spectrogram spectrogram(std::make_shared<TargetInNoise>(model, 300, static_cast<std::uint64_t>(run)),
+                                      windows);
         const Index firstCell = spectrogram.frequency().nearest(0.0);
         std::vector<float> row(static_cast<std::size_t>(spectrogram.frequency().count));
-        const SprtResult result = runSprt(model, {0.02, 0.02, 0}, spectrogram.time().count, [&](Index stage, std::span<double> y) {
-            spectrogram.read(stage, 1, row);
-            std::copy_n(row.begin() + firstCell, band, y.begin());
-        });
+        const SprtResult result =
+            runSprt(model, {0.02, 0.02, 0}, spectrogram.time().count, [&](Index stage, std::span<double> y) {
+                spectrogram.read(stage, 1, row);
+                std::copy_n(row.begin() + firstCell, band, y.begin());
+            });
         counted.tests += result.decision == SprtDecision::Undecided ? 0 : 1;
         counted.wrong += result.decision == SprtDecision::H0 ? 1 : 0;
     }

@@ -64,7 +64,8 @@ void tst_noiseLaw::whiteNoiseNeverWarns()
     for (int seed = 1; seed <= 100; ++seed) {
         const auto law = checkNoiseLaw(*analyse(noiseOf(seed, 30.0), shortWindows()));
         QVERIFY(law);
-        QVERIFY2(law->isFollowed(), qPrintable(QString("seed %1: %2").arg(seed).arg(QString::fromStdString(law->warning()))));
+        QVERIFY2(law->isFollowed(),
+                 qPrintable(QString("seed %1: %2").arg(seed).arg(QString::fromStdString(law->warning()))));
     }
 }
 
@@ -89,7 +90,9 @@ void tst_noiseLaw::wrongLevelsWarn()
         other.frames = std::make_shared<Louder>(analysis.frames, factor);
         const auto law = checkNoiseLaw(other);
         QVERIFY(law && !law->isFollowed());
-        QVERIFY2(QString::fromStdString(law->warning()).contains(factor > 1.0f ? "expect more false alarms" : "expect fewer"), law->warning().c_str());
+        QVERIFY2(QString::fromStdString(law->warning())
+                     .contains(factor > 1.0f ? "expect more false alarms" : "expect fewer"),
+                 law->warning().c_str());
     }
 }
 

@@ -19,7 +19,8 @@ constexpr Index frames = 240;
 constexpr Index cells = 48;
 constexpr float unobservedValue = std::numeric_limits<float>::quiet_NaN();
 
-/// Noise with a line in cell 20 from frame 60 to 180; what was not observed, a third of the cells and some whole frames, is `masked`.
+/// Noise with a line in cell 20 from frame 60 to 180; what was not observed, a third of the cells and some whole
+/// frames, is `masked`.
 std::vector<float> values(float masked)
 {
     std::vector<float> y(static_cast<std::size_t>(frames * cells));
@@ -35,8 +36,8 @@ std::vector<float> values(float masked)
 
 NormalisedFramesPointer framesOf(std::vector<float> y)
 {
-    return std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false}, Grid{{{"frequency", "Hz", 100.0, 0.5, cells, false}}},
-                                        std::move(y));
+    return std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frames, false},
+                                        Grid{{{"frequency", "Hz", 100.0, 0.5, cells, false}}}, std::move(y));
 }
 
 AnalysisSettings settings()
@@ -64,13 +65,15 @@ private slots:
         std::vector<float> shown;
         std::vector<float> expected;
         const auto sinkInto = [](std::vector<float> &all) {
-            return StatisticSink([&all](Index, std::span<const float> block) { all.insert(all.end(), block.begin(), block.end()); });
+            return StatisticSink(
+                [&all](Index, std::span<const float> block) { all.insert(all.end(), block.begin(), block.end()); });
         };
         const auto masked = analyse(framesOf(values(unobservedValue)), settings(), {}, nullptr, sinkInto(shown));
         const auto plain = analyse(framesOf(values(neutral)), settings(), {}, nullptr, sinkInto(expected));
         QCOMPARE(shown.size(), expected.size());
         for (std::size_t i = 0; i < shown.size(); ++i)
-            QVERIFY2(std::abs(shown[i] - expected[i]) < 1e-3f, qPrintable(QStringLiteral("%1: %2, not %3").arg(i).arg(shown[i]).arg(expected[i])));
+            QVERIFY2(std::abs(shown[i] - expected[i]) < 1e-3f,
+                     qPrintable(QStringLiteral("%1: %2, not %3").arg(i).arg(shown[i]).arg(expected[i])));
         QVERIFY(!plain->tracks.empty());
         QCOMPARE(masked->tracks.size(), plain->tracks.size());
         for (std::size_t i = 0; i < plain->tracks.size(); ++i) {
@@ -84,8 +87,9 @@ private slots:
         const auto analysis = analyse(framesOf(values(unobservedValue)), settings());
         const Track &track = analysis->tracks.front();
         double sum = 0.0;
-        const Explanation why = explain(*analysis, analysis->time().value(static_cast<double>(track.detectFrame)),
-                                        {analysis->grid().axes[0].value(static_cast<double>(track.points.back().cell))});
+        const Explanation why =
+            explain(*analysis, analysis->time().value(static_cast<double>(track.detectFrame)),
+                    {analysis->grid().axes[0].value(static_cast<double>(track.points.back().cell))});
         int unobserved = 0;
         std::vector<float> y(cells);
         for (const PathStep &step : why.steps) {
@@ -113,14 +117,15 @@ private slots:
         const MarkovModel model = makeModel(settings().model, framesOf(values(1.0f))->grid());
         const std::vector<float> y = values(unobservedValue);
         for (std::size_t kind = 0; kind < std::variant_size_v<DetectorSettings>; ++kind) {
-            const auto detector =
-                makeDetector(detectorOfKind(kind), model, framesOf(values(1.0f))->grid(), {}, ResetRule{ResetLaw::Fixed, 0.6});
+            const auto detector = makeDetector(detectorOfKind(kind), model, framesOf(values(1.0f))->grid(), {},
+                                               ResetRule{ResetLaw::Fixed, 0.6});
             std::vector<float> statistic(cells);
             float largest = -std::numeric_limits<float>::infinity();
             for (Index frame = 0; frame < frames; ++frame) {
                 detector->update(std::span(y).subspan(static_cast<std::size_t>(frame * cells), cells), statistic);
                 for (const float value : statistic) {
-                    QVERIFY2(!std::isnan(value), qPrintable(QStringLiteral("detector %1, frame %2").arg(kind).arg(frame)));
+                    QVERIFY2(!std::isnan(value),
+                             qPrintable(QStringLiteral("detector %1, frame %2").arg(kind).arg(frame)));
                     largest = std::max(largest, value);
                 }
             }

@@ -30,7 +30,8 @@ std::shared_ptr<const Analysis> scaledInjection(SmdSettings::Reset reset)
     settings.decide.thresholdNats = 14.0;
     settings.model.slopeChange = {0.5, 0.2, 0.05};
     const Grid grid{{{"frequency", "Hz", 100.0, 0.5, cellCount, false}}};
-    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frameCount, false}, grid, std::move(y)), settings);
+    return analyse(std::make_shared<FrameArray>(Axis{"time", "s", 1.0, 0.25, frameCount, false}, grid, std::move(y)),
+                   settings);
 }
 
 const std::shared_ptr<const Analysis> &analysed()
@@ -131,9 +132,9 @@ private slots:
             const CellLayers &layers = replay.at(ping);
             for (Index cell = 1 + ping % 2; cell < grid.size(); cell += ping == 17 ? 7 : 31) {
                 const std::vector<Index> c = grid.coordinates(cell);
-                const Explanation why =
-                    explain(*analysis, analysis->time().value(static_cast<double>(ping)),
-                            {grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))});
+                const Explanation why = explain(
+                    *analysis, analysis->time().value(static_cast<double>(ping)),
+                    {grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))});
                 const QByteArray where = QByteArray::number(ping) + " " + QByteArray::number(cell);
                 const auto i = static_cast<std::size_t>(cell);
                 const StateSpace &space = analysis->modelAt(why.model).space;
@@ -142,7 +143,8 @@ private slots:
                 QVERIFY2(layers.model[i] == why.model, where);
                 QVERIFY2(layers.age[i] + 1 == std::ssize(why.steps), where);
                 QVERIFY2(layers.plane[i] == space.planeOf(why.steps.back().state), where);
-                QVERIFY2(layers.isInhibited[i] || !why.inhibitedFor, where); // a new track's box counts from the next ping on
+                QVERIFY2(layers.isInhibited[i] || !why.inhibitedFor,
+                         where); // a new track's box counts from the next ping on
                 QVERIFY2(layers.resetFraction[i] >= 0.0f && layers.resetFraction[i] <= 1.0f, where);
                 tracked += why.isTracked ? 1 : 0;
                 longPaths += layers.age[i] > 5 ? 1 : 0;
@@ -153,7 +155,8 @@ private slots:
         QVERIFY(tracked > 3);
         QVERIFY(longPaths > 5);
         QVERIFY(turning > 5);
-        QVERIFY2(analysis->bank.empty() || (models[0] > 2 && models[1] > 2), qPrintable(QString("%1 %2").arg(models[0]).arg(models[1])));
+        QVERIFY2(analysis->bank.empty() || (models[0] > 2 && models[1] > 2),
+                 qPrintable(QString("%1 %2").arg(models[0]).arg(models[1])));
     }
 
     void aPingsPicture()
@@ -196,7 +199,8 @@ private slots:
         std::vector<CellLayers> all;
         for (Index frame = 0; frame < frameCount; ++frame)
             all.push_back(straight.at(frame));
-        LayerReplay back(analysed(), 2 * 6 * static_cast<std::size_t>(cellCount * 5) * sizeof(float)); // six checkpoints
+        LayerReplay back(analysed(),
+                         2 * 6 * static_cast<std::size_t>(cellCount * 5) * sizeof(float)); // six checkpoints
         for (const Index frame : {119, 118, 70, 40, 39, 60, 61, 20, 5, 0, 90}) {
             const CellLayers &layers = back.at(frame);
             const CellLayers &expected = all[static_cast<std::size_t>(frame)];
@@ -253,7 +257,9 @@ private slots:
             for (const float fraction : layers.resetFraction)
                 sum += static_cast<double>(fraction);
             const double continued = 1.0 - sum / static_cast<double>(cellCount);
-            QVERIFY(std::abs(continued - static_cast<double>(analysis->continuedFraction[static_cast<std::size_t>(frame)])) < 1e-6);
+            QVERIFY(
+                std::abs(continued - static_cast<double>(analysis->continuedFraction[static_cast<std::size_t>(frame)]))
+                < 1e-6);
         }
     }
 
@@ -305,7 +311,8 @@ private slots:
         for (Index row = 0; row < part.rows; ++row)
             for (Index column = 0; column < part.columns; ++column)
                 QCOMPARE(part.age[static_cast<std::size_t>(row * part.columns + column)],
-                         whole.age[static_cast<std::size_t>((part.firstRow + row) * whole.columns + part.firstColumn + column)]);
+                         whole.age[static_cast<std::size_t>((part.firstRow + row) * whole.columns + part.firstColumn
+                                                            + column)]);
     }
 
     void aCellsReading()
@@ -316,7 +323,8 @@ private slots:
         QVERIFY(reading.isInhibited);
         const double slope = 0.5 / 0.25 / analysed()->settings.model.slopesPerBin; // Hz/s between neighbours
         QVERIFY(std::abs(std::remainder(reading.ratePerSecond, slope)) < 1e-12);
-        QVERIFY(std::abs(reading.ratePerSecond - 0.5 / 0.25 / 3.0) < 2.0 * slope); // the line climbs a cell in three frames
+        QVERIFY(std::abs(reading.ratePerSecond - 0.5 / 0.25 / 3.0)
+                < 2.0 * slope); // the line climbs a cell in three frames
     }
 };
 

@@ -13,64 +13,66 @@ using namespace faintline;
 
 namespace {
 
-    constexpr Index cellCount = 200;
+constexpr Index cellCount = 200;
 
-    Grid grid()
-    {
-        return {{{"frequency", "Hz", 0.0, 1.0, cellCount, false}}};
-    }
+Grid grid()
+{
+    return {{{"frequency", "Hz", 0.0, 1.0, cellCount, false}}};
+}
 
-    AnalysisSettings settingsOf(std::size_t kind)
-    {
-        AnalysisSettings settings;
-        settings.detector = detectorOfKind(kind);
-        if (auto *integrator = std::get_if<IntegratorSettings>(&settings.detector))
-            integrator->durationWindows = 60.0;
-        if (auto *blocks = std::get_if<BlockViterbiSettings>(&settings.detector))
-            blocks->durationWindows = 40.0;
-        return settings;
-    }
+AnalysisSettings settingsOf(std::size_t kind)
+{
+    AnalysisSettings settings;
+    settings.detector = detectorOfKind(kind);
+    if (auto *integrator = std::get_if<IntegratorSettings>(&settings.detector))
+        integrator->durationWindows = 60.0;
+    if (auto *blocks = std::get_if<BlockViterbiSettings>(&settings.detector))
+        blocks->durationWindows = 40.0;
+    return settings;
+}
 
-    /// Noise, and a line of that power in cell 100 in a stretch of frames.
-    std::shared_ptr<const FrameArray> framesOf(std::uint64_t seed, Index frames, float power = 0.0f, Index from = 0, Index to = 0)
-    {
-        std::vector<float> y(static_cast<std::size_t>(frames * cellCount));
-        Random(seed, 0).exponentials(y);
-        for (Index frame = from; frame < to; ++frame)
-            y[static_cast<std::size_t>(frame * cellCount + 100)] += power;
-        return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid(), std::move(y));
-    }
+/// Noise, and a line of that power in cell 100 in a stretch of frames.
+std::shared_ptr<const FrameArray> framesOf(std::uint64_t seed, Index frames, float power = 0.0f, Index from = 0,
+                                           Index to = 0)
+{
+    std::vector<float> y(static_cast<std::size_t>(frames * cellCount));
+    Random(seed, 0).exponentials(y);
+    for (Index frame = from; frame < to; ++frame)
+        y[static_cast<std::size_t>(frame * cellCount + 100)] += power;
+    return std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, frames, false}, grid(), std::move(y));
+}
 
-    /// Few, so that it is quick; of the frames of a block only one decides.
-    double calibrationCellFrames(const DetectorSettings &detector)
-    {
-        return framesPerDecision(detector, {}) > 1 ? 2e7 : 4e6;
-    }
+/// Few, so that it is quick; of the frames of a block only one decides.
+double calibrationCellFrames(const DetectorSettings &detector)
+{
+    return framesPerDecision(detector, {}) > 1 ? 2e7 : 4e6;
+}
 
-    /// An analysis whose chain can be made, at so many false alarms per cell and frame.
-    Analysis prepared(std::size_t kind, std::shared_ptr<const FrameArray> frames, double eventsPerCellFrame)
-    {
-        Analysis analysis;
-        analysis.settings = settingsOf(kind);
-        analysis.frames = std::move(frames);
-        analysis.model = makeModel(analysis.settings.model, grid());
-        analysis.calibration = calibrateOnIndependentCells(analysis.model, analysis.settings, {}, calibrationCellFrames(analysis.settings.detector));
-        analysis.threshold = analysis.calibration->thresholdForEventRate(eventsPerCellFrame);
-        return analysis;
-    }
+/// An analysis whose chain can be made, at so many false alarms per cell and frame.
+Analysis prepared(std::size_t kind, std::shared_ptr<const FrameArray> frames, double eventsPerCellFrame)
+{
+    Analysis analysis;
+    analysis.settings = settingsOf(kind);
+    analysis.frames = std::move(frames);
+    analysis.model = makeModel(analysis.settings.model, grid());
+    analysis.calibration = calibrateOnIndependentCells(analysis.model, analysis.settings, {},
+                                                       calibrationCellFrames(analysis.settings.detector));
+    analysis.threshold = analysis.calibration->thresholdForEventRate(eventsPerCellFrame);
+    return analysis;
+}
 
-    float medianOf(std::vector<float> values)
-    {
-        std::nth_element(values.begin(), values.begin() + cellCount / 2, values.end());
-        return values[cellCount / 2];
-    }
+float medianOf(std::vector<float> values)
+{
+    std::nth_element(values.begin(), values.begin() + cellCount / 2, values.end());
+    return values[cellCount / 2];
+}
 
-    void addKinds(std::size_t first = 0)
-    {
-        QTest::addColumn<std::size_t>("kind");
-        for (std::size_t kind = first; kind < detectorNames.size(); ++kind)
-            QTest::newRow(detectorNames[kind].data()) << kind;
-    }
+void addKinds(std::size_t first = 0)
+{
+    QTest::addColumn<std::size_t>("kind");
+    for (std::size_t kind = first; kind < detectorNames.size(); ++kind)
+        QTest::newRow(detectorNames[kind].data()) << kind;
+}
 
 } // namespace
 
@@ -81,7 +83,10 @@ class tst_peerChains : public QObject
 
 private slots:
     void aCrossingForgetsItsOwnPlace();
-    void theShoulderIsAboveTheNoise_data() { addKinds(1); } // what has branched off a path lies within 8 nat of it, whatever noise does
+    void theShoulderIsAboveTheNoise_data()
+    {
+        addKinds(1);
+    } // what has branched off a path lies within 8 nat of it, whatever noise does
     void theShoulderIsAboveTheNoise();
     void eventsHaveTheDetectorsUnit_data() { addKinds(); }
     void eventsHaveTheDetectorsUnit();
@@ -116,7 +121,8 @@ void tst_peerChains::aCrossingForgetsItsOwnPlace()
                 continue;
             ++changed;
             const auto &boxes = chain->inhibited();
-            QVERIFY2(std::any_of(boxes.begin(), boxes.end(), [&](const CellBox &box) { return box.contains(grid(), {cell}); }),
+            QVERIFY2(std::any_of(boxes.begin(), boxes.end(),
+                                 [&](const CellBox &box) { return box.contains(grid(), {cell}); }),
                      qPrintable(QString("cell %1 was forgotten, but is not kept from the detector").arg(cell)));
         }
         QVERIFY(changed < 15);
@@ -144,7 +150,8 @@ void tst_peerChains::theShoulderIsAboveTheNoise()
         if (frame < 300 || std::isinf(statistic.front()))
             continue;
         decided += cellCount;
-        above += static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [&](float d) { return static_cast<double>(d) > shoulder; }));
+        above += static_cast<double>(std::count_if(statistic.begin(), statistic.end(),
+                                                   [&](float d) { return static_cast<double>(d) > shoulder; }));
     }
     // Nobody knows a thousandth of neighbouring cells and frames to better than a factor of two.
     QVERIFY2(above / decided < 2e-3, qPrintable(QString("%1 of %2").arg(above).arg(decided)));
@@ -168,7 +175,8 @@ void tst_peerChains::eventsHaveTheDetectorsUnit()
     analysis.tracks = chain->takeJoinedTracks();
     const std::vector<Event> found = events(analysis);
     QVERIFY(!found.empty());
-    const auto strongest = std::max_element(found.begin(), found.end(), [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
+    const auto strongest = std::max_element(found.begin(), found.end(),
+                                            [](const Event &a, const Event &b) { return a.statistic < b.statistic; });
     QVERIFY(std::abs(strongest->position.front() - 100.0) <= 1.0);
     QVERIFY(strongest->statistic > analysis.threshold);
     QVERIFY(strongest->statistic <= static_cast<double>(largest) * 1.000001);

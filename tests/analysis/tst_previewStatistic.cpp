@@ -12,53 +12,54 @@ using namespace faintline;
 
 namespace {
 
-    /// Four minutes of noise at 400 Hz in a band of its own, which has no blind edges.
-    NormalisedFramesPointer noise(int seed)
-    {
-        LineScene scene;
-        scene.sampleRateHz = 400.0;
-        scene.durationSeconds = 240.0;
-        scene.seed = seed;
-        SpectrogramSettings cut;
-        cut.windowSeconds = 0.5;
-        const SelectionSettings band{0, 0.0, 0.0, 20.0, 180.0};
-        const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), cut, band);
-        const NormaliserSettings settings;
-        return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, settings), settings);
-    }
+/// Four minutes of noise at 400 Hz in a band of its own, which has no blind edges.
+NormalisedFramesPointer noise(int seed)
+{
+    LineScene scene;
+    scene.sampleRateHz = 400.0;
+    scene.durationSeconds = 240.0;
+    scene.seed = seed;
+    SpectrogramSettings cut;
+    cut.windowSeconds = 0.5;
+    const SelectionSettings band{0, 0.0, 0.0, 20.0, 180.0};
+    const auto spectrogram = std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), cut, band);
+    const NormaliserSettings settings;
+    return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, settings), settings);
+}
 
-    std::shared_ptr<const Analysis> analysed()
-    {
-        LineScene scene;
-        scene.sampleRateHz = 400.0;
-        scene.durationSeconds = 120.0;
-        const auto recording = std::make_shared<SimulatedRecording>(scene);
-        AnalysisSettings settings;
-        settings.spectrogram.windowSeconds = 0.5;
-        settings.selection.lowHz = 20.0; // a band of one's own has no blind edges
-        settings.selection.highHz = 180.0;
-        settings.decide.by = DecideSettings::By::Nats;
-        settings.decide.thresholdNats = 500.0; // nothing is detected, so no feedback
-        return analyse(recording, settings);
-    }
+std::shared_ptr<const Analysis> analysed()
+{
+    LineScene scene;
+    scene.sampleRateHz = 400.0;
+    scene.durationSeconds = 120.0;
+    const auto recording = std::make_shared<SimulatedRecording>(scene);
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = 0.5;
+    settings.selection.lowHz = 20.0; // a band of one's own has no blind edges
+    settings.selection.highHz = 180.0;
+    settings.decide.by = DecideSettings::By::Nats;
+    settings.decide.thresholdNats = 500.0; // nothing is detected, so no feedback
+    return analyse(recording, settings);
+}
 
-    std::vector<float> valuesOf(const PeakPyramid &picture)
-    {
-        std::vector<float> values;
-        for (Index row = 0; row < picture.rowCount(0); ++row)
-            for (const std::uint8_t byte : picture.row(0, row))
-                values.push_back(static_cast<float>(picture.scale().value(byte)));
-        return values;
-    }
+std::vector<float> valuesOf(const PeakPyramid &picture)
+{
+    std::vector<float> values;
+    for (Index row = 0; row < picture.rowCount(0); ++row)
+        for (const std::uint8_t byte : picture.row(0, row))
+            values.push_back(static_cast<float>(picture.scale().value(byte)));
+    return values;
+}
 
-    StatisticPreview previewed(const Analysis &before, const AnalysisSettings &settings, Index first, Index last, int threads = 1)
-    {
-        const FrameRange range = previewRange(*before.frames, first, last);
-        const auto kept = keepFrames(before.frames, range.readFirst, range.end - range.readFirst);
-        RunContext context;
-        context.threads = threads;
-        return previewStatistic(before, settings, range, kept.get(), context);
-    }
+StatisticPreview previewed(const Analysis &before, const AnalysisSettings &settings, Index first, Index last,
+                           int threads = 1)
+{
+    const FrameRange range = previewRange(*before.frames, first, last);
+    const auto kept = keepFrames(before.frames, range.readFirst, range.end - range.readFirst);
+    RunContext context;
+    context.threads = threads;
+    return previewStatistic(before, settings, range, kept.get(), context);
+}
 
 } // namespace
 
@@ -80,8 +81,8 @@ private slots:
         QCOMPARE(all.first, Index(0));
         QCOMPARE(all.end, before->time().count);
         const Axis hertz{"frequency", "Hz", 0.0, 1.0, 1000, false};
-        const auto large =
-            std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 100000, false}, Grid{{hertz}}, std::vector<float>());
+        const auto large = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 100000, false}, Grid{{hertz}},
+                                                        std::vector<float>());
         QVERIFY(previewRange(*large, 0, 99999).isEmpty());
         QVERIFY(previewRange(*large, 5000, 6000).isKeepable);
         QVERIFY(!previewRange(*large, 5000, 55000).isEmpty() && !previewRange(*large, 5000, 55000).isKeepable);
@@ -124,7 +125,8 @@ private slots:
         }
         expected.finish();
         QVERIFY(valuesOf(*preview.statistic) == valuesOf(expected));
-        const StatisticPreview streamed = previewStatistic(*before, settings, previewRange(*before->frames, 0, 10000), nullptr);
+        const StatisticPreview streamed =
+            previewStatistic(*before, settings, previewRange(*before->frames, 0, 10000), nullptr);
         QVERIFY(valuesOf(*streamed.statistic) == valuesOf(expected));
         QCOMPARE(preview.statistic->time().first, before->time().first);
     }
@@ -185,7 +187,8 @@ private slots:
             settings.model.snr = snr;
             const StatisticPreview preview = previewed(*before, settings, 200, 300);
             // As the calibration finds it, on other noise of the same kind.
-            const double lnK = fitReset({noise(7), noise(8)}, makeModel(settings.model, before->grid()), SmdSettings()).lnK;
+            const double lnK =
+                fitReset({noise(7), noise(8)}, makeModel(settings.model, before->grid()), SmdSettings()).lnK;
             QVERIFY2(std::abs(preview.lnK - lnK) < 0.1, qPrintable(QStringLiteral("%1 %2").arg(preview.lnK).arg(lnK)));
         }
     }
@@ -220,7 +223,8 @@ private slots:
         QVERIFY(std::abs(valuesOf(*energy.statistic)[7] - std::max(y[7], -4.0f)) <= 0.126f);
         settings = before->settings;
         settings.model.snr = 1.5;
-        const StatisticPreview one = previewed(*before, settings, 100, 400, 1), four = previewed(*before, settings, 100, 400, 4);
+        const StatisticPreview one = previewed(*before, settings, 100, 400, 1),
+                               four = previewed(*before, settings, 100, 400, 4);
         QVERIFY(valuesOf(*one.statistic) == valuesOf(*four.statistic));
         QCOMPARE(one.lnK, four.lnK);
     }

@@ -43,11 +43,12 @@ double lnBruteRate(Detector &detector, NoiseStream &noise, double base, double l
     return std::log(count / (static_cast<double>(frames) * static_cast<double>(noise.cells())));
 }
 
-/// Lines of a design SNR on a band that closes on itself, put into noise on purpose: importance sampling with plain loops and with
-/// nothing of what is tested but the detector itself.
+/// Lines of a design SNR on a band that closes on itself, put into noise on purpose: importance sampling with plain
+/// loops and with nothing of what is tested but the detector itself.
 ///
-/// Under Q a target appears at one of n frames and in one of the states, all alike, and moves by the law made stochastic. With
-/// A(t) = e^λ (P A(t-1) + 1/states) the likelihood ratio of Q to noise is, of a look at frames up to τ,
+/// Under Q a target appears at one of n frames and in one of the states, all alike, and moves by the law made
+/// stochastic. With A(t) = e^λ (P A(t-1) + 1/states) the likelihood ratio of Q to noise is, of a look at frames up to
+/// τ,
 ///
 ///   L(τ) = ( Σ A(τ) + n - τ ) / n,   P0(n1 < τ ≤ n) = E_Q[ 1(n1 < τ ≤ n) / L(τ) ],   τ: the first frame with max D > T.
 ///
@@ -155,8 +156,8 @@ private:
                 cell = moved(cell, rate, frame);
             }
             if (frame >= start)
-                y[static_cast<std::size_t>(cell)] = static_cast<float>(
-                    std::pow(std::sqrt(m_snr) + part(m_random), 2.0) + std::pow(part(m_random), 2.0));
+                y[static_cast<std::size_t>(cell)] = static_cast<float>(std::pow(std::sqrt(m_snr) + part(m_random), 2.0)
+                                                                       + std::pow(part(m_random), 2.0));
             detector.update(y, statistic);
             stepWeights(weights, y, frame);
             if (static_cast<double>(*std::max_element(statistic.begin(), statistic.end())) > level) {
@@ -198,7 +199,8 @@ private slots:
 
 void tst_rareRates::oneSlopeIsLindleys()
 {
-    // Independent cells that keep their place, linear likelihood: P(L > T) is exponential from the first level on, down to 10⁻¹².
+    // Independent cells that keep their place, linear likelihood: P(L > T) is exponential from the first level on, down
+    // to 10⁻¹².
     const double lnK = -1.6;
     ModelSettings settings = laws::steady();
     settings.likelihood = LikelihoodKind::Linear;
@@ -270,8 +272,9 @@ void tst_rareRates::agreesWithImportanceSampling_data()
     QTest::newRow("Billon's") << 2 << 0.54 << 16.0;
 }
 
-// Both follow excursions to where no simulation of noise gets: one by starting again from what was reached, the other by making them
-// happen and weighing them. K is near that of 50 %: much below it what crosses is no line, and its weights scatter.
+// Both follow excursions to where no simulation of noise gets: one by starting again from what was reached, the other
+// by making them happen and weighing them. K is near that of 50 %: much below it what crosses is no line, and its
+// weights scatter.
 void tst_rareRates::agreesWithImportanceSampling()
 {
     QFETCH(int, law);
@@ -284,7 +287,8 @@ void tst_rareRates::agreesWithImportanceSampling()
     const auto make = [&] { return std::make_unique<Smd>(model, ResetRule{ResetLaw::Fixed, lnK}); };
     SplittingSettings splitting;
     splitting.leastLnRate = -20.0;
-    const RareRates rates = measureRareRates(make, [] { return independentNoise(cells); }, splitting);
+    const RareRates rates = measureRareRates(
+        make, [] { return independentNoise(cells); }, splitting);
     QVERIFY(!rates.isEmpty());
     const auto [expected, error] = PlantedLines(settings, cells, settings.snr).lnRate(make, level, 500);
     const double found = rates.lnRateAt(level);

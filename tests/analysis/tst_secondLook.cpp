@@ -25,7 +25,8 @@ LineSettings line(double hz, double snrDb, double from, double seconds, double d
     return result;
 }
 
-std::shared_ptr<const Analysis> analysisOf(const std::vector<LineSettings> &lines, double seconds, int seed, bool bothWays = true)
+std::shared_ptr<const Analysis> analysisOf(const std::vector<LineSettings> &lines, double seconds, int seed,
+                                           bool bothWays = true)
 {
     LineScene scene;
     scene.sampleRateHz = rateHz;
@@ -94,7 +95,10 @@ void tst_secondLook::placeAndBand()
                 if (std::abs(axis.value(point.position) - truth) > 3.0 * cellHz)
                     continue; // none of this line
                 ++frames;
-                inBand += truth >= axis.value(static_cast<double>(point.low)) && truth <= axis.value(static_cast<double>(point.high)) ? 1 : 0;
+                inBand += truth >= axis.value(static_cast<double>(point.low))
+                                  && truth <= axis.value(static_cast<double>(point.high))
+                              ? 1
+                              : 0;
                 errors.push_back(std::abs(axis.value(point.position) - truth) / cellHz);
             }
     }
@@ -149,8 +153,9 @@ void tst_secondLook::aLongTrackIsOne()
 {
     const double seconds = 2600.0; // 20 800 frames
     const auto analysis = analysisOf({line(91.3, 8.0, 0.0, seconds)}, seconds, 1);
-    const auto longest = std::max_element(analysis->tracks.begin(), analysis->tracks.end(),
-                                          [](const Track &a, const Track &b) { return a.points.size() < b.points.size(); });
+    const auto longest =
+        std::max_element(analysis->tracks.begin(), analysis->tracks.end(),
+                         [](const Track &a, const Track &b) { return a.points.size() < b.points.size(); });
     QVERIFY(longest != analysis->tracks.end());
     QVERIFY2(std::ssize(longest->points) > 20700, qPrintable(QString::number(longest->points.size())));
     for (std::size_t i = 0; i < longest->points.size(); ++i)

@@ -68,7 +68,8 @@ void tst_slopeUnit::aBinAFrameIsTheFramesOwn()
     settings.stepsPerWindow = steps;
     settings.binsPerCell = bins;
     const Spectrogram spectrogram(recording, settings);
-    QCOMPARE(hzPerSecondOfABinAFrame(settings, recording->info()), spectrogram.frequency().step / spectrogram.time().step);
+    QCOMPARE(hzPerSecondOfABinAFrame(settings, recording->info()),
+             spectrogram.frequency().step / spectrogram.time().step);
 }
 
 void tst_slopeUnit::slopesAreTakenOutwards()
@@ -114,13 +115,14 @@ void tst_slopeUnit::framesAndPingsRefuse()
 {
     const AnalysisSettings settings = inHertz(-1.0, 1.0);
     checkSettings(settings);
-    const auto frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 2, false}, Grid{{{"f", "Hz", 0.0, 1.0, 20, false}}},
-                                                     std::vector<float>(40, 1.0f));
+    const auto frames = std::make_shared<FrameArray>(
+        Axis{"time", "s", 0.0, 1.0, 2, false}, Grid{{{"f", "Hz", 0.0, 1.0, 20, false}}}, std::vector<float>(40, 1.0f));
     try {
         analyse(frames, settings);
         QFAIL("slopes in Hz/s without a recording");
     } catch (const Error &error) {
-        QVERIFY2(std::string(error.what()).starts_with("model.slopeUnit = hzPerSecond: needs a recording"), error.what());
+        QVERIFY2(std::string(error.what()).starts_with("model.slopeUnit = hzPerSecond: needs a recording"),
+                 error.what());
     }
 }
 

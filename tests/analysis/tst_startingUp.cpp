@@ -17,8 +17,8 @@ private slots:
     void theFirstMinuteIsLikeTheRest();
 };
 
-// 400 recordings of four minutes at one false alarm a minute; chi-squared with one degree of freedom, 5 %. With these seeds the minutes
-// hold 384, 387, 407 and 392.
+// 400 recordings of four minutes at one false alarm a minute; chi-squared with one degree of freedom, 5 %. With these
+// seeds the minutes hold 384, 387, 407 and 392.
 void tst_startingUp::theFirstMinuteIsLikeTheRest()
 {
     std::array<double, 4> minutes{};
@@ -42,7 +42,8 @@ void tst_startingUp::theFirstMinuteIsLikeTheRest()
     const double expected = all / 4.0;
     const double difference = minutes[0] - expected;
     const double chiSquared = difference * difference / expected + difference * difference / (all - expected);
-    QVERIFY2(chiSquared < 3.84, qPrintable(QString("%1 in the first minute, %2 expected").arg(minutes[0]).arg(expected)));
+    QVERIFY2(chiSquared < 3.84,
+             qPrintable(QString("%1 in the first minute, %2 expected").arg(minutes[0]).arg(expected)));
 }
 
 QTEST_APPLESS_MAIN(tst_startingUp)

@@ -1,6 +1,6 @@
 #include "app/control/Closeup.h"
-#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
+#include "app/workspace/Workbench.h"
 #include "widgets/plot/StripPlot.h"
 
 using namespace faintline;
@@ -51,11 +51,12 @@ class tst_Closeup : public QObject
 private slots:
     void init()
     {
-        const QString scene =
-            writeFile(m_folder, "scene.json",
-                      R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 200, "lines": [{"snrDb": 6, "frequencyHz": 90}]})");
+        const QString scene = writeFile(
+            m_folder, "scene.json",
+            R"({"kind": "lines", "sampleRateHz": 400, "durationSeconds": 200, "lines": [{"snrDb": 6, "frequencyHz": 90}]})");
         m_window = newWindow();
-        QVERIFY(openAndSettle(*m_window, scene, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
+        QVERIFY(openAndSettle(*m_window, scene,
+                              [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
         m_whole = m_window->document().analysis();
         QCOMPARE(m_whole->input->framesPerRow(0), Index(1));
     }
@@ -79,7 +80,8 @@ private slots:
         QCOMPARE(canvas(workbench().input()), input);
         QCOMPARE(canvas(workbench().output()), output);
         QCOMPARE(workbench().output()->valueAt(80.1, 90.0), value);
-        QCOMPARE(workbench().output()->picture(), m_window->document().analysis()->statistic); // that is still the whole one
+        QCOMPARE(workbench().output()->picture(),
+                 m_window->document().analysis()->statistic); // that is still the whole one
     }
 
     void aLittleFartherNeedsNothingNew()

@@ -1,11 +1,11 @@
 // A walk over all widgets of the window in all its layouts: each can be named, reached, and no key means two things.
 
-#include "app/panels/OpenOptionsDialog.h"
+#include "app/openWindow.h"
 #include "app/panels/InjectDialog.h"
+#include "app/panels/OpenOptionsDialog.h"
 #include "app/window/Panels.h"
 #include "app/window/ToolBar.h"
 #include "app/workspace/Workbench.h"
-#include "app/openWindow.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QAbstractButton>
@@ -42,14 +42,18 @@ bool isInner(const QWidget *widget)
     if (widget->objectName().startsWith(QLatin1String("qt_")))
         return true;
     const QWidget *parent = widget->parentWidget();
-    return (parent && (parent->inherits("QAbstractSpinBox") || parent->inherits("QComboBox") || widget->inherits("QScrollBar")))
+    return (parent
+            && (parent->inherits("QAbstractSpinBox") || parent->inherits("QComboBox")
+                || widget->inherits("QScrollBar")))
            || widget->inherits("QComboBoxListView") || widget->inherits("QComboBoxPrivateContainer");
 }
 
-/// A row of tabs speaks through its tabs; a hidden message has nothing to say yet, nor has a sheet whose panel shows no equation.
+/// A row of tabs speaks through its tabs; a hidden message has nothing to say yet, nor has a sheet whose panel shows no
+/// equation.
 bool isSilent(const QWidget *widget)
 {
-    const bool isEmptyText = widget->inherits("QLabel") || widget->inherits("QToolButton") || widget->objectName() == QLatin1String("equationSheet");
+    const bool isEmptyText = widget->inherits("QLabel") || widget->inherits("QToolButton")
+                             || widget->objectName() == QLatin1String("equationSheet");
     return widget->inherits("QTabBar") || (isEmptyText && !widget->isVisible());
 }
 
@@ -66,7 +70,8 @@ QStringList nameless(QWidget &root)
 {
     QStringList result;
     for (QWidget *widget : root.findChildren<QWidget *>())
-        if (widget->focusPolicy() != Qt::NoFocus && !isInner(widget) && !isSilent(widget) && spokenName(widget).isEmpty())
+        if (widget->focusPolicy() != Qt::NoFocus && !isInner(widget) && !isSilent(widget)
+            && spokenName(widget).isEmpty())
             result << describe(widget);
     result.removeDuplicates();
     return result;
@@ -86,8 +91,9 @@ private slots:
     {
         Theme::apply(Theme::Kind::Light);
         m_window = newWindow({1280, 800});
-        QVERIFY(openAndSettle(*m_window, writeFile(m_folder, "scene.json",
-                                                   R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})")));
+        QVERIFY(openAndSettle(
+            *m_window, writeFile(m_folder, "scene.json",
+                                 R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})")));
     }
     void cleanupTestCase() { m_window.reset(); }
 
@@ -142,7 +148,8 @@ private slots:
         QFETCH(QString, layout);
         m_window->findChild<Panels *>()->takeLayout(layout);
         QCoreApplication::processEvents();
-        for (const QTabBar *bar : m_window->findChildren<QTabBar *>(Qt::FindDirectChildrenOnly)) // an empty one would take others' clicks
+        for (const QTabBar *bar :
+             m_window->findChildren<QTabBar *>(Qt::FindDirectChildrenOnly)) // an empty one would take others' clicks
             QVERIFY(bar->count() > 1 || !bar->isVisible() || !m_window->rect().intersects(bar->geometry()));
         m_window->activateWindow();
         QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
@@ -163,7 +170,8 @@ private slots:
         }
         QVERIFY(isCentreReached);
         for (QDockWidget *dock : m_window->findChildren<QDockWidget *>()) {
-            const bool isSeen = dock->widget() && dock->widget()->isVisible() && !dock->widget()->visibleRegion().isEmpty();
+            const bool isSeen =
+                dock->widget() && dock->widget()->isVisible() && !dock->widget()->visibleRegion().isEmpty();
             bool canHaveFocus = false;
             for (const QWidget *child : dock->widget()->findChildren<QWidget *>())
                 canHaveFocus |= (child->focusPolicy() & Qt::TabFocus) && child->isVisible() && child->isEnabled();
@@ -249,7 +257,8 @@ private slots:
                 continue;
             QStyleOptionComboBox option;
             option.initFrom(box);
-            const int room = box->style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box).width();
+            const int room =
+                box->style()->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box).width();
             for (int i = 0; i < box->count(); ++i)
                 QVERIFY2(box->fontMetrics().horizontalAdvance(box->itemText(i)) <= room, qPrintable(box->itemText(i)));
         }
@@ -259,7 +268,8 @@ private slots:
                     QVERIFY2(label->fontMetrics().horizontalAdvance(word) <= label->width(), qPrintable(label->text()));
         for (const QTabBar *tabs : m_window->findChildren<QTabBar *>())
             for (int i = 0; tabs->isVisible() && tabs->parentWidget() == m_window.get() && i < tabs->count(); ++i)
-                QVERIFY2(tabs->tabRect(i).width() >= tabs->fontMetrics().horizontalAdvance(tabs->tabText(i)), qPrintable(tabs->tabText(i)));
+                QVERIFY2(tabs->tabRect(i).width() >= tabs->fontMetrics().horizontalAdvance(tabs->tabText(i)),
+                         qPrintable(tabs->tabText(i)));
     }
 };
 

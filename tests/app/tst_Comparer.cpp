@@ -1,6 +1,6 @@
-#include "app/panels/ComparePanel.h"
 #include "app/control/Comparer.h"
 #include "app/openWindow.h"
+#include "app/panels/ComparePanel.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QLabel>
@@ -73,7 +73,8 @@ private slots:
         QVERIFY(row >= 0);
         const QRect cell = panel.table()->visualItemRect(panel.table()->item(row, 1));
         QTest::mouseClick(panel.table()->viewport(), Qt::LeftButton, {}, cell.center());
-        QVERIFY2(std::abs(window.document().viewport().cursor()->hz - 90.0) < 4.0, qPrintable(QString::number(window.document().viewport().cursor()->hz)));
+        QVERIFY2(std::abs(window.document().viewport().cursor()->hz - 90.0) < 4.0,
+                 qPrintable(QString::number(window.document().viewport().cursor()->hz)));
 
         panel.swapButton()->click();
         settle(window, settled);

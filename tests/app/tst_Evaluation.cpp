@@ -1,5 +1,7 @@
-// The evaluation side from outside: an experiment is started, grows, is cancelled, looked into; a line is injected and taken out again.
+// The evaluation side from outside: an experiment is started, grows, is cancelled, looked into; a line is injected and
+// taken out again.
 
+#include "app/openWindow.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentForm.h"
 #include "app/panels/ExperimentsPanel.h"
@@ -8,7 +10,6 @@
 #include "app/panels/TrialViewer.h"
 #include "app/panels/TrialWindow.h"
 #include "app/workspace/Workbench.h"
-#include "app/openWindow.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QFile>
@@ -54,7 +55,8 @@ private:
 void tst_Evaluation::initTestCase()
 {
     Theme::apply(Theme::Kind::Dark);
-    const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+    const QString scene =
+        writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120}]})");
     m_window = newWindow();
     QVERIFY(openAndSettle(*m_window, scene));
@@ -159,7 +161,8 @@ void tst_Evaluation::curvesComeBackFromFiles()
     const Chart before = m_window->evaluation().pd().chart();
     list.exportTo(id, m_folder.filePath("curve.csv"));
     list.exportTo(id, m_folder.filePath("runs.jsonl"));
-    QVERIFY_EXCEPTION_THROWN(list.exportTo(id, m_folder.filePath("curve.svg")), Error); // JSON lines under a drawing's name
+    QVERIFY_EXCEPTION_THROWN(list.exportTo(id, m_folder.filePath("curve.svg")),
+                             Error); // JSON lines under a drawing's name
     QVERIFY(!QFile::exists(m_folder.filePath("curve.svg")));
     // The command line makes the same curve from what stands beside it.
     QProcess replay;

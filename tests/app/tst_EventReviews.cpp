@@ -3,16 +3,16 @@
 #include "app/control/EventReviews.h"
 
 #include "app/document/Session.h"
-#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
+#include "app/workspace/Workbench.h"
 #include "exchange/readAnnotations.h"
 #include "widgets/events/EventModel.h"
 #include "widgets/events/EventTable.h"
 
 #include <QApplication>
 #include <QFile>
-#include <QInputDialog>
 #include <QImageReader>
+#include <QInputDialog>
 #include <QLineEdit>
 #include <QProcess>
 #include <QTableView>
@@ -32,7 +32,8 @@ class tst_EventReviews : public QObject
     std::vector<Verdict> verdicts() const
     {
         std::vector<Verdict> result;
-        for (const EventReview &one : eventReviews(*document().analysis(), document().shownEvents(), document().annotations().reviews))
+        for (const EventReview &one :
+             eventReviews(*document().analysis(), document().shownEvents(), document().annotations().reviews))
             result.push_back(one.verdict);
         return result;
     }
@@ -43,14 +44,16 @@ class tst_EventReviews : public QObject
         for (int id : ids)
             for (int row = 0; row < table->model()->rowCount(); ++row)
                 if (table->model()->index(row, EventModel::Id).data(EventModel::SortRole).toInt() == id)
-                    table->selectionModel()->select(table->model()->index(row, 0), QItemSelectionModel::Select | QItemSelectionModel::Rows);
+                    table->selectionModel()->select(table->model()->index(row, 0),
+                                                    QItemSelectionModel::Select | QItemSelectionModel::Rows);
     }
 
 private slots:
     void initTestCase() // opened once: every test leaves it as it was
     {
         Theme::apply(Theme::Kind::Light);
-        const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        const QString scene = writeFile(m_folder, "scene.json",
+                                        R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
             {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120, "driftHzPerSecond": 1},
             {"snrDb": 7, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 350}]})");
         m_window = newWindow({1440, 900});
@@ -139,7 +142,8 @@ private slots:
         document().viewport().setSelection({{10.0, 20.0}, {100.0, 200.0}});
         m_window->reviews().annotateSelection("pump");
         QCOMPARE(document().annotations().boxes.size(), std::size_t(1));
-        QVERIFY((document().annotations().boxes.front() == Annotation{10.0, 20.0, 100.0, 200.0, "pump", "", Verdict::None}));
+        QVERIFY((document().annotations().boxes.front()
+                 == Annotation{10.0, 20.0, 100.0, 200.0, "pump", "", Verdict::None}));
         QVERIFY(m_window->workbench().input()->grab().toImage() != before);
         document().undoStack().undo();
         QVERIFY(document().annotations().isEmpty());
@@ -196,8 +200,8 @@ private slots:
                 *error = process.readAllStandardError();
             return process.readAllStandardOutput();
         };
-        for (const QString &name :
-             {QString("r.csv"), QString("r.json"), QString("r.selections.txt"), QString("r.txt"), QString("r.sigmf-meta")}) {
+        for (const QString &name : {QString("r.csv"), QString("r.json"), QString("r.selections.txt"), QString("r.txt"),
+                                    QString("r.sigmf-meta")}) {
             m_window->reviews().exportTo(m_folder.filePath(name));
             QCOMPARE(replay(name), name.toUtf8() + ": the same bytes\n");
         }
@@ -223,8 +227,10 @@ private slots:
         QCOMPARE(document().undoStack().count(), 2);
         m_window->controller().commitThreshold(document().analysis()->threshold - 1.5);
         QVERIFY(settle(*m_window));
-        const auto said = eventReviews(*document().analysis(), document().shownEvents(), document().annotations().reviews);
-        const auto found = std::find_if(said.begin(), said.end(), [](const EventReview &one) { return one.verdict == Verdict::Accepted; });
+        const auto said =
+            eventReviews(*document().analysis(), document().shownEvents(), document().annotations().reviews);
+        const auto found = std::find_if(said.begin(), said.end(),
+                                        [](const EventReview &one) { return one.verdict == Verdict::Accepted; });
         QVERIFY(found != said.end());
         QCOMPARE(found->note, std::string("a fan in the next room"));
 

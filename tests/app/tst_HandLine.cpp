@@ -1,10 +1,11 @@
-// A line drawn by hand: points by mouse and by key, its evidence beside the detector's, and nothing given away before it is revealed.
+// A line drawn by hand: points by mouse and by key, its evidence beside the detector's, and nothing given away before
+// it is revealed.
 
+#include "app/openWindow.h"
 #include "app/panels/HandLinePanel.h"
 #include "app/workspace/Workbench.h"
-#include "app/openWindow.h"
-#include "widgets/waterfall/HandLine.h"
 #include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/HandLine.h"
 
 #include <QPushButton>
 
@@ -41,7 +42,8 @@ private:
 void tst_HandLine::initTestCase()
 {
     Theme::apply(Theme::Kind::Light);
-    const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+    const QString scene =
+        writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 50, "frequencyHz": 120, "driftHzPerSecond": 2}]})");
     m_window = newWindow();
     QVERIFY(openAndSettle(*m_window, scene));

@@ -1,5 +1,5 @@
-#include "app/panels/LearnMotionDialog.h"
 #include "app/openWindow.h"
+#include "app/panels/LearnMotionDialog.h"
 
 #include <QAction>
 #include <QLabel>
@@ -19,11 +19,14 @@ private slots:
         const auto window = newWindow();
         const QString scene = writeFile(m_folder, "line.json", R"({"sampleRateHz": 400, "durationSeconds": 120,
             "lines": [{"snrDb": 10, "frequencyHz": 80, "driftHzPerSecond": 0.1}]})");
-        QVERIFY(openAndSettle(*window, scene, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.25; }));
+        QVERIFY(openAndSettle(*window, scene,
+                              [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.25; }));
         LearnMotionDialog *dialog = learned(*window);
         QVERIFY(dialog);
         const QString words = dialog->findChild<QLabel *>("learnedMotion")->text();
-        QVERIFY2(words.contains("From 1 track") && words.contains("h(0) = 0.900") && words.contains("for one of 100 frames"), qPrintable(words));
+        QVERIFY2(words.contains("From 1 track") && words.contains("h(0) = 0.900")
+                     && words.contains("for one of 100 frames"),
+                 qPrintable(words));
         const AnalysisSettings before = window->document().settings();
         dialog->findChild<QPushButton *>("applyLearnedMotion")->click();
         QVERIFY(settle(*window));
@@ -37,7 +40,8 @@ private slots:
     void saysWhereThereIsNothing()
     {
         const auto window = newWindow();
-        const QString scene = writeFile(m_folder, "noise.json", R"({"sampleRateHz": 200, "durationSeconds": 60, "noise": {"deviation": 1}})");
+        const QString scene = writeFile(m_folder, "noise.json",
+                                        R"({"sampleRateHz": 200, "durationSeconds": 60, "noise": {"deviation": 1}})");
         QVERIFY(openAndSettle(*window, scene));
         LearnMotionDialog *dialog = learned(*window);
         QVERIFY(dialog);

@@ -1,21 +1,21 @@
-// Every lesson is gone through as a learner would: what a step says is checked where it says it, the task is open before the learner's
-// act, which is done by mouse and keys, and done after it.
+// Every lesson is gone through as a learner would: what a step says is checked where it says it, the task is open
+// before the learner's act, which is done by mouse and keys, and done after it.
 
-#include "app/window/CommandPalette.h"
 #include "app/lessons/LessonGuide.h"
 #include "app/lessons/LessonPanel.h"
-#include "app/workspace/PingBench.h"
 #include "app/lessons/PointerFrame.h"
+#include "app/lessons/lessonMeasures.h"
+#include "app/openWindow.h"
 #include "app/panels/ScanTestForm.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/welcome/WelcomePage.h"
+#include "app/window/CommandPalette.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "app/lessons/lessonMeasures.h"
-#include "app/openWindow.h"
-#include "widgets/pings/PingMap.h"
 #include "widgets/forms/SettingsForm.h"
-#include "widgets/waterfall/WaterfallView.h"
+#include "widgets/pings/PingMap.h"
 #include "widgets/plot/WalkPlot.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QAbstractScrollArea>
 #include <QButtonGroup>

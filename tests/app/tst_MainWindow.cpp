@@ -1,12 +1,12 @@
 // The window from outside: what a person does, and what is to be seen then.
 
-#include "app/help/KeysOverlay.h"
 #include "app/base/MessageBar.h"
+#include "app/help/KeysOverlay.h"
+#include "app/openWindow.h"
+#include "app/views/WindowViews.h"
 #include "app/welcome/ScenarioCard.h"
 #include "app/welcome/WelcomePage.h"
-#include "app/views/WindowViews.h"
 #include "app/workspace/Workbench.h"
-#include "app/openWindow.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
 
@@ -90,7 +90,8 @@ class tst_MainWindow : public QObject
 
     std::unique_ptr<MainWindow> window(bool remembers = false) const
     {
-        return newWindow({1400, 900}, remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
+        return newWindow({1400, 900},
+                         remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
     }
 
 private slots:
@@ -101,7 +102,8 @@ private slots:
         window.show();
         const auto says = [&window](const QString &words) {
             const auto labels = window.findChildren<QLabel *>();
-            return std::any_of(labels.begin(), labels.end(), [&](const QLabel *label) { return label->text().startsWith(words); });
+            return std::any_of(labels.begin(), labels.end(),
+                               [&](const QLabel *label) { return label->text().startsWith(words); });
         };
         // As soon as it is open, in the midst of its first analysis.
         connect(&window.document(), &Document::opened, &window, [&] {
@@ -111,8 +113,8 @@ private slots:
             });
         });
         QTemporaryDir folder;
-        const QString path =
-            writeFile(folder, "long.json", R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
+        const QString path = writeFile(
+            folder, "long.json", R"({"kind": "lines", "sampleRateHz": 48000, "durationSeconds": 36000, "lines": []})");
         QVERIFY(openAndSettle(window, path));
         QVERIFY(!window.document().analysis());
         QVERIFY(says("Stopped"));
@@ -121,7 +123,8 @@ private slots:
     void initTestCase()
     {
         Theme::apply(Theme::Kind::Dark);
-        m_scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+        m_scene = writeFile(m_folder, "scene.json",
+                            R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
             {"snrDb": 9, "referenceSeconds": 0.5, "startSeconds": 5, "durationSeconds": 40, "frequencyHz": 120,
              "driftHzPerSecond": 1},
             {"snrDb": 4, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 20, "frequencyHz": 350}]})");
@@ -173,7 +176,8 @@ private slots:
         const std::vector<Event> events = window->document().shownEvents();
         QVERIFY(!events.empty());
         QVERIFY(events.front().position.back() > 190.0 && events.front().position.back() < 270.0);
-        // All of the first five seconds: both pictures with ranges from the data, marks, a cursor, a threshold to drag, a sentence.
+        // All of the first five seconds: both pictures with ranges from the data, marks, a cursor, a threshold to drag,
+        // a sentence.
         for (const WaterfallView *view : {window->workbench().input(), window->workbench().output()}) {
             QVERIFY(view->isVisible());
             QVERIFY(view->picture());
@@ -186,7 +190,8 @@ private slots:
         QVERIFY(window->document().viewport().cursor());
         QVERIFY(window->thresholdPlot().isVisible());
         const auto labels = window->statusBar()->findChildren<QLabel *>();
-        QVERIFY(std::any_of(labels.begin(), labels.end(), [](const QLabel *label) { return label->text().contains("threshold"); }));
+        QVERIFY(std::any_of(labels.begin(), labels.end(),
+                            [](const QLabel *label) { return label->text().contains("threshold"); }));
         QVERIFY(!QApplication::activeModalWidget());
     }
 
@@ -212,7 +217,12 @@ private slots:
         QTest::mouseMove(plot.canvas(), positionOf(plot, between));
         QVERIFY(!window->controller().isBusy());
         QVERIFY2(std::abs(document.shownThreshold() - between) < 0.5,
-                 qPrintable(QString("%1, wanted %2 of %3 … %4, now %5").arg(document.shownThreshold()).arg(between).arg(weakest).arg(strongest).arg(threshold)));
+                 qPrintable(QString("%1, wanted %2 of %3 … %4, now %5")
+                                .arg(document.shownThreshold())
+                                .arg(between)
+                                .arg(weakest)
+                                .arg(strongest)
+                                .arg(threshold)));
         QVERIFY(window->eventTable().shownIds().size() < before.size());
         QVERIFY(!window->eventTable().shownIds().empty());
         QCOMPARE(*window->workbench().output()->threshold(), document.shownThreshold());
@@ -512,7 +522,8 @@ private slots:
         replay.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline"), {"replay", path("window.png")});
         QVERIFY(replay.waitForFinished(patience));
         const QByteArray error = replay.readAllStandardError();
-        QVERIFY2(error.startsWith("error: ") && error.contains("cannot be reproduced") && error.count('\n') == 1, error.constData());
+        QVERIFY2(error.startsWith("error: ") && error.contains("cannot be reproduced") && error.count('\n') == 1,
+                 error.constData());
     }
 
     void remembersFilesAndLayout()

@@ -1,7 +1,7 @@
 // Measuring in the window with keys and mouse: a box's area SNR, sidebands in both pictures, the peak.
 
-#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
+#include "app/workspace/Workbench.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QAction>
@@ -31,7 +31,8 @@ class tst_Measure : public QObject
         QTest::mousePress(canvas, Qt::LeftButton, {}, start);
         for (const double share : {0.5, 1.0}) {
             const QPointF position = start + share * QPointF(end - start);
-            QMouseEvent move(QEvent::MouseMove, position, canvas->mapToGlobal(position), Qt::NoButton, Qt::LeftButton, {});
+            QMouseEvent move(QEvent::MouseMove, position, canvas->mapToGlobal(position), Qt::NoButton, Qt::LeftButton,
+                             {});
             QCoreApplication::sendEvent(canvas, &move);
         }
         QTest::mouseRelease(canvas, Qt::LeftButton, {}, end);
@@ -49,10 +50,12 @@ private slots:
     void initTestCase()
     {
         Theme::apply(Theme::Kind::Light);
-        const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60,
+        const QString scene =
+            writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60,
                        "lines": [{"frequencyHz": 150, "snrDb": 10, "referenceSeconds": 0.5}]})");
         m_window = newWindow({1280, 800});
-        QVERIFY(openAndSettle(*m_window, scene, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
+        QVERIFY(openAndSettle(*m_window, scene,
+                              [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.5; }));
         m_window->activateWindow();
         input().setFocus();
         QVERIFY(QTest::qWaitForWindowActive(m_window.get()));
@@ -68,7 +71,8 @@ private slots:
         QCOMPARE(output().selectionText().section('\n', -1), input().selectionText().section('\n', -1));
         // 100 windows: the line's beat with the noise, and the noise of 12 cells, leave √(32/100) of 10.
         const double db = input().selectionText().section("area SNR ", 1).section(' ', 0, 0).toDouble();
-        QVERIFY2(std::abs(std::pow(10.0, 0.1 * db) - 10.0) < 4.0 * std::sqrt(32.0 / 100.0), qPrintable(input().selectionText()));
+        QVERIFY2(std::abs(std::pow(10.0, 0.1 * db) - 10.0) < 4.0 * std::sqrt(32.0 / 100.0),
+                 qPrintable(input().selectionText()));
         for (const char *word : {"Δt", "Δf", "Hz/s", "peak", "mean"})
             QVERIFY2(input().selectionText().contains(QString::fromUtf8(word)), word);
         drag(input(), {5.0, 300.0}, {55.0, 302.0});
@@ -87,7 +91,8 @@ private slots:
         QVERIFY(input().sidebandSpacing() > 0.0);
         QCOMPARE(output().sidebandSpacing(), input().sidebandSpacing());
         drag(output(), {10.0, 250.0 + output().sidebandSpacing()}, {10.0, 280.0});
-        QVERIFY2(std::abs(input().sidebandSpacing() - 30.0) < 2.0, qPrintable(QString::number(input().sidebandSpacing())));
+        QVERIFY2(std::abs(input().sidebandSpacing() - 30.0) < 2.0,
+                 qPrintable(QString::number(input().sidebandSpacing())));
         QCOMPARE(output().sidebandSpacing(), input().sidebandSpacing());
         QTest::keyClick(&input(), Qt::Key_Escape);
         QVERIFY(!sidebands->isChecked());
@@ -99,7 +104,8 @@ private slots:
         viewport().setCursor({30.0, 146.0});
         QVERIFY(action(Qt::Key_K));
         QTest::keyClick(&input(), Qt::Key_K);
-        QVERIFY2(std::abs(viewport().cursor()->hz - 150.0) <= 1.0, qPrintable(QString::number(viewport().cursor()->hz)));
+        QVERIFY2(std::abs(viewport().cursor()->hz - 150.0) <= 1.0,
+                 qPrintable(QString::number(viewport().cursor()->hz)));
     }
 };
 

@@ -1,6 +1,6 @@
+#include "app/openWindow.h"
 #include "app/panels/InfoPanel.h"
 #include "app/panels/NoiseCheck.h"
-#include "app/openWindow.h"
 
 #include <QLabel>
 #include <QPushButton>
@@ -16,7 +16,8 @@ class tst_NoiseCheck : public QObject
 private slots:
     void initTestCase()
     {
-        m_scene = writeFile(m_folder, "noise.json", R"({"sampleRateHz": 200, "durationSeconds": 120, "noise": {"deviation": 1}})");
+        m_scene = writeFile(m_folder, "noise.json",
+                            R"({"sampleRateHz": 200, "durationSeconds": 120, "noise": {"deviation": 1}})");
     }
 
     void saysWhatCame()

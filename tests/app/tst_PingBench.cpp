@@ -1,25 +1,25 @@
 // A sonar's pings in the window: opened, stepped through, saved and reopened.
 
 #include "app/base/MessageBar.h"
+#include "app/control/OutputLayers.h"
+#include "app/openWindow.h"
 #include "app/panels/LatencyPanel.h"
 #include "app/panels/LawPanel.h"
 #include "app/panels/NoiseFitPanel.h"
-#include "app/control/OutputLayers.h"
-#include "app/workspace/PingBench.h"
 #include "app/panels/StateSlicePanel.h"
-#include "app/welcome/WelcomePage.h"
 #include "app/panels/WhyPanel.h"
+#include "app/welcome/WelcomePage.h"
+#include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
-#include "app/openWindow.h"
 #include "exchange/ModelFile.h"
 #include "exchange/NumPy.h"
 #include "spectrum/SimulatedPings.h"
-#include "widgets/plot/ChartPlot.h"
 #include "widgets/events/EventTable.h"
-#include "widgets/plot/LawPlot.h"
-#include "widgets/waterfall/LayerItem.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/pings/PolarView.h"
+#include "widgets/plot/ChartPlot.h"
+#include "widgets/plot/LawPlot.h"
+#include "widgets/waterfall/LayerItem.h"
 
 #include <qwt_plot_canvas.h>
 #include <qwt_text.h>
@@ -77,7 +77,8 @@ class tst_PingBench : public QObject
 
     std::unique_ptr<MainWindow> window(bool remembers = false) const
     {
-        auto result = newWindow({1400, 900}, remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
+        auto result = newWindow(
+            {1400, 900}, remembers ? std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat) : nullptr);
         result->welcome().stop();
         return result;
     }
@@ -242,7 +243,8 @@ private slots:
         // Backwards, too.
         w->pingBench().showPing(5);
         QVERIFY(wait());
-        QVERIFY(std::ranges::equal(states.view()->picture()->row(0, 40), w->pingBench().output()->plane()->picture()->row(0, 40)));
+        QVERIFY(std::ranges::equal(states.view()->picture()->row(0, 40),
+                                   w->pingBench().output()->plane()->picture()->row(0, 40)));
     }
 
     void theLawOfBothRatesIsDragged()
@@ -251,7 +253,7 @@ private slots:
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         w->showStates();
         w->states().tabs()->setCurrentIndex(1);
-        QCoreApplication::processEvents(); // the bars find their places
+        QCoreApplication::processEvents();          // the bars find their places
         QCOMPARE(w->states().law().plotCount(), 1); // a slope set has one law for both axes
         LawPlot &plot = *w->states().law().plot(0);
         const std::vector<double> before = w->document().settings().model.slopeChange;
@@ -286,7 +288,8 @@ private slots:
         const auto *table = w->noiseFit().findChild<QTableWidget *>();
         QVERIFY2(table->rowCount() > 0, qPrintable(w->noiseFit().sentence()));
         for (int row = 0; row < table->rowCount(); ++row)
-            QVERIFY2(table->item(row, 0)->text().endsWith(QString::fromUtf8("°")), qPrintable(table->item(row, 0)->text()));
+            QVERIFY2(table->item(row, 0)->text().endsWith(QString::fromUtf8("°")),
+                     qPrintable(table->item(row, 0)->text()));
     }
 
     void theLadderOfACell()
@@ -375,7 +378,9 @@ private slots:
 
     void linesComeBackToTheirBench()
     {
-        writeFile(m_folder, "lines.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
+        writeFile(
+            m_folder, "lines.json",
+            R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
         const auto w = window();
         QVERIFY(openWithNineRates(*w, path("pings.json")));
         QVERIFY(openAndSettle(*w, path("lines.json")));
@@ -387,7 +392,9 @@ private slots:
 
     void nothingStaysUnderANewName()
     {
-        writeFile(m_folder, "before.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
+        writeFile(
+            m_folder, "before.json",
+            R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": [{"snrDb": 8, "frequencyHz": 200}]})");
         const auto w = window();
         QVERIFY(openAndSettle(*w, path("before.json")));
         QVERIFY(w->workbench().input()->picture());
@@ -418,7 +425,8 @@ private slots:
         QVERIFY(stack.open(QIODevice::ReadOnly));
         QByteArray bytes = stack.readAll();
         const qsizetype values = 24 * 120 * 8;
-        for (qsizetype i = bytes.size() - values * qsizetype(sizeof(float)); i < bytes.size(); i += qsizetype(sizeof(float))) {
+        for (qsizetype i = bytes.size() - values * qsizetype(sizeof(float)); i < bytes.size();
+             i += qsizetype(sizeof(float))) {
             float y = 0.0f;
             std::memcpy(&y, bytes.constData() + i, sizeof y);
             y *= 5.0f;
@@ -434,7 +442,8 @@ private slots:
     {
         const auto w = window();
         QStringList failures;
-        connect(&w->controller(), &AnalysisController::failed, this, [&](const Error &error) { failures << error.what(); });
+        connect(&w->controller(), &AnalysisController::failed, this,
+                [&](const Error &error) { failures << error.what(); });
         writeFile(m_folder, "bad.json", R"({"kind": "pings", "moons": 1})");
         QVERIFY(openWithNineRates(*w, path("bad.json")));
         QCOMPARE(failures.size(), 1);
@@ -462,7 +471,8 @@ private slots:
         QVERIFY(layers.item().picture());
         QCOMPARE(layers.item().picture()->rows, Index(120));
         for (Index cell = 0; cell < 960; ++cell) {
-            const CellReading there = readPixel(*layers.item().picture(), layers.item().picture()->pixelAt(cell / 8, cell % 8));
+            const CellReading there =
+                readPixel(*layers.item().picture(), layers.item().picture()->pixelAt(cell / 8, cell % 8));
             const CellReading expected = readCell(*analysis, exact, cell);
             QVERIFY(std::abs(there.ratePerSecond - expected.ratePerSecond) < 1e-5);
             QVERIFY(std::abs(there.ageSeconds - expected.ageSeconds) < 1e-3);
@@ -487,7 +497,8 @@ private slots:
         QVERIFY(layers.item().picture());
         layers.setLayer(OutputLayer::SecondRate);
         QVERIFY(settle(layers));
-        writeFile(m_folder, "line.json", R"({"kind": "lines", "sampleRateHz": 500, "durationSeconds": 10, "lines": []})");
+        writeFile(m_folder, "line.json",
+                  R"({"kind": "lines", "sampleRateHz": 500, "durationSeconds": 10, "lines": []})");
         QVERIFY(openAndSettle(*w, path("line.json")));
         QCOMPARE(layers.layer(), OutputLayer::Rate);
     }
@@ -531,11 +542,12 @@ private slots:
         const Track &track = w->document().analysis()->tracks.front();
         bench.showPing(track.detectFrame + 3);
         const Grid &grid = w->document().analysis()->grid();
-        const auto point =
-            std::find_if(track.points.begin(), track.points.end(), [&](const TrackPoint &p) { return p.frame == bench.ping(); });
+        const auto point = std::find_if(track.points.begin(), track.points.end(),
+                                        [&](const TrackPoint &p) { return p.frame == bench.ping(); });
         QVERIFY(point != track.points.end());
         const std::vector<Index> c = grid.coordinates(point->cell);
-        const PingMarks::Place place{grid.axes[0].value(static_cast<double>(c[0])), grid.axes[1].value(static_cast<double>(c[1]))};
+        const PingMarks::Place place{grid.axes[0].value(static_cast<double>(c[0])),
+                                     grid.axes[1].value(static_cast<double>(c[1]))};
         for (const bool isPolar : {false, true}) {
             bench.setPolar(isPolar);
             QCOMPARE(bench.output()->trackAt(place), track.id);
@@ -546,7 +558,8 @@ private slots:
         QMenu menu;
         emit bench.output()->plane()->contextMenuRequested(&menu, place.range, place.bearing);
         const QList<QAction *> offered = menu.actions();
-        QVERIFY(std::any_of(offered.begin(), offered.end(), [](const QAction *action) { return action->shortcut() == Qt::Key_X; }));
+        QVERIFY(std::any_of(offered.begin(), offered.end(),
+                            [](const QAction *action) { return action->shortcut() == Qt::Key_X; }));
         QCOMPARE(w->eventTable().selectedEvent(), track.id);
         bench.input()->setSelectedTrack(0);
         bench.output()->setSelectedTrack(0);

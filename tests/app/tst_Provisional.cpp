@@ -1,5 +1,5 @@
-#include "app/workspace/Workbench.h"
 #include "app/openWindow.h"
+#include "app/workspace/Workbench.h"
 
 #include <QLabel>
 #include <QStatusBar>
@@ -52,7 +52,8 @@ private slots:
         connect(&window.document(), &Document::analysisChanged, this, [&] { order << "analysis"; });
         window.controller().edit("model.snr", FieldValue(0.2718), "Change"); // never calibrated before
         QVERIFY(settled.wait(patience));
-        QCOMPARE(order, (QStringList{"provisional", "analysis", "analysis"})); // a first estimate of the threshold, then the refined one
+        QCOMPARE(order, (QStringList{"provisional", "analysis",
+                                     "analysis"})); // a first estimate of the threshold, then the refined one
         QVERIFY(title.contains("provisional"));
         QVERIFY(shown->time().first >= 29.0 && shown->time().last() <= 61.0);
         QVERIFY(!window.document().provisional());

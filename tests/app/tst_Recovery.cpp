@@ -19,7 +19,8 @@ namespace {
 
 QString writeScene(const QTemporaryDir &folder)
 {
-    return writeFile(folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
+    return writeFile(folder, "scene.json",
+                     R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20, "lines": []})");
 }
 
 std::unique_ptr<MainWindow> openedWindow(const QString &scene, const QString &recoveryFolder)

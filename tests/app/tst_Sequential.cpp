@@ -1,27 +1,27 @@
 // Sequential tests from outside: a radar's scans and a recording's view are tested, looked into, cancelled and saved.
 
 #include "app/base/MessageBar.h"
-#include "app/welcome/ScanCard.h"
+#include "app/control/scanScenario.h"
+#include "app/document/saveView.h"
+#include "app/openWindow.h"
 #include "app/panels/ScanTestForm.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/TrajectoryPage.h"
+#include "app/panels/sequentialSentences.h"
+#include "app/welcome/ScanCard.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
-#include "app/openWindow.h"
-#include "app/document/saveView.h"
-#include "app/control/scanScenario.h"
-#include "app/panels/sequentialSentences.h"
 #include "widgets/plot/BarPlot.h"
 #include "widgets/plot/CellPicture.h"
 #include "widgets/plot/ChartPlot.h"
 #include "widgets/plot/WalkPlot.h"
 
 #include <QDockWidget>
-#include <QMenuBar>
 #include <QFile>
 #include <QFileInfo>
 #include <QImage>
 #include <QLineEdit>
+#include <QMenuBar>
 #include <QProcess>
 #include <QPushButton>
 #include <QSlider>
@@ -104,7 +104,8 @@ void tst_Sequential::init()
 
 void tst_Sequential::openLine()
 {
-    const QString scene = write("line.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+    const QString scene =
+        write("line.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 6, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 35, "frequencyHz": 120}]})");
     QVERIFY(openAndSettle(*m_window, scene));
     QVERIFY(m_window->document().analysis());
@@ -208,7 +209,8 @@ void tst_Sequential::aClickSelectsEverywhere()
     // A walk on noise that no other one lies on: the one that stops last.
     int last = 0;
     for (int i = 0; i < 30; i += 2)
-        if (tests().walks()[static_cast<std::size_t>(i)].second.stages > tests().walks()[static_cast<std::size_t>(last)].second.stages)
+        if (tests().walks()[static_cast<std::size_t>(i)].second.stages
+            > tests().walks()[static_cast<std::size_t>(last)].second.stages)
             last = i;
     const Index stages = tests().walks()[static_cast<std::size_t>(last)].second.stages;
     const auto posteriorBefore = panel().trajectory().posterior().values();
@@ -238,7 +240,8 @@ void tst_Sequential::aClickSelectsEverywhere()
     QCoreApplication::processEvents();
     BarPlot &stopping = panel().stopping();
     const Index place = tests().walks()[3].second.stages;
-    QTest::mouseClick(stopping.canvas(), Qt::LeftButton, {}, stopping.canvasPosition(static_cast<double>(place), 0.1).toPoint());
+    QTest::mouseClick(stopping.canvas(), Qt::LeftButton, {},
+                      stopping.canvasPosition(static_cast<double>(place), 0.1).toPoint());
     QCOMPARE(tests().walks()[static_cast<std::size_t>(tests().selected())].second.stages, place);
 }
 
@@ -360,7 +363,8 @@ void tst_Sequential::theRecordingsViewIsTested()
     const auto &paths = panel().trajectory().posterior().paths();
     QCOMPARE(paths[0].points.size(), static_cast<std::size_t>(found.stages));
     QVERIFY(std::abs(paths[0].points.back().y() - 120.0) < 4.0);
-    QVERIFY(panel().trajectory().posterior().yAxis().first >= 99.0 && panel().trajectory().posterior().yAxis().last() <= 141.0);
+    QVERIFY(panel().trajectory().posterior().yAxis().first >= 99.0
+            && panel().trajectory().posterior().yAxis().last() <= 141.0);
     QVERIFY(panel().asn().chart().curves.empty());
 
     // The cut-off counts as well.

@@ -1,5 +1,5 @@
-#include "app/panels/OpenOptionsDialog.h"
 #include "app/document/Source.h"
+#include "app/panels/OpenOptionsDialog.h"
 
 #include "base/Error.h"
 

@@ -1,11 +1,12 @@
-// The states of a line's frames, the law by which they follow each other, and what else the detector says of its output.
+// The states of a line's frames, the law by which they follow each other, and what else the detector says of its
+// output.
 
-#include "app/panels/LawPanel.h"
 #include "app/control/OutputLayers.h"
+#include "app/openWindow.h"
+#include "app/panels/LawPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/welcome/WelcomePage.h"
 #include "app/workspace/Workbench.h"
-#include "app/openWindow.h"
 #include "widgets/plot/LawPlot.h"
 #include "widgets/waterfall/LayerItem.h"
 #include "widgets/waterfall/SliceMarks.h"
@@ -99,7 +100,8 @@ private slots:
         QVERIFY(std::abs(states.marks().best()->column - (200.0 + 0.5 * seconds)) < 3.0);
         QVERIFY(!states.marks().paths().empty());
         const QString there = states.sentence();
-        QVERIFY2(there.startsWith(QStringLiteral("Frame %1 at").arg(analysis.time().nearest(30.0) + 1)), qPrintable(there));
+        QVERIFY2(there.startsWith(QStringLiteral("Frame %1 at").arg(analysis.time().nearest(30.0) + 1)),
+                 qPrintable(there));
         // Step on, and back: the same picture.
         const auto row = [&] {
             const auto bytes = states.view()->picture()->row(0, 2);
@@ -137,7 +139,8 @@ private slots:
         QVERIFY(settle(states));
         // The line drifts by 0.5 Hz/s; neighbouring slopes are 1 Hz / 0.25 s / 8 apart.
         QVERIFY(std::abs(states.marks().best()->column - 215.0) < 3.0);
-        QVERIFY2(std::abs(states.marks().best()->row - 0.5) <= 0.5, qPrintable(QString::number(states.marks().best()->row)));
+        QVERIFY2(std::abs(states.marks().best()->row - 0.5) <= 0.5,
+                 qPrintable(QString::number(states.marks().best()->row)));
         const QString change = law().axisTitle(QwtAxis::XBottom).text();
         QVERIFY2(change.contains(QStringLiteral("(1/8 bin/frame)")), qPrintable(change));
         QCOMPARE(law().law(), (std::vector<double>{0.9, 0.05}));
@@ -285,7 +288,8 @@ private slots:
         QVERIFY(reading);
         LayerReplay replay(m_window->document().analysis());
         const Analysis &analysis = *m_window->document().analysis();
-        const CellReading exact = readCell(analysis, replay.at(analysis.time().nearest(13.0)), analysis.grid().axes[0].nearest(206.5));
+        const CellReading exact =
+            readCell(analysis, replay.at(analysis.time().nearest(13.0)), analysis.grid().axes[0].nearest(206.5));
         QCOMPARE(reading->ageSeconds, exact.ageSeconds);
         QCOMPARE(reading->ratePerSecond, exact.ratePerSecond);
         QCOMPARE(reading->statistic, exact.statistic);

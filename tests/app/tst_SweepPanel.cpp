@@ -1,6 +1,6 @@
+#include "app/openWindow.h"
 #include "app/panels/SweepForm.h"
 #include "app/panels/SweepPanel.h"
-#include "app/openWindow.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <qwt_plot.h>

@@ -1,4 +1,5 @@
-// Two hundred random edits of all kinds, undone and redone; sessions that are the same bytes however often they are saved.
+// Two hundred random edits of all kinds, undone and redone; sessions that are the same bytes however often they are
+// saved.
 
 #include "app/document/Document.h"
 #include "app/document/Session.h"
@@ -90,7 +91,8 @@ private:
             after.boxes.erase(after.boxes.begin() + upTo(static_cast<int>(after.boxes.size())));
         } else {
             const double start = number(0.0, 20.0);
-            Annotation box{start, start + number(0.0, 5.0), {}, {}, "box " + std::to_string(upTo(99)), "", Verdict(upTo(3))};
+            Annotation box{start, start + number(0.0, 5.0), {}, {}, "box " + std::to_string(upTo(99)),
+                           "",    Verdict(upTo(3))};
             if (upTo(2) == 0) {
                 box.lowHz = number(0.0, 100.0);
                 box.highHz = *box.lowHz + number(0.0, 100.0);
@@ -104,9 +106,13 @@ private:
     {
         Annotations after = document.annotations();
         if (!after.reviews.empty() && upTo(2) == 0)
-            after.reviews[static_cast<std::size_t>(upTo(static_cast<int>(after.reviews.size())))].note = "note " + std::to_string(upTo(99)) + " ½";
+            after.reviews[static_cast<std::size_t>(upTo(static_cast<int>(after.reviews.size())))].note =
+                "note " + std::to_string(upTo(99)) + " ½";
         else
-            after.reviews.push_back({{{{number(0.0, 1.0), number(2.0, 3.0)}, {{number(0.0, 9.0)}, {number(0.0, 9.0)}}, {0.5}}}, Verdict(1 + upTo(2)), ""});
+            after.reviews.push_back(
+                {{{{number(0.0, 1.0), number(2.0, 3.0)}, {{number(0.0, 9.0)}, {number(0.0, 9.0)}}, {0.5}}},
+                 Verdict(1 + upTo(2)),
+                 ""});
         document.annotate(after, "review");
     }
 
@@ -156,7 +162,9 @@ private slots:
         QVERIFY(document.undoStack().count() > 100);
         QCOMPARE(std::size_t(document.undoStack().count()) + 1, states.size());
 
-        const auto isThere = [&] { return keptOf(document) == states[static_cast<std::size_t>(document.undoStack().index())]; };
+        const auto isThere = [&] {
+            return keptOf(document) == states[static_cast<std::size_t>(document.undoStack().index())];
+        };
         while (document.undoStack().canUndo()) {
             document.undoStack().undo();
             QVERIFY(isThere());

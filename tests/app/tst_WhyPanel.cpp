@@ -1,7 +1,7 @@
 // The ladder under the cursor: its terms add up to what the picture shows, and its sentence says which way it went.
 
-#include "app/panels/WhyPanel.h"
 #include "app/openWindow.h"
+#include "app/panels/WhyPanel.h"
 #include "widgets/plot/ChartPlot.h"
 
 #include <QTableWidget>
@@ -39,7 +39,8 @@ private:
 void tst_WhyPanel::initTestCase()
 {
     Theme::apply(Theme::Kind::Light);
-    const QString scene = writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
+    const QString scene =
+        writeFile(m_folder, "scene.json", R"({"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 60, "lines": [
         {"snrDb": 6, "referenceSeconds": 0.5, "startSeconds": 20, "durationSeconds": 30, "frequencyHz": 120}]})");
     m_window = newWindow();
     QVERIFY(openAndSettle(*m_window, scene));

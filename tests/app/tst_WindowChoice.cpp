@@ -1,6 +1,6 @@
+#include "analysis/chooseWindow.h"
 #include "app/openWindow.h"
 #include "app/panels/PipelinePanel.h"
-#include "analysis/chooseWindow.h"
 
 #include <QComboBox>
 
@@ -17,9 +17,13 @@ private slots:
     {
         QByteArray lines;
         for (int i = 0; i < 8; ++i)
-            lines += QByteArray(i > 0 ? "," : "") + R"({"snrDb": 22, "referenceSeconds": 0.025, "durationSeconds": 0.4, "driftHzPerSecond": 4000,
-                "frequencyHz": )" + QByteArray::number(600 + 100 * i) + R"(, "startSeconds": )" + QByteArray::number(0.7 + 1.1 * i) + "}";
-        m_sweeps = writeFile(m_folder, "sweeps.json", R"({"sampleRateHz": 8000, "durationSeconds": 10, "seed": 7, "lines": [)" + lines + "]}");
+            lines += QByteArray(i > 0 ? "," : "")
+                     + R"({"snrDb": 22, "referenceSeconds": 0.025, "durationSeconds": 0.4, "driftHzPerSecond": 4000,
+                "frequencyHz": )"
+                     + QByteArray::number(600 + 100 * i) + R"(, "startSeconds": )" + QByteArray::number(0.7 + 1.1 * i)
+                     + "}";
+        m_sweeps = writeFile(m_folder, "sweeps.json",
+                             R"({"sampleRateHz": 8000, "durationSeconds": 10, "seed": 7, "lines": [)" + lines + "]}");
     }
 
     void tellsWhatWasTriedAndTakesAnother()
@@ -65,7 +69,8 @@ private slots:
     void isHiddenWhereNothingWasTried()
     {
         const auto window = newWindow();
-        QVERIFY(openAndSettle(*window, m_sweeps, [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.05; }));
+        QVERIFY(openAndSettle(*window, m_sweeps,
+                              [](AnalysisSettings &settings) { settings.spectrogram.windowSeconds = 0.05; }));
         QVERIFY(!window->findChild<QComboBox *>("windowChoice")->isVisibleTo(window.get()));
     }
 

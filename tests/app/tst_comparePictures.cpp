@@ -1,9 +1,9 @@
 #include "app/render/comparePictures.h"
 
 #include "base/Error.h"
-#include "widgets/plot/ColourMap.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/Theme.h"
+#include "widgets/plot/ColourMap.h"
 
 #include <QDir>
 #include <QFile>
@@ -178,8 +178,10 @@ private slots:
         QVERIFY(broken.open(QIODevice::WriteOnly));
         broken.write("no picture");
         broken.close();
-        for (const CheckOptions &options : {CheckOptions{path("nowhere.png"), path("p.png"), {}, false}, CheckOptions{path("p.png"), path("empty"), {}, false},
-                                            CheckOptions{path("empty"), path("empty"), {}, false}, CheckOptions{path("p.png"), path("broken.png"), {}, false},
+        for (const CheckOptions &options : {CheckOptions{path("nowhere.png"), path("p.png"), {}, false},
+                                            CheckOptions{path("p.png"), path("empty"), {}, false},
+                                            CheckOptions{path("empty"), path("empty"), {}, false},
+                                            CheckOptions{path("p.png"), path("broken.png"), {}, false},
                                             CheckOptions{path("e"), path("a"), path("a/out"), false}}) {
             const std::string why = refusal(options);
             QVERIFY(!why.empty());

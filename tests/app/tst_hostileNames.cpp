@@ -1,14 +1,14 @@
 // Names, notes and units from files, as they come onto the screen.
 
+#include "app/base/MessageBar.h"
+#include "app/base/filePath.h"
 #include "app/control/EventReviews.h"
+#include "app/document/Session.h"
+#include "app/lessons/LessonGuide.h"
+#include "app/openWindow.h"
 #include "app/panels/ExperimentsPanel.h"
 #include "app/window/FileDrop.h"
-#include "app/lessons/LessonGuide.h"
-#include "app/base/MessageBar.h"
-#include "app/document/Session.h"
 #include "app/workspace/Workbench.h"
-#include "app/base/filePath.h"
-#include "app/openWindow.h"
 #include "base/AtomicFile.h"
 #include "base/fileName.h"
 #include "base/oneLine.h"
@@ -58,7 +58,9 @@ std::string writeLine(const std::string &path)
 
 bool isHarmless(const QString &text)
 {
-    for (const QString &line : QString(text).replace(QLatin1Char('\t'), QLatin1Char(' ')).split(QLatin1Char('\n'))) // which we set ourselves, before keys
+    for (const QString &line : QString(text)
+                                   .replace(QLatin1Char('\t'), QLatin1Char(' '))
+                                   .split(QLatin1Char('\n'))) // which we set ourselves, before keys
         if (const QString kept = QString::fromStdString(oneLine(line.toStdString())); kept != line.trimmed())
             return false;
     return true;
@@ -128,7 +130,10 @@ class tst_hostileNames : public QObject
 
 private slots:
     void initTestCase();
-    void cleanupTestCase() { std::filesystem::remove_all(m_folder.path().toStdString()); } // QDir does not see all of it
+    void cleanupTestCase()
+    {
+        std::filesystem::remove_all(m_folder.path().toStdString());
+    } // QDir does not see all of it
     void namesComeOntoLabelsHarmless();
     void recentNamesAreHarmless();
     void errorsAreHarmless();
@@ -193,8 +198,12 @@ void tst_hostileNames::errorsAreHarmless()
 
 void tst_hostileNames::notesOfARecordingAreHarmless()
 {
-    Json meta = {{"global", {{"core:datatype", "rf32_le"}, {"core:sample_rate", 1000}, {"core:version", hostile.toStdString()},
-                             {"core:description", hostile.toStdString() + std::string(300, 'x')}, {"core:author", hostile.toStdString()}}},
+    Json meta = {{"global",
+                  {{"core:datatype", "rf32_le"},
+                   {"core:sample_rate", 1000},
+                   {"core:version", hostile.toStdString()},
+                   {"core:description", hostile.toStdString() + std::string(300, 'x')},
+                   {"core:author", hostile.toStdString()}}},
                  {"captures", {{{"core:sample_start", 0}, {"core:datetime", hostile.toStdString()}}}},
                  {"annotations", Json::array()}};
     const std::string path = pathOfName("noted.sigmf-meta");
@@ -213,7 +222,11 @@ void tst_hostileNames::reviewsOfASessionAreHarmless()
     session.source = sourceOf(pathText(recording));
     Json json = parseJson(sessionText(session, m_folder.path()), "session");
     json["recording"].erase("sha256");
-    json["annotations"] = {{"boxes", {{{"seconds", {0.5, 1.5}}, {"hz", {100, 300}}, {"label", hostile.toStdString()}, {"note", hostile.toStdString()}}}},
+    json["annotations"] = {{"boxes",
+                            {{{"seconds", {0.5, 1.5}},
+                              {"hz", {100, 300}},
+                              {"label", hostile.toStdString()},
+                              {"note", hostile.toStdString()}}}},
                            {"reviews", Json::array()}};
     const std::string path = pathOfName("reviewed.faintline");
     writeTextFile(path, json.dump());
@@ -230,8 +243,9 @@ void tst_hostileNames::reviewsOfASessionAreHarmless()
 
 void tst_hostileNames::gridsAreHarmless()
 {
-    writeTextFile(pathOfName("pings.json"),
-                  R"({"kind": "pings", "pings": 3, "rangeCells": 12, "beams": 4, "targets": [{"rangeMetres": 3030, "legs": [{"pings": 1}, {}]}]})");
+    writeTextFile(
+        pathOfName("pings.json"),
+        R"({"kind": "pings", "pings": 3, "rangeCells": 12, "beams": 4, "targets": [{"rangeMetres": 3030, "legs": [{"pings": 1}, {}]}]})");
     const auto window = newWindow();
     const QString unit = hostile + QStringLiteral("xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx");
     // Frames with axes of hostile names and units beside them.
@@ -247,8 +261,9 @@ void tst_hostileNames::gridsAreHarmless()
     }
     const QString stack = writeFile(m_folder, QStringLiteral("stack.npy"), npy);
     const Json grid = {{"time", {{"first", 0}, {"step", 40}}},
-                       {"axes", {{{"name", unit.toStdString()}, {"unit", unit.toStdString()}, {"first", 1000}, {"step", 10}},
-                                 {{"name", unit.toStdString()}, {"unit", unit.toStdString()}, {"first", 0}, {"step", 10}}}}};
+                       {"axes",
+                        {{{"name", unit.toStdString()}, {"unit", unit.toStdString()}, {"first", 1000}, {"step", 10}},
+                         {{"name", unit.toStdString()}, {"unit", unit.toStdString()}, {"first", 0}, {"step", 10}}}}};
     writeTextFile(gridPathOf(pathBytes(stack)), grid.dump());
     const int before = window->minimumSizeHint().width();
     QVERIFY(openAndSettle(*window, stack));
@@ -259,16 +274,18 @@ void tst_hostileNames::gridsAreHarmless()
     QVERIFY(QFile::remove(pathText(gridPathOf(pathBytes(stack)))));
     QVERIFY(openAndSettle(*plain, stack));
     QVERIFY(before > 0);
-    QVERIFY2(window->minimumSizeHint().width() <= plain->minimumSizeHint().width() + 100,
-             qPrintable(QStringLiteral("%1 > %2").arg(window->minimumSizeHint().width()).arg(plain->minimumSizeHint().width())));
+    QVERIFY2(
+        window->minimumSizeHint().width() <= plain->minimumSizeHint().width() + 100,
+        qPrintable(
+            QStringLiteral("%1 > %2").arg(window->minimumSizeHint().width()).arg(plain->minimumSizeHint().width())));
 }
 
 void tst_hostileNames::curvesAreHarmless()
 {
     const QString name = hostile + QString(250, QLatin1Char('x'));
     const QString path = writeFile(m_folder, hostile + QStringLiteral(".csv"),
-                                   "detector,snr_db,pd,pd_low,pd_high,trials,threshold\n\"" + name.toUtf8() + "\",1,0.5,0.4,0.6,10,\n\"" + name.toUtf8()
-                                       + "\",2,0.7,0.6,0.8,10,\n");
+                                   "detector,snr_db,pd,pd_low,pd_high,trials,threshold\n\"" + name.toUtf8()
+                                       + "\",1,0.5,0.4,0.6,10,\n\"" + name.toUtf8() + "\",2,0.7,0.6,0.8,10,\n");
     const auto window = newWindow();
     QVERIFY(openAndSettle(*window, pathText(writeLine(pathOfName("plain.wav")))));
     const int before = window->minimumSizeHint().width();
@@ -331,7 +348,8 @@ void tst_hostileNames::longNamesDoNotWidenTheWindow()
                 return -2;
             width = window->minimumSizeHint().width();
         }
-        const auto next = newWindow({1000, 700}, std::make_unique<QSettings>(memory, QSettings::IniFormat)); // with its recent names
+        const auto next =
+            newWindow({1000, 700}, std::make_unique<QSettings>(memory, QSettings::IniFormat)); // with its recent names
         return std::max(width, next->minimumSizeHint().width());
     };
     const int plain = widthWith(plainPath);
@@ -343,7 +361,9 @@ void tst_hostileNames::bytesThatAreNoTextAreOpened_data()
 {
     QTest::addColumn<QByteArray>("name");
     QTest::addColumn<QByteArray>("folder");
-    QTest::addRow("Latin-1") << QByteArray("Gr\xf6\xdf" "e.wav") << QByteArray("plain");
+    QTest::addRow("Latin-1") << QByteArray("Gr\xf6\xdf"
+                                           "e.wav")
+                             << QByteArray("plain");
     QTest::addRow("any bytes") << QByteArray("\xff\xfe\x80.wav") << QByteArray("plain");
     QTest::addRow("a folder") << QByteArray("x.wav") << QByteArray("\xe4ltere");
 }
@@ -384,7 +404,8 @@ void tst_hostileNames::bytesThatAreNoTextAreOpened()
 void tst_hostileNames::droppedNamesKeepTheirBytes()
 {
     for (const std::string name : {"/tmp/plain.wav", "/tmp/½ ünicode %41?#.wav", "/tmp/\xff\xfe.wav"}) {
-        const QUrl url(QStringLiteral("file://") + QString::fromLatin1(QByteArray::fromStdString(name).toPercentEncoding("/")));
+        const QUrl url(QStringLiteral("file://")
+                       + QString::fromLatin1(QByteArray::fromStdString(name).toPercentEncoding("/")));
         QVERIFY(pathBytes(pathOf(url)) == name);
         QVERIFY(pathBytes(pathText(name)) == name);
     }
@@ -394,7 +415,8 @@ void tst_hostileNames::droppedNamesKeepTheirBytes()
 
 void tst_hostileNames::dialogsSuggestNamesOneCanType()
 {
-    QCOMPARE(nameBeside(QStringLiteral("/tmp/a.b.wav"), QStringLiteral("-events.csv")), QStringLiteral("/tmp/a.b-events.csv"));
+    QCOMPARE(nameBeside(QStringLiteral("/tmp/a.b.wav"), QStringLiteral("-events.csv")),
+             QStringLiteral("/tmp/a.b-events.csv"));
     QCOMPARE(nameBeside(pathText("/tmp/a\xff.wav"), QStringLiteral(".html")), QStringLiteral("/tmp/a_.html"));
     QVERIFY(nameBeside(QStringLiteral("/tmp/") + QString(250, QLatin1Char('x')), QStringLiteral(".html")).size() < 255);
 }

@@ -14,21 +14,25 @@ QString helpOf(const QString &program, const QStringList &command = {})
 {
     QProcess process;
     process.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/") + program, command + QStringList{"--help"});
-    return process.waitForFinished(60000 * faintline::test::slowdown) && process.exitCode() == 0 ? QString::fromUtf8(process.readAllStandardOutput()) : QString();
+    return process.waitForFinished(60000 * faintline::test::slowdown) && process.exitCode() == 0
+               ? QString::fromUtf8(process.readAllStandardOutput())
+               : QString();
 }
 
 /// The page without its escapes: "\-" is a minus.
 QString pageOf(const QString &program)
 {
     QFile file(QStringLiteral(FAINTLINE_SOURCE_DIR "/resources/man/%1.1").arg(program));
-    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()).replace(QStringLiteral("\\-"), QStringLiteral("-"))
-                                          : QString();
+    return file.open(QIODevice::ReadOnly)
+               ? QString::fromUtf8(file.readAll()).replace(QStringLiteral("\\-"), QStringLiteral("-"))
+               : QString();
 }
 
 QStringList found(const QString &text, const QString &pattern)
 {
     QStringList result;
-    for (auto matches = QRegularExpression(pattern, QRegularExpression::MultilineOption).globalMatch(text); matches.hasNext();)
+    for (auto matches = QRegularExpression(pattern, QRegularExpression::MultilineOption).globalMatch(text);
+         matches.hasNext();)
         result << matches.next().captured(1);
     return result;
 }

@@ -51,7 +51,8 @@ QByteArray bytesOf(const QString &path)
 QMap<QString, QByteArray> contentBelow(const QString &folder)
 {
     QMap<QString, QByteArray> all;
-    for (QDirIterator entry(folder, QDir::AllEntries | QDir::Hidden | QDir::System | QDir::NoDotAndDotDot, QDirIterator::Subdirectories);
+    for (QDirIterator entry(folder, QDir::AllEntries | QDir::Hidden | QDir::System | QDir::NoDotAndDotDot,
+                            QDirIterator::Subdirectories);
          entry.hasNext();) {
         const QString path = entry.next();
         all[path] = entry.fileInfo().isDir() ? "folder" : bytesOf(path);
@@ -79,7 +80,8 @@ private slots:
         file.close();
         QFile scans(path("scans.json"));
         QVERIFY(scans.open(QIODevice::WriteOnly));
-        scans.write(R"({"kind": "scans", "azimuthCells": 1, "elevationCells": 1, "rangeCells": 20, "dopplerCells": 4, "stages": 12})");
+        scans.write(
+            R"({"kind": "scans", "azimuthCells": 1, "elevationCells": 1, "rangeCells": 20, "dopplerCells": 4, "stages": 12})");
         QFile text(path("text.wav"));
         QVERIFY(text.open(QIODevice::WriteOnly));
         text.write("This is no sound.");
@@ -87,9 +89,13 @@ private slots:
         QVERIFY(raw.open(QIODevice::WriteOnly));
         raw.write(QByteArray(80000, '\0'));
         QProcess simulation;
-        simulation.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline-cli"), {"simulate", path("scene.json"), "--out", path("kept.wav")});
+        simulation.start(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline-cli"),
+                         {"simulate", path("scene.json"), "--out", path("kept.wav")});
         QVERIFY(simulation.waitForFinished(120000 * faintline::test::slowdown) && simulation.exitCode() == 0);
-        QCOMPARE(run({"render", path("kept.wav"), "--out", path("kept.png"), "--size", "400x300", "--view", "output", "--set", "detector.kind=energy"}).error, QByteArray());
+        QCOMPARE(run({"render", path("kept.wav"), "--out", path("kept.png"), "--size", "400x300", "--view", "output",
+                      "--set", "detector.kind=energy"})
+                     .error,
+                 QByteArray());
     }
 
     void twiceIsIdentical()
@@ -108,7 +114,8 @@ private slots:
     {
         const auto picture = [&](const QString &name, const QStringList &more) {
             const Outcome outcome = run(QStringList{"render", path("scene.json"), "--view", "output,threshold",
-                                                    "--size", "400x300", "--out", path(name)} + more);
+                                                    "--size", "400x300", "--out", path(name)}
+                                        + more);
             return outcome.error.isEmpty() && outcome.exitCode == 0;
         };
         QVERIFY(picture("plain.png", {}));
@@ -126,7 +133,8 @@ private slots:
                 for (int x = 0; x < one.width(); ++x)
                     finer += two.pixel(2 * x, 2 * y) != two.pixel(2 * x + 1, 2 * y)
                              || two.pixel(2 * x, 2 * y) != two.pixel(2 * x, 2 * y + 1);
-            const int least = view == "-output.png" ? one.width() * one.height() / 10 : 400; // a raster; lines and words
+            const int least =
+                view == "-output.png" ? one.width() * one.height() / 10 : 400; // a raster; lines and words
             QVERIFY2(finer > least, qPrintable(QString::number(finer)));
         }
         QCOMPARE(run({"render", path("scene.json"), "--out", path("no.png"), "--scale", "0.5"}).exitCode, 2);
@@ -137,19 +145,22 @@ private slots:
     void aPictureIsMadeAgain()
     {
         const QString out = path("again.png");
-        QCOMPARE(run({"render", path("scene.json"), "--out", out, "--size", "900x600", "--view", "output,threshold", "--theme", "dark",
-                      "--layer", "age", "--time", "20", "--frequency", "220", "--set", "decide.falseAlarmsPerHour=3"})
+        QCOMPARE(run({"render", path("scene.json"), "--out", out, "--size", "900x600", "--view", "output,threshold",
+                      "--theme", "dark", "--layer", "age", "--time", "20", "--frequency", "220", "--set",
+                      "decide.falseAlarmsPerHour=3"})
                      .error,
                  QByteArray());
         for (const QString &name : {QString("again-output.png"), QString("again-threshold.png")}) {
             const QString told = QImageReader(path(name)).text("provenance");
-            QVERIFY2(told.contains("scenario") && told.contains("\"decide.falseAlarmsPerHour\":3.0") && !told.contains(m_folder.path()),
+            QVERIFY2(told.contains("scenario") && told.contains("\"decide.falseAlarmsPerHour\":3.0")
+                         && !told.contains(m_folder.path()),
                      qPrintable(told));
             const Outcome outcome = run({"replay", path(name)});
             QCOMPARE(outcome.error, QByteArray());
             QCOMPARE(outcome.out, name.toUtf8() + ": the same pixels\n");
         }
-        const QStringList fine{"render", path("scene.json"), "--out", path("fine.png"), "--view", "output", "--size", "400x300", "--scale", "2"};
+        const QStringList fine{"render", path("scene.json"), "--out",   path("fine.png"), "--view",
+                               "output", "--size",           "400x300", "--scale",        "2"};
         QCOMPARE(run(fine).error, QByteArray());
         QCOMPARE(run({"replay", path("fine.png")}).out, QByteArray("fine.png: the same pixels\n"));
         // One pixel of another colour is seen, its text says what it should have been.
@@ -180,12 +191,17 @@ private slots:
         QTest::addColumn<QByteArray>("to");
         QTest::addColumn<int>("exitCode");
         QTest::newRow("as it was made") << QByteArray() << QByteArray() << 0;
-        QTest::newRow("another output") << QByteArray(R"("render":{)") << QByteArray(R"("render":{"out":"../mine.png","source":"../mine.wav",)") << 0;
+        QTest::newRow("another output") << QByteArray(R"("render":{)")
+                                        << QByteArray(R"("render":{"out":"../mine.png","source":"../mine.wav",)") << 0;
         QTest::newRow("a view above") << QByteArray(R"("view":"output")") << QByteArray(R"("view":"../../mine")") << 2;
-        QTest::newRow("no view") << QByteArray(R"("view":"output")") << QByteArray(R"("view":"/../../mine","views":[])") << 1;
-        QTest::newRow("a theme that is a file") << QByteArray(R"("theme":"light")") << QByteArray(R"("theme":"../mine.json")") << 1;
-        QTest::newRow("a recording elsewhere") << QByteArray(R"("path":"kept.wav")") << QByteArray(R"("path":"../mine.wav")") << 2;
-        QTest::newRow("a recording far away") << QByteArray(R"("path":"kept.wav")") << QByteArray(R"("path":"@/mine.wav")") << 2;
+        QTest::newRow("no view") << QByteArray(R"("view":"output")") << QByteArray(R"("view":"/../../mine","views":[])")
+                                 << 1;
+        QTest::newRow("a theme that is a file")
+            << QByteArray(R"("theme":"light")") << QByteArray(R"("theme":"../mine.json")") << 1;
+        QTest::newRow("a recording elsewhere")
+            << QByteArray(R"("path":"kept.wav")") << QByteArray(R"("path":"../mine.wav")") << 2;
+        QTest::newRow("a recording far away")
+            << QByteArray(R"("path":"kept.wav")") << QByteArray(R"("path":"@/mine.wav")") << 2;
     }
 
     /// Of a picture of somebody else's, in a folder of a home folder.
@@ -204,7 +220,9 @@ private slots:
         QImage kept(path("kept.png"));
         QByteArray told = kept.text("provenance").toUtf8();
         QVERIFY2(from.isEmpty() || told.contains(from), told.constData());
-        kept.setText("provenance", QString::fromUtf8(told.replace(from.isEmpty() ? "{}" : from, to.isEmpty() ? "{}" : to).replace("@", home.path().toUtf8())));
+        kept.setText("provenance",
+                     QString::fromUtf8(told.replace(from.isEmpty() ? "{}" : from, to.isEmpty() ? "{}" : to)
+                                           .replace("@", home.path().toUtf8())));
         QVERIFY(kept.save(picture));
         const auto before = contentBelow(home.path());
         const Outcome outcome = run({"replay", picture}, home.path());
@@ -239,7 +257,8 @@ private slots:
             QCOMPARE(QImage(path("s1-" + view + ".png")).size(), QSize(700, 420));
             QVERIFY2(bytesOf(path("s1-" + view + ".png")) == bytesOf(path("s2-" + view + ".png")), qPrintable(view));
         }
-        const QStringList again{"render", path("scans.json"), "--out", path("s4.png"), "--view", "walk", "--time", "1e300"};
+        const QStringList again{"render", path("scans.json"), "--out", path("s4.png"), "--view",
+                                "walk",   "--time",           "1e300"};
         const Outcome other = run(again + quick + QStringList{"--set", "sprt.miss=0.1"});
         QCOMPARE(other.error, QByteArray());
         QVERIFY(pixelsOf(path("s4.png")) != pixelsOf(path("s1-walk.png")));
@@ -247,8 +266,8 @@ private slots:
 
     void aRecordingsSequentialTest()
     {
-        const Outcome outcome =
-            run({"render", path("scene.json"), "--out", path("r.png"), "--view", "walk,posterior", "--size", "700x420"});
+        const Outcome outcome = run(
+            {"render", path("scene.json"), "--out", path("r.png"), "--view", "walk,posterior", "--size", "700x420"});
         QCOMPARE(outcome.error, QByteArray());
         QCOMPARE(QImage(path("r-posterior.png")).size(), QSize(700, 420));
     }
@@ -266,10 +285,11 @@ private slots:
     void theSamePartAsOfTheCommandLine()
     {
         const QStringList scene{"render", path("scene.json"), "--view", "input", "--size", "700x500"};
-        const QStringList named{"--set", "selection.fromSeconds=5", "--set", "selection.toSeconds=25", "--set", "selection.lowHz=150", "--set",
-                                "selection.highHz=1e12"};
+        const QStringList named{"--set", "selection.fromSeconds=5", "--set", "selection.toSeconds=25",
+                                "--set", "selection.lowHz=150",     "--set", "selection.highHz=1e12"};
         QCOMPARE(run(scene + named + QStringList{"--out", path("named.png")}).error, QByteArray());
-        QCOMPARE(run(scene + QStringList{"--from", "5", "--to", "25", "--low", "150", "--out", path("part.png")}).error, QByteArray());
+        QCOMPARE(run(scene + QStringList{"--from", "5", "--to", "25", "--low", "150", "--out", path("part.png")}).error,
+                 QByteArray());
         QCOMPARE(run(scene + QStringList{"--out", path("whole.png")}).error, QByteArray());
         QVERIFY(pixelsOf(path("part.png")) == pixelsOf(path("named.png")));
         QVERIFY(pixelsOf(path("part.png")) != pixelsOf(path("whole.png")));
@@ -279,11 +299,13 @@ private slots:
     {
         QFile file(path("pings.json"));
         QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"kind": "pings", "pings": 16, "rangeCells": 80, "beams": 6, "targets": [{"snrDb": 12, "rangeMetres": 3200,
+        file.write(
+            R"({"kind": "pings", "pings": 16, "rangeCells": 80, "beams": 6, "targets": [{"snrDb": 12, "rangeMetres": 3200,
                        "bearingDegrees": 120, "appearPing": 3}]})");
         file.close();
         const QStringList views{"window", "input", "output", "map", "polar", "histories", "slice"};
-        const QStringList nineRates{"--set", "model.motion=slopes", "--set", "model.lowestSlope=-1", "--set", "model.highestSlope=1"};
+        const QStringList nineRates{"--set", "model.motion=slopes", "--set", "model.lowestSlope=-1",
+                                    "--set", "model.highestSlope=1"};
         for (const QString &name : {QString("p"), QString("q")}) {
             const Outcome outcome =
                 run(QStringList{"render", path("pings.json"), "--out", path(name + ".png"), "--view", views.join(','),
@@ -302,8 +324,10 @@ private slots:
     {
         const QString lesson = QStringLiteral(FAINTLINE_SOURCE_DIR "/resources/lessons/cell.json");
         for (const QString &name : {QString("s"), QString("t")})
-            QCOMPARE(run({"render", lesson, "--step", "3", "--size", "1280x800", "--out", path(name + ".png")}).error, QByteArray());
-        QCOMPARE(run({"render", lesson, "--step", "2", "--size", "1280x800", "--out", path("u.png")}).error, QByteArray());
+            QCOMPARE(run({"render", lesson, "--step", "3", "--size", "1280x800", "--out", path(name + ".png")}).error,
+                     QByteArray());
+        QCOMPARE(run({"render", lesson, "--step", "2", "--size", "1280x800", "--out", path("u.png")}).error,
+                 QByteArray());
         QVERIFY(bytesOf(path("s.png")) == bytesOf(path("t.png")));
         QVERIFY(pixelsOf(path("s.png")) != pixelsOf(path("u.png")));
     }
@@ -320,23 +344,28 @@ private slots:
         QTest::newRow("no out") << QStringList{"render", scene} << "--out";
         QTest::newRow("view") << QStringList{"render", scene, "--out", out, "--view", "moon"} << "moon";
         QTest::newRow("view of pings") << QStringList{"render", scene, "--out", out, "--view", "polar"} << "polar";
-        QTest::newRow("another kind of picture") << QStringList{"render", scene, "--out", path("never.jpg")} << "must end in .png";
-        QTest::newRow("another kind of page") << QStringList{"report", scene, "--out", path("never.pdf")} << "must end in .html";
+        QTest::newRow("another kind of picture")
+            << QStringList{"render", scene, "--out", path("never.jpg")} << "must end in .png";
+        QTest::newRow("another kind of page")
+            << QStringList{"report", scene, "--out", path("never.pdf")} << "must end in .html";
         QTest::newRow("size") << QStringList{"render", scene, "--out", out, "--size", "big"} << "--size";
         QTest::newRow("small") << QStringList{"render", scene, "--out", out, "--size", "400x300"} << "--size";
         QTest::newRow("theme") << QStringList{"render", scene, "--out", out, "--theme", "pink"} << "theme";
         QTest::newRow("setting") << QStringList{"render", scene, "--out", out, "--set", "model.snr=-3"} << "model.snr";
         QTest::newRow("no setting") << QStringList{"render", scene, "--out", out, "--set", "moon=1"} << "moon";
         QTest::newRow("preset") << QStringList{"render", scene, "--out", out, "--preset", "moon"} << "moon";
-        QTest::newRow("scans of a recording") << QStringList{"render", scene, "--out", out, "--view", "sectors"} << "sectors";
+        QTest::newRow("scans of a recording")
+            << QStringList{"render", scene, "--out", out, "--view", "sectors"} << "sectors";
         const QString scans = path("scans.json");
         QTest::newRow("waterfall of scans") << QStringList{"render", scans, "--out", out, "--view", "input"} << "input";
         QTest::newRow("setting of scans") << QStringList{"render", scans, "--out", out, "--set", "moon=1"} << "moon";
-        QTest::newRow("range of scans") << QStringList{"render", scans, "--out", out, "--set", "sprt.miss=7"} << "sprt.miss";
+        QTest::newRow("range of scans") << QStringList{"render", scans, "--out", out, "--set", "sprt.miss=7"}
+                                        << "sprt.miss";
         const QString lesson = QStringLiteral(FAINTLINE_SOURCE_DIR "/resources/lessons/cell.json");
         QTest::newRow("step") << QStringList{"render", lesson, "--out", out, "--step", "99"} << "--step";
         QTest::newRow("step of a scene") << QStringList{"render", scene, "--out", out, "--step", "1"} << "--step";
-        QTest::newRow("setting of a lesson") << QStringList{"render", lesson, "--out", out, "--set", "model.snr=1"} << "--set";
+        QTest::newRow("setting of a lesson")
+            << QStringList{"render", lesson, "--out", out, "--set", "model.snr=1"} << "--set";
         QTest::newRow("option") << QStringList{"render", scene, "--out", out, "--moon"} << "--moon";
         QTest::newRow("folder") << QStringList{"render", scene,     "--out", path("no/such/folder.png"),
                                                "--size", "1200x700"}

@@ -68,7 +68,8 @@ private slots:
     {
         QImageReader reader(save("v.png"));
         QCOMPARE(reader.size(), QSize(120, 60));
-        QVERIFY(parseJson(reader.text(pictureProvenanceKey()).toStdString(), "text") == parseJson(provenance, "what was given"));
+        QVERIFY(parseJson(reader.text(pictureProvenanceKey()).toStdString(), "text")
+                == parseJson(provenance, "what was given"));
         QVERIFY(QImageReader(save("plain.png", {})).text(pictureProvenanceKey()).isEmpty());
     }
 
@@ -77,7 +78,8 @@ private slots:
         QXmlStreamReader xml(bytesOf(save("v.svg")));
         QString description;
         while (!xml.atEnd())
-            if (xml.readNext() == QXmlStreamReader::StartElement && xml.name() == QLatin1String("desc") && description.isEmpty())
+            if (xml.readNext() == QXmlStreamReader::StartElement && xml.name() == QLatin1String("desc")
+                && description.isEmpty())
                 description = xml.readElementText();
         QVERIFY2(!xml.hasError(), qPrintable(xml.errorString()));
         QCOMPARE(description.trimmed(), QString::fromStdString(provenance).trimmed());

@@ -1,7 +1,7 @@
 // What is asked before unsaved work is lost, and what happens after each answer.
 
-#include "app/lessons/LessonGuide.h"
 #include "app/document/Session.h"
+#include "app/lessons/LessonGuide.h"
 #include "app/openWindow.h"
 
 #include <QAbstractButton>

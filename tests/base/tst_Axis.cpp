@@ -29,8 +29,8 @@ private slots:
 
 namespace {
 
-    const Axis frequency{"frequency", "Hz", 100.0, 0.5, 5, false}; // 100, 100.5, … 102 Hz
-    const Axis bearing{"bearing", "°", 0.0, 90.0, 4, true};        // 0, 90, 180, 270°, and round again
+const Axis frequency{"frequency", "Hz", 100.0, 0.5, 5, false}; // 100, 100.5, … 102 Hz
+const Axis bearing{"bearing", "°", 0.0, 90.0, 4, true};        // 0, 90, 180, 270°, and round again
 
 } // namespace
 
@@ -45,10 +45,12 @@ void tst_Axis::valuesOfIndices()
 
 void tst_Axis::positionUndoesValue()
 {
-    for (const Axis &axis : {frequency, bearing, Axis{"f", "Hz", -0.3, 1e-3, 7, false}, Axis{"t", "s", 1e6, 0.125, 9, false}})
+    for (const Axis &axis :
+         {frequency, bearing, Axis{"f", "Hz", -0.3, 1e-3, 7, false}, Axis{"t", "s", 1e6, 0.125, 9, false}})
         for (Index i = -3; i < axis.count + 3; ++i) {
             const auto index = static_cast<double>(i);
-            QVERIFY(std::abs(axis.position(axis.value(index)) - index) < 1e-9 * std::max(1.0, std::abs(axis.first / axis.step)));
+            QVERIFY(std::abs(axis.position(axis.value(index)) - index)
+                    < 1e-9 * std::max(1.0, std::abs(axis.first / axis.step)));
         }
 }
 
@@ -129,7 +131,8 @@ void tst_Axis::cellsOfAGrid()
 
 void tst_Axis::coordinatesUndoCell()
 {
-    const Grid grid{{{"a", "", 0, 1, 3, false}, {"b", "", 0, 1, 1, true}, {"c", "", 0, 1, 4, true}, {"d", "", 0, 1, 2, false}}};
+    const Grid grid{
+        {{"a", "", 0, 1, 3, false}, {"b", "", 0, 1, 1, true}, {"c", "", 0, 1, 4, true}, {"d", "", 0, 1, 2, false}}};
     std::set<std::vector<Index>> seen;
     for (Index cell = 0; cell < grid.size(); ++cell) {
         const std::vector<Index> coordinates = grid.coordinates(cell);

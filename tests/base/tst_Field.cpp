@@ -41,44 +41,44 @@ private:
 
 namespace {
 
-    enum class Colour { Red, Green };
-    constexpr std::array<std::string_view, 2> colourNames{"red", "green"};
+enum class Colour { Red, Green };
+constexpr std::array<std::string_view, 2> colourNames{"red", "green"};
 
-    struct Lamp {
-        bool isOn = false;
-        int count = 2;
-        double watts = 40.0;
-        Colour colour = Colour::Red;
-        std::vector<double> hours{1.0, 2.0};
+struct Lamp {
+    bool isOn = false;
+    int count = 2;
+    double watts = 40.0;
+    Colour colour = Colour::Red;
+    std::vector<double> hours{1.0, 2.0};
+};
+
+const std::vector<Field<Lamp>> &fields()
+{
+    static const std::vector<Field<Lamp>> table{
+        field(&Lamp::isOn, "on", "Is it?"),
+        field(&Lamp::count, "count", "", -3.0, 9.0, "How many."),
+        field(&Lamp::watts, "watts", "W", 0.0, 100.0, "How bright."),
+        field(&Lamp::colour, "colour", colourNames, "Which."),
+        field(&Lamp::hours, "hours", "h", 0.0, 24.0, "When."),
     };
+    return table;
+}
 
-    const std::vector<Field<Lamp>> &fields()
-    {
-        static const std::vector<Field<Lamp>> table{
-            field(&Lamp::isOn, "on", "Is it?"),
-            field(&Lamp::count, "count", "", -3.0, 9.0, "How many."),
-            field(&Lamp::watts, "watts", "W", 0.0, 100.0, "How bright."),
-            field(&Lamp::colour, "colour", colourNames, "Which."),
-            field(&Lamp::hours, "hours", "h", 0.0, 24.0, "When."),
-        };
-        return table;
-    }
+const Field<Lamp> &fieldOf(const QString &name)
+{
+    for (const auto &f : fields())
+        if (f.name == name.toStdString())
+            return f;
+    qFatal("the test asks for a field that is not in its table");
+}
 
-    const Field<Lamp> &fieldOf(const QString &name)
-    {
-        for (const auto &f : fields())
-            if (f.name == name.toStdString())
-                return f;
-        qFatal("the test asks for a field that is not in its table");
-    }
-
-    /// The decimal comma and grouped thousands of half the world.
-    class Comma : public std::numpunct<char>
-    {
-        char do_decimal_point() const override { return ','; }
-        char do_thousands_sep() const override { return '.'; }
-        std::string do_grouping() const override { return "\3"; }
-    };
+/// The decimal comma and grouped thousands of half the world.
+class Comma : public std::numpunct<char>
+{
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
 
 } // namespace
 
@@ -106,18 +106,42 @@ void tst_Field::parses_data()
         QTest::newRow(yes) << "on" << yes << "true";
     for (const char *no : {"false", "0", "off", "no"})
         QTest::newRow(no) << "on" << no << "false";
-    QTest::newRow("whole") << "count" << "7" << "7";
-    QTest::newRow("negative") << "count" << "-3" << "-3";
-    QTest::newRow("whole with a point") << "count" << "2.0" << "2";
-    QTest::newRow("number") << "watts" << "0.5" << "0.5";
-    QTest::newRow("exponent") << "watts" << "1e1" << "10";
-    QTest::newRow("sign") << "watts" << "+12" << "12";
-    QTest::newRow("lower end") << "watts" << "0" << "0";
-    QTest::newRow("upper end") << "watts" << "100" << "100";
-    QTest::newRow("choice") << "colour" << "green" << "green";
-    QTest::newRow("list") << "hours" << "1,2.5,3" << "1, 2.5, 3";
-    QTest::newRow("list in brackets") << "hours" << "[1; 2.5]" << "1, 2.5";
-    QTest::newRow("empty list") << "hours" << "[]" << "";
+    QTest::newRow("whole") << "count"
+                           << "7"
+                           << "7";
+    QTest::newRow("negative") << "count"
+                              << "-3"
+                              << "-3";
+    QTest::newRow("whole with a point") << "count"
+                                        << "2.0"
+                                        << "2";
+    QTest::newRow("number") << "watts"
+                            << "0.5"
+                            << "0.5";
+    QTest::newRow("exponent") << "watts"
+                              << "1e1"
+                              << "10";
+    QTest::newRow("sign") << "watts"
+                          << "+12"
+                          << "12";
+    QTest::newRow("lower end") << "watts"
+                               << "0"
+                               << "0";
+    QTest::newRow("upper end") << "watts"
+                               << "100"
+                               << "100";
+    QTest::newRow("choice") << "colour"
+                            << "green"
+                            << "green";
+    QTest::newRow("list") << "hours"
+                          << "1,2.5,3"
+                          << "1, 2.5, 3";
+    QTest::newRow("list in brackets") << "hours"
+                                      << "[1; 2.5]"
+                                      << "1, 2.5";
+    QTest::newRow("empty list") << "hours"
+                                << "[]"
+                                << "";
 }
 
 void tst_Field::parses()
@@ -133,21 +157,51 @@ void tst_Field::refuses_data()
     QTest::addColumn<QString>("name");
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("sentence");
-    QTest::newRow("flag") << "on" << "maybe" << "on = maybe: must be true or false";
-    QTest::newRow("below") << "count" << "-4" << "count = -4: must lie in -3 … 9, a whole number";
-    QTest::newRow("fraction") << "count" << "1.5" << "count = 1.5: must lie in -3 … 9, a whole number";
-    QTest::newRow("beyond int") << "count" << "4294967297" << "count = 4294967297: must lie in -3 … 9, a whole number";
-    QTest::newRow("above") << "watts" << "100.5" << "watts = 100.5: must lie in 0 … 100 W";
-    QTest::newRow("not a number") << "watts" << "nan" << "watts = nan: must lie in 0 … 100 W";
-    QTest::newRow("infinite") << "watts" << "inf" << "watts = inf: must lie in 0 … 100 W";
-    QTest::newRow("beyond double") << "watts" << "1e999" << "watts = 1e999: must lie in 0 … 100 W";
-    QTest::newRow("decimal comma") << "watts" << "1,5" << "watts = 1,5: must lie in 0 … 100 W";
-    QTest::newRow("nothing") << "watts" << "" << "watts = : must lie in 0 … 100 W";
-    QTest::newRow("choice") << "colour" << "blue" << "colour = blue: must be one of red, green";
-    QTest::newRow("capital") << "colour" << "Red" << "colour = Red: must be one of red, green";
-    QTest::newRow("list") << "hours" << "1,x" << "hours = 1,x: must be a list of numbers";
-    QTest::newRow("gap in a list") << "hours" << "1,,2" << "hours = 1,,2: must be a list of numbers";
-    QTest::newRow("list's range") << "hours" << "1,25" << "hours = 1, 25: each number must lie in 0 … 24 h";
+    QTest::newRow("flag") << "on"
+                          << "maybe"
+                          << "on = maybe: must be true or false";
+    QTest::newRow("below") << "count"
+                           << "-4"
+                           << "count = -4: must lie in -3 … 9, a whole number";
+    QTest::newRow("fraction") << "count"
+                              << "1.5"
+                              << "count = 1.5: must lie in -3 … 9, a whole number";
+    QTest::newRow("beyond int") << "count"
+                                << "4294967297"
+                                << "count = 4294967297: must lie in -3 … 9, a whole number";
+    QTest::newRow("above") << "watts"
+                           << "100.5"
+                           << "watts = 100.5: must lie in 0 … 100 W";
+    QTest::newRow("not a number") << "watts"
+                                  << "nan"
+                                  << "watts = nan: must lie in 0 … 100 W";
+    QTest::newRow("infinite") << "watts"
+                              << "inf"
+                              << "watts = inf: must lie in 0 … 100 W";
+    QTest::newRow("beyond double") << "watts"
+                                   << "1e999"
+                                   << "watts = 1e999: must lie in 0 … 100 W";
+    QTest::newRow("decimal comma") << "watts"
+                                   << "1,5"
+                                   << "watts = 1,5: must lie in 0 … 100 W";
+    QTest::newRow("nothing") << "watts"
+                             << ""
+                             << "watts = : must lie in 0 … 100 W";
+    QTest::newRow("choice") << "colour"
+                            << "blue"
+                            << "colour = blue: must be one of red, green";
+    QTest::newRow("capital") << "colour"
+                             << "Red"
+                             << "colour = Red: must be one of red, green";
+    QTest::newRow("list") << "hours"
+                          << "1,x"
+                          << "hours = 1,x: must be a list of numbers";
+    QTest::newRow("gap in a list") << "hours"
+                                   << "1,,2"
+                                   << "hours = 1,,2: must be a list of numbers";
+    QTest::newRow("list's range") << "hours"
+                                  << "1,25"
+                                  << "hours = 1, 25: each number must lie in 0 … 24 h";
 }
 
 void tst_Field::refuses()
@@ -242,7 +296,8 @@ void tst_Field::numbersReadBackBitForBit()
 void tst_Field::textThatIsNoNumber_data()
 {
     QTest::addColumn<QByteArray>("text");
-    for (const char *text : {"", " ", " 1", "1 ", "1,5", "1.5.2", "0x10", "1e", "e5", "+", "-", "--1", "+-1", "++1", "1_000", "1e999", "½"})
+    for (const char *text : {"", " ", " 1", "1 ", "1,5", "1.5.2", "0x10", "1e", "e5", "+", "-", "--1", "+-1", "++1",
+                             "1_000", "1e999", "½"})
         QTest::newRow(text) << QByteArray(text);
     QTest::newRow("a zero byte") << QByteArray("1\0", 2);
 }

@@ -177,7 +177,8 @@ void tst_Normals::exponentials()
     for (std::size_t i = 0; i < sorted.size(); ++i) {
         const double law = -std::expm1(-static_cast<double>(sorted[i]));
         const auto n = static_cast<double>(sorted.size());
-        distance = std::max({distance, std::abs(law - static_cast<double>(i) / n), std::abs(law - static_cast<double>(i + 1) / n)});
+        distance = std::max(
+            {distance, std::abs(law - static_cast<double>(i) / n), std::abs(law - static_cast<double>(i + 1) / n)});
     }
     QVERIFY(distance < 1.95 / std::sqrt(static_cast<double>(sorted.size()))); // Kolmogorov-Smirnov, one in a thousand
 
@@ -190,7 +191,8 @@ void tst_Normals::exponentials()
     QVERIFY(std::equal(parts.begin(), parts.end(), values.begin()));
     Random words(7, 1);
     for (std::size_t i = 0; i < 1000; ++i)
-        QVERIFY(std::abs(static_cast<double>(values[i]) - words.exponential()) < 1e-6 * (1.0 + static_cast<double>(values[i])));
+        QVERIFY(std::abs(static_cast<double>(values[i]) - words.exponential())
+                < 1e-6 * (1.0 + static_cast<double>(values[i])));
 }
 
 QTEST_APPLESS_MAIN(tst_Normals)

@@ -2,7 +2,8 @@
 #include <QRegularExpression>
 #include <QtTest>
 
-/// What the documents say of the source tree is so: links lead somewhere, files that are named exist, code that is shown is code that runs.
+/// What the documents say of the source tree is so: links lead somewhere, files that are named exist, code that is
+/// shown is code that runs.
 class tst_documents : public QObject
 {
     Q_OBJECT
@@ -21,33 +22,33 @@ private:
 
 namespace {
 
-    QString root()
-    {
-        return QStringLiteral(FAINTLINE_SOURCE_DIR "/");
-    }
+QString root()
+{
+    return QStringLiteral(FAINTLINE_SOURCE_DIR "/");
+}
 
-    QString contentOf(const QString &path)
-    {
-        QFile file(root() + path);
-        return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
-    }
+QString contentOf(const QString &path)
+{
+    QFile file(root() + path);
+    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+}
 
-    QStringList found(const QString &text, const char *pattern)
-    {
-        QStringList all;
-        const QRegularExpression expression(QString::fromLatin1(pattern));
-        for (auto i = expression.globalMatch(text); i.hasNext();)
-            all << i.next().captured(1);
-        return all;
-    }
+QStringList found(const QString &text, const char *pattern)
+{
+    QStringList all;
+    const QRegularExpression expression(QString::fromLatin1(pattern));
+    for (auto i = expression.globalMatch(text); i.hasNext();)
+        all << i.next().captured(1);
+    return all;
+}
 
 } // namespace
 
 void tst_documents::documents()
 {
     QTest::addColumn<QString>("path");
-    for (const char *path : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "core/README.md", "docs/design.md", "docs/theory.md",
-                             "docs/performance.md"})
+    for (const char *path : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "core/README.md", "docs/design.md",
+                             "docs/theory.md", "docs/performance.md"})
         QTest::newRow(path) << QString::fromLatin1(path);
 }
 
@@ -64,8 +65,10 @@ void tst_documents::linksLeadSomewhere()
 void tst_documents::namedFilesExist()
 {
     QFETCH(QString, path);
-    // A folder of the source tree and what is in it, with or without the extension, as `core/detect` or `tests/detect/tst_Sprt`.
-    for (const QString &name : found(contentOf(path), R"(`((?:core|widgets|app|tests|docs|examples|resources)/[\w./-]+))")) {
+    // A folder of the source tree and what is in it, with or without the extension, as `core/detect` or
+    // `tests/detect/tst_Sprt`.
+    for (const QString &name :
+         found(contentOf(path), R"(`((?:core|widgets|app|tests|docs|examples|resources)/[\w./-]+))")) {
         const QFileInfo file(root() + name);
         const bool isUnit = !file.dir().entryList({file.fileName() + ".*"}).isEmpty();
         QVERIFY2(file.exists() || isUnit, qPrintable(name));

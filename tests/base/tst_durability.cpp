@@ -20,7 +20,8 @@ int failing = -1;               ///< the fsync that fails, counted from 0
 std::string nameOf(int descriptor)
 {
     std::error_code code;
-    const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), code);
+    const std::filesystem::path path =
+        std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(descriptor), code);
     return path.extension() == ".part" ? "temporary" : path.filename().string();
 }
 
@@ -51,7 +52,8 @@ extern "C" int rename(const char *from, const char *to) noexcept
 
 using namespace faintline;
 
-/// What was written is on the disk before it has its name, and the name after that; several files appear together or not at all.
+/// What was written is on the disk before it has its name, and the name after that; several files appear together or
+/// not at all.
 class tst_durability : public QObject
 {
     Q_OBJECT
@@ -74,7 +76,10 @@ private slots:
 
 private:
     std::string path(const std::string &name) const { return m_folder->path().toStdString() + "/folder/" + name; }
-    QStringList files() const { return QDir(m_folder->filePath("folder")).entryList(QDir::Files | QDir::Hidden, QDir::Name); }
+    QStringList files() const
+    {
+        return QDir(m_folder->filePath("folder")).entryList(QDir::Files | QDir::Hidden, QDir::Name);
+    }
 
     std::unique_ptr<QTemporaryDir> m_folder;
 };
@@ -112,8 +117,8 @@ void tst_durability::togetherOrNotAtAll()
         QCOMPARE(large.path(), path("large"));
         files.commit();
     }
-    QCOMPARE(calls,
-             (std::vector<std::string>{"sync temporary", "sync temporary", "rename to told", "sync folder", "rename to large", "sync folder"}));
+    QCOMPARE(calls, (std::vector<std::string>{"sync temporary", "sync temporary", "rename to told", "sync folder",
+                                              "rename to large", "sync folder"}));
     QCOMPARE(files(), (QStringList{"large", "told"}));
 
     calls.clear();
@@ -132,12 +137,18 @@ void tst_durability::togetherOrNotAtAll()
 void tst_durability::abandonedFilesGo()
 {
     // As a killed program leaves them; none of the others is one of this file's.
-    for (const char *name : {"a.4711-0.part", "a.4711-12.part", "a.part", "a.x-0.part", "ab.4711-0.part", "a.4711-0.part.old"})
+    for (const char *name :
+         {"a.4711-0.part", "a.4711-12.part", "a.part", "a.x-0.part", "ab.4711-0.part", "a.4711-0.part.old"})
         QVERIFY(QFile(m_folder->filePath("folder/") + name).open(QIODevice::WriteOnly));
     AtomicFile held(path("a")); // is being written: nobody takes it away
     writeTextFile(path("a"), "text");
-    QStringList expected{"a", QString::fromStdString(std::filesystem::path("a." + std::to_string(getpid()) + "-0.part").string()),
-                         "a.4711-0.part.old", "a.part", "a.x-0.part", "ab.4711-0.part"};
+    QStringList expected{
+        "a",
+        QString::fromStdString(std::filesystem::path("a." + std::to_string(getpid()) + "-0.part").string()),
+        "a.4711-0.part.old",
+        "a.part",
+        "a.x-0.part",
+        "ab.4711-0.part"};
     QStringList found = files();
     expected.sort(); // a process may have any number
     found.sort();

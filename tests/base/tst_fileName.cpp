@@ -20,7 +20,7 @@ private slots:
 void tst_fileName::thereAndBack()
 {
     QCOMPARE(textFromFileName("½ plain"), std::string("½ plain"));
-    QCOMPARE(textFromFileName("\xff"), std::string("\xf4\x8f\xbb\xbf")); // U+10FEFF
+    QCOMPARE(textFromFileName("\xff"), std::string("\xf4\x8f\xbb\xbf"));             // U+10FEFF
     QCOMPARE(fileNameFromText("\xf4\x8f\xb7\xbf"), std::string("\xf4\x8f\xb7\xbf")); // U+10FDFF is another's
     for (int first = 0; first < 256; ++first)
         for (int second = 0; second < 256; ++second) {

@@ -124,7 +124,8 @@ void tst_json::wholeNumbers()
     QCOMPARE(whole("2147483647", 0), 2147483647);
     QCOMPARE(whole("18446744073709551615", std::uint64_t(0)), std::numeric_limits<std::uint64_t>::max());
     QCOMPARE(whole("1e15", Index(0)), Index(1000000000000000));
-    for (const char *none : {"2147483648", "-2147483649", "1e300", "-1e300", "1e999", "0.5", "true", "null", "\"1\"", "[1]"})
+    for (const char *none :
+         {"2147483648", "-2147483649", "1e300", "-1e300", "1e999", "0.5", "true", "null", "\"1\"", "[1]"})
         QVERIFY_THROWS_EXCEPTION(Error, whole(none, 0));
     for (const char *none : {"-1", "18446744073709551616", "1e20"})
         QVERIFY_THROWS_EXCEPTION(Error, whole(none, std::uint64_t(0)));

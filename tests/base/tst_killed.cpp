@@ -10,7 +10,8 @@
 
 using namespace faintline;
 
-/// What a program leaves that is killed while it writes, at any moment: sessions, recovery, results with what tells of them.
+/// What a program leaves that is killed while it writes, at any moment: sessions, recovery, results with what tells of
+/// them.
 class tst_killed : public QObject
 {
     Q_OBJECT
@@ -21,37 +22,38 @@ private slots:
 
 namespace {
 
-    constexpr int letters = 200000;
+constexpr int letters = 200000;
 
-    std::string textOf(int version)
-    {
-        return std::string(letters, static_cast<char>('a' + version % 26)) + std::to_string(version);
-    }
+std::string textOf(int version)
+{
+    return std::string(letters, static_cast<char>('a' + version % 26)) + std::to_string(version);
+}
 
-    /// Writes one version after the other, and tells on a pipe which is on the disk.
-    [[noreturn]] void writeForEver(const std::string &session, const std::string &result, int pipe)
-    {
-        for (int version = 1;; ++version) {
-            writeTextFile(session, textOf(version));
-            CommitTogether files;
-            writeTextFile(result + ".provenance.json", std::to_string(version));
-            writeTextFile(result, textOf(version));
-            files.commit();
-            (void)!::write(pipe, &version, sizeof version);
-        }
+/// Writes one version after the other, and tells on a pipe which is on the disk.
+[[noreturn]] void writeForEver(const std::string &session, const std::string &result, int pipe)
+{
+    for (int version = 1;; ++version) {
+        writeTextFile(session, textOf(version));
+        CommitTogether files;
+        writeTextFile(result + ".provenance.json", std::to_string(version));
+        writeTextFile(result, textOf(version));
+        files.commit();
+        (void)!::write(pipe, &version, sizeof version);
     }
+}
 
-    QByteArray contentOf(const std::string &path)
-    {
-        QFile file(QString::fromStdString(path));
-        return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-    }
+QByteArray contentOf(const std::string &path)
+{
+    QFile file(QString::fromStdString(path));
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
 
 } // namespace
 
 void tst_killed::filesAreWholeAndNewest()
 {
-    const int kills = qEnvironmentVariableIsSet("FAINTLINE_KILLS") ? qEnvironmentVariableIntValue("FAINTLINE_KILLS") : 5;
+    const int kills =
+        qEnvironmentVariableIsSet("FAINTLINE_KILLS") ? qEnvironmentVariableIntValue("FAINTLINE_KILLS") : 5;
     const QTemporaryDir folder;
     const std::string session = folder.filePath("session").toStdString();
     const std::string result = folder.filePath("result").toStdString();

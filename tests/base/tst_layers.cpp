@@ -2,8 +2,9 @@
 #include <QRegularExpression>
 #include <QtTest>
 
-/// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the project, the widgets the
-/// core as well, the app both. No two units (a header with its source) include each other, at no distance.
+/// Who may include whom: a folder includes itself and the folders to its left. The core includes nothing else of the
+/// project, the widgets the core as well, the app both. No two units (a header with its source) include each other, at
+/// no distance.
 class tst_layers : public QObject
 {
     Q_OBJECT
@@ -28,122 +29,124 @@ private:
 
 namespace {
 
-    const QStringList order{"base", "recording", "spectrum", "model", "detect", "track", "analysis", "evaluate", "exchange"};
-    const QStringList widgetOrder{"base", "plot", "waterfall", "pings", "events", "forms"};
-    const QStringList appOrder{"cli",   "base",    "document", "control", "workspace", "panels",
-                               "views", "lessons", "help",     "welcome", "window",    "render"};
+const QStringList order{"base",  "recording", "spectrum", "model",   "detect",
+                        "track", "analysis",  "evaluate", "exchange"};
+const QStringList widgetOrder{"base", "plot", "waterfall", "pings", "events", "forms"};
+const QStringList appOrder{"cli",   "base",    "document", "control", "workspace", "panels",
+                           "views", "lessons", "help",     "welcome", "window",    "render"};
 
-    QString root()
-    {
-        return QStringLiteral(FAINTLINE_SOURCE_DIR "/");
+QString root()
+{
+    return QStringLiteral(FAINTLINE_SOURCE_DIR "/");
+}
+
+QString contentOf(const QString &path)
+{
+    QFile file(root() + path);
+    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+}
+
+struct Include {
+    QString name;
+    bool isQuoted = false;
+};
+
+QList<Include> includesOf(const QString &text)
+{
+    static const QRegularExpression pattern(R"(^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"])",
+                                            QRegularExpression::MultilineOption);
+    QList<Include> found;
+    for (auto i = pattern.globalMatch(text); i.hasNext();) {
+        const auto match = i.next();
+        found.append({match.captured(2), match.captured(1) == "\""});
     }
+    return found;
+}
 
-    QString contentOf(const QString &path)
-    {
-        QFile file(root() + path);
-        return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+bool isQt(const QString &name)
+{
+    static const QRegularExpression pattern("^(Qt|Qwt|Q[A-Z]|qwt_|q[a-z]+\\.h$)");
+    return pattern.match(name).hasMatch();
+}
+
+/// What a file of the core, "folder/Name.h", includes that it must not; empty if nothing.
+QString wrongInCore(const QString &path, const QString &text)
+{
+    const auto rank = order.indexOf(path.section('/', 0, 0));
+    for (const Include &include : includesOf(text)) {
+        if (isQt(include.name))
+            return include.name + " is Qt";
+        if (include.name == "fftw3.h" && path != "spectrum/Fft.cpp")
+            return "fftw3.h belongs to spectrum/Fft.cpp alone";
+        if (include.name == "hdf5.h" && path != "recording/Hdf5File.cpp")
+            return "hdf5.h belongs to recording/Hdf5File.cpp alone";
+        if (!include.isQuoted)
+            continue;
+        const auto other = order.indexOf(include.name.section('/', 0, 0));
+        if (!include.name.contains('/') || other < 0)
+            return include.name + " is not of the core";
+        if (other > rank)
+            return include.name + " lies to the right";
+        if (!QFile::exists(root() + "core/" + include.name))
+            return include.name + " does not exist";
     }
+    return {};
+}
 
-    struct Include {
-        QString name;
-        bool isQuoted = false;
-    };
-
-    QList<Include> includesOf(const QString &text)
-    {
-        static const QRegularExpression pattern(R"(^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"])", QRegularExpression::MultilineOption);
-        QList<Include> found;
-        for (auto i = pattern.globalMatch(text); i.hasNext();) {
-            const auto match = i.next();
-            found.append({match.captured(2), match.captured(1) == "\""});
-        }
-        return found;
+/// What "widgets/folder/Name.h" or "app/folder/Name.h" includes that it must not; empty if nothing.
+QString wrongAbove(const QString &path, const QString &text)
+{
+    const QString part = path.section('/', 0, 0), folder = path.section('/', 1, 1);
+    const QStringList &folders = part == "app" ? appOrder : widgetOrder;
+    const auto rank = folder.contains('.') ? folders.size() : folders.indexOf(folder); // app/main.cpp puts all together
+    for (const Include &include : includesOf(text)) {
+        const QString otherPart = include.name.section('/', 0, 0);
+        if (!include.isQuoted || include.name.startsWith("tst_"))
+            continue;
+        if (!QFile::exists(root() + include.name) && !QFile::exists(root() + "core/" + include.name))
+            return include.name + " does not exist";
+        if (part == "widgets" && otherPart == "app")
+            return include.name + " is of the app";
+        if (otherPart == part && folders.indexOf(include.name.section('/', 1, 1)) > rank)
+            return include.name + " lies to the right";
     }
+    return {};
+}
 
-    bool isQt(const QString &name)
-    {
-        static const QRegularExpression pattern("^(Qt|Qwt|Q[A-Z]|qwt_|q[a-z]+\\.h$)");
-        return pattern.match(name).hasMatch();
-    }
+/// Which units each unit includes; "core/base/Axis" is Axis.h and Axis.cpp.
+using Units = QMap<QString, QSet<QString>>;
 
-    /// What a file of the core, "folder/Name.h", includes that it must not; empty if nothing.
-    QString wrongInCore(const QString &path, const QString &text)
-    {
-        const auto rank = order.indexOf(path.section('/', 0, 0));
-        for (const Include &include : includesOf(text)) {
-            if (isQt(include.name))
-                return include.name + " is Qt";
-            if (include.name == "fftw3.h" && path != "spectrum/Fft.cpp")
-                return "fftw3.h belongs to spectrum/Fft.cpp alone";
-            if (include.name == "hdf5.h" && path != "recording/Hdf5File.cpp")
-                return "hdf5.h belongs to recording/Hdf5File.cpp alone";
-            if (!include.isQuoted)
-                continue;
-            const auto other = order.indexOf(include.name.section('/', 0, 0));
-            if (!include.name.contains('/') || other < 0)
-                return include.name + " is not of the core";
-            if (other > rank)
-                return include.name + " lies to the right";
-            if (!QFile::exists(root() + "core/" + include.name))
-                return include.name + " does not exist";
-        }
+QString unitOf(const QString &file)
+{
+    return file.left(file.lastIndexOf('.'));
+}
+
+/// The units on the way from one back to itself; empty if no such way exists.
+QStringList circleFrom(const Units &units, const QString &unit, QStringList &way, QSet<QString> &done)
+{
+    if (way.contains(unit))
+        return way.mid(way.indexOf(unit)) << unit;
+    if (done.contains(unit))
         return {};
-    }
+    way.append(unit);
+    for (const QString &next : units.value(unit))
+        if (const QStringList circle = circleFrom(units, next, way, done); !circle.isEmpty())
+            return circle;
+    way.removeLast();
+    done.insert(unit);
+    return {};
+}
 
-    /// What "widgets/folder/Name.h" or "app/folder/Name.h" includes that it must not; empty if nothing.
-    QString wrongAbove(const QString &path, const QString &text)
-    {
-        const QString part = path.section('/', 0, 0), folder = path.section('/', 1, 1);
-        const QStringList &folders = part == "app" ? appOrder : widgetOrder;
-        const auto rank = folder.contains('.') ? folders.size() : folders.indexOf(folder); // app/main.cpp puts all together
-        for (const Include &include : includesOf(text)) {
-            const QString otherPart = include.name.section('/', 0, 0);
-            if (!include.isQuoted || include.name.startsWith("tst_"))
-                continue;
-            if (!QFile::exists(root() + include.name) && !QFile::exists(root() + "core/" + include.name))
-                return include.name + " does not exist";
-            if (part == "widgets" && otherPart == "app")
-                return include.name + " is of the app";
-            if (otherPart == part && folders.indexOf(include.name.section('/', 1, 1)) > rank)
-                return include.name + " lies to the right";
-        }
-        return {};
+QStringList circleIn(const Units &units)
+{
+    QSet<QString> done;
+    for (auto unit = units.keyBegin(); unit != units.keyEnd(); ++unit) {
+        QStringList way;
+        if (const QStringList circle = circleFrom(units, *unit, way, done); !circle.isEmpty())
+            return circle;
     }
-
-    /// Which units each unit includes; "core/base/Axis" is Axis.h and Axis.cpp.
-    using Units = QMap<QString, QSet<QString>>;
-
-    QString unitOf(const QString &file)
-    {
-        return file.left(file.lastIndexOf('.'));
-    }
-
-    /// The units on the way from one back to itself; empty if no such way exists.
-    QStringList circleFrom(const Units &units, const QString &unit, QStringList &way, QSet<QString> &done)
-    {
-        if (way.contains(unit))
-            return way.mid(way.indexOf(unit)) << unit;
-        if (done.contains(unit))
-            return {};
-        way.append(unit);
-        for (const QString &next : units.value(unit))
-            if (const QStringList circle = circleFrom(units, next, way, done); !circle.isEmpty())
-                return circle;
-        way.removeLast();
-        done.insert(unit);
-        return {};
-    }
-
-    QStringList circleIn(const Units &units)
-    {
-        QSet<QString> done;
-        for (auto unit = units.keyBegin(); unit != units.keyEnd(); ++unit) {
-            QStringList way;
-            if (const QStringList circle = circleFrom(units, *unit, way, done); !circle.isEmpty())
-                return circle;
-        }
-        return {};
-    }
+    return {};
+}
 
 } // namespace
 
@@ -209,7 +212,7 @@ void tst_layers::commandLineIncludesTheCoreOnly()
         ++seen;
         for (const Include &include : includesOf(contentOf("app/" + path))) {
             const bool isKnown = !include.isQuoted || include.name.startsWith("app/cli/")
-                || order.contains(include.name.section('/', 0, 0));
+                                 || order.contains(include.name.section('/', 0, 0));
             QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
         }
     }
@@ -223,7 +226,8 @@ void tst_layers::noUnitsInACircle()
         for (const QString &path : filesIn(part)) {
             const QString unit = unitOf(part + "/" + path);
             for (const Include &include : includesOf(contentOf(part + "/" + path))) {
-                const QString other = QFile::exists(root() + "core/" + include.name) ? "core/" + include.name : include.name;
+                const QString other =
+                    QFile::exists(root() + "core/" + include.name) ? "core/" + include.name : include.name;
                 if (include.isQuoted && unitOf(other) != unit)
                     units[unit].insert(unitOf(other));
             }
@@ -244,7 +248,8 @@ void tst_layers::pythonIncludesTheCoreOnly()
     for (const QString &path : filesIn("python")) {
         ++seen;
         for (const Include &include : includesOf(contentOf("python/" + path))) {
-            const bool isKnown = !include.isQuoted || include.name.startsWith("bindings/") || order.contains(include.name.section('/', 0, 0));
+            const bool isKnown = !include.isQuoted || include.name.startsWith("bindings/")
+                                 || order.contains(include.name.section('/', 0, 0));
             QVERIFY2(isKnown && !isQt(include.name), qPrintable(path + " includes " + include.name));
         }
     }
@@ -256,17 +261,28 @@ void tst_layers::wrongIncludesAreFound_data()
     QTest::addColumn<QString>("path");
     QTest::addColumn<QString>("text");
     QTest::addColumn<bool>("isWrong");
-    QTest::newRow("itself") << "model/X.h" << "#include \"model/StateSpace.h\"" << false;
-    QTest::newRow("leftward") << "model/X.h" << "#include \"base/Axis.h\"\n#include <vector>" << false;
-    QTest::newRow("rightward") << "model/X.h" << "#include <vector>\n#include \"detect/Smd.h\"" << true;
-    QTest::newRow("indented") << "model/X.h" << "  #  include \"detect/Smd.h\"" << true;
-    QTest::newRow("neighbour without its folder") << "model/X.h" << "#include \"StateSpace.h\"" << true;
-    QTest::newRow("gone") << "model/X.h" << "#include \"model/Gone.h\"" << true;
-    QTest::newRow("another part") << "model/X.h" << "#include \"widgets/base/Viewport.h\"" << true;
-    QTest::newRow("Qt class") << "model/X.h" << "#include <QString>" << true;
-    QTest::newRow("Qt module") << "model/X.h" << "#include <QtCore/QString>" << true;
-    QTest::newRow("FFTW") << "spectrum/Spectrogram.cpp" << "#include <fftw3.h>" << true;
-    QTest::newRow("FFTW in its place") << "spectrum/Fft.cpp" << "#include <fftw3.h>" << false;
+    QTest::newRow("itself") << "model/X.h"
+                            << "#include \"model/StateSpace.h\"" << false;
+    QTest::newRow("leftward") << "model/X.h"
+                              << "#include \"base/Axis.h\"\n#include <vector>" << false;
+    QTest::newRow("rightward") << "model/X.h"
+                               << "#include <vector>\n#include \"detect/Smd.h\"" << true;
+    QTest::newRow("indented") << "model/X.h"
+                              << "  #  include \"detect/Smd.h\"" << true;
+    QTest::newRow("neighbour without its folder") << "model/X.h"
+                                                  << "#include \"StateSpace.h\"" << true;
+    QTest::newRow("gone") << "model/X.h"
+                          << "#include \"model/Gone.h\"" << true;
+    QTest::newRow("another part") << "model/X.h"
+                                  << "#include \"widgets/base/Viewport.h\"" << true;
+    QTest::newRow("Qt class") << "model/X.h"
+                              << "#include <QString>" << true;
+    QTest::newRow("Qt module") << "model/X.h"
+                               << "#include <QtCore/QString>" << true;
+    QTest::newRow("FFTW") << "spectrum/Spectrogram.cpp"
+                          << "#include <fftw3.h>" << true;
+    QTest::newRow("FFTW in its place") << "spectrum/Fft.cpp"
+                                       << "#include <fftw3.h>" << false;
 }
 
 void tst_layers::wrongIncludesAreFound()

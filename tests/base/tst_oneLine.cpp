@@ -19,18 +19,23 @@ void tst_oneLine::isCleanText()
 {
     QCOMPARE(oneLine(" a\tb\nc\x7f "), std::string("a b c"));
     QCOMPARE(oneLine("½ \xf0\x9f\x8e\xb5"), std::string("½ \xf0\x9f\x8e\xb5"));
-    QCOMPARE(oneLine("\xff\xc3(\xe2\x82"), std::string("?" "?(?" "?"));
+    QCOMPARE(oneLine("\xff\xc3(\xe2\x82"), std::string("?"
+                                                       "?(?"
+                                                       "?"));
     QCOMPARE(oneLine("\xed\xa0\x80"), std::string("???")); // a surrogate
-    QCOMPARE(oneLine("\xc0\xaf"), std::string("??"));       // an overlong form
+    QCOMPARE(oneLine("\xc0\xaf"), std::string("??"));      // an overlong form
 }
 
 void tst_oneLine::nothingThatCommands()
 {
     QCOMPARE(oneLine("a\x1b[31mb"), std::string("a [31mb"));
-    QCOMPARE(oneLine("a\xc2\x80\xc2\x9b\xc2\x9f\xc2\xa0z"), std::string("a   \xc2\xa0z")); // C1, and a space that does not break
+    QCOMPARE(oneLine("a\xc2\x80\xc2\x9b\xc2\x9f\xc2\xa0z"),
+             std::string("a   \xc2\xa0z")); // C1, and a space that does not break
     // Marks, line ends, embeddings and overrides, isolates, and their neighbours.
-    QCOMPARE(oneLine("a\xd8\x9c\xe2\x80\x8e\xe2\x80\x8f\xe2\x80\xa8\xe2\x80\xae\xe2\x81\xa6\xe2\x81\xa9z"), std::string("a       z"));
-    for (const char *harmless : {"\xe2\x80\x8d", "\xe2\x80\xa6", "\xe2\x80\xaf", "\xe2\x81\xa4", "\xe2\x81\xaa", "\xd8\x9b"})
+    QCOMPARE(oneLine("a\xd8\x9c\xe2\x80\x8e\xe2\x80\x8f\xe2\x80\xa8\xe2\x80\xae\xe2\x81\xa6\xe2\x81\xa9z"),
+             std::string("a       z"));
+    for (const char *harmless :
+         {"\xe2\x80\x8d", "\xe2\x80\xa6", "\xe2\x80\xaf", "\xe2\x81\xa4", "\xe2\x81\xaa", "\xd8\x9b"})
         QCOMPARE(oneLine(harmless), std::string(harmless));
 }
 

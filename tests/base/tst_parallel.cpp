@@ -86,7 +86,8 @@ void tst_parallel::withinAnother()
     std::vector<int> done(64 * 64, 0);
     parallelFor(64, context, "", [&] {
         return [&](Index outer) {
-            parallelFor(64, context, "", [&] { return [&](Index inner) { ++done[static_cast<std::size_t>(outer * 64 + inner)]; }; });
+            parallelFor(64, context, "",
+                        [&] { return [&](Index inner) { ++done[static_cast<std::size_t>(outer * 64 + inner)]; }; });
         };
     });
     QCOMPARE(done, std::vector<int>(64 * 64, 1));

@@ -10,7 +10,8 @@ using namespace faintline;
 
 namespace {
 
-/// A kernel's forms share what they work on: it is made when the first of them is wanted and goes when another kernel's turn has come.
+/// A kernel's forms share what they work on: it is made when the first of them is wanted and goes when another kernel's
+/// turn has come.
 const SpeedForm &formOf(const SpeedKernel &kernel, const std::string &name)
 {
     static const SpeedKernel *current = nullptr;

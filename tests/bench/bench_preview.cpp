@@ -1,4 +1,5 @@
-// A changed detector: what is seen at once, beside the whole analysis that follows. 2000 cells × 1000 frames, one thread.
+// A changed detector: what is seen at once, beside the whole analysis that follows. 2000 cells × 1000 frames, one
+// thread.
 
 #include "analysis/previewStatistic.h"
 #include "recording/SimulatedRecording.h"

@@ -1,12 +1,13 @@
-// What a frame of the whole window costs the thread that paints while somebody pans, zooms or drags the threshold: both pictures, the
-// curves below them, the overview, the list of events and whatever else follows. An hour of lines in noise, or the recording named.
+// What a frame of the whole window costs the thread that paints while somebody pans, zooms or drags the threshold: both
+// pictures, the curves below them, the overview, the list of events and whatever else follows. An hour of lines in
+// noise, or the recording named.
 //
 //     QT_QPA_PLATFORM=offscreen faintline-bench-paint [recording [width height]]
 
 #include "app/window/MainWindow.h"
 #include "app/workspace/Workbench.h"
-#include "widgets/plot/ExceedancePlot.h"
 #include "widgets/base/Theme.h"
+#include "widgets/plot/ExceedancePlot.h"
 
 #include <qwt_scale_div.h>
 
@@ -57,19 +58,22 @@ QString hourOfLines(const QTemporaryDir &folder)
         return {};
     file.write(R"({"kind": "lines", "sampleRateHz": 16000, "durationSeconds": 3600, "seed": 5, "lines": [)");
     for (int i = 0; i < 59; ++i)
-        file.write(QStringLiteral(R"(%1{"snrDb":8, "driftHzPerSecond": 0.4, "startSeconds": %2, "durationSeconds": 50, "frequencyHz": %3})")
-                       .arg(i == 0 ? "" : ", ")
-                       .arg(60 * i + 5)
-                       .arg(300 + (i * 1237) % 7400)
-                       .toUtf8());
+        file.write(
+            QStringLiteral(
+                R"(%1{"snrDb":8, "driftHzPerSecond": 0.4, "startSeconds": %2, "durationSeconds": 50, "frequencyHz": %3})")
+                .arg(i == 0 ? "" : ", ")
+                .arg(60 * i + 5)
+                .arg(300 + (i * 1237) % 7400)
+                .toUtf8());
     file.write("]}");
     return path;
 }
 
 void report(const char *gesture, double zoom, const Cost &cost)
 {
-    std::printf("%-16s %6.4g x   processor: median %5.1f ms, 95 %% %5.1f ms   clock: median %5.1f ms, 95 %% %5.1f ms\n", gesture, zoom,
-                quantile(cost.processor, 0.5), quantile(cost.processor, 0.95), quantile(cost.clock, 0.5), quantile(cost.clock, 0.95));
+    std::printf("%-16s %6.4g x   processor: median %5.1f ms, 95 %% %5.1f ms   clock: median %5.1f ms, 95 %% %5.1f ms\n",
+                gesture, zoom, quantile(cost.processor, 0.5), quantile(cost.processor, 0.95), quantile(cost.clock, 0.5),
+                quantile(cost.clock, 0.95));
     std::fflush(stdout);
 }
 
@@ -93,13 +97,15 @@ public:
     {
         const QPointF at = m_canvas->rect().center() + QPointF(20, 30);
         const QPointF inView = m_canvas->mapTo(m_window.workbench().output(), at);
-        QWheelEvent event(inView, m_canvas->mapToGlobal(at), {}, QPoint(0, static_cast<int>(std::lround(120.0 * notches))), Qt::NoButton,
-                          Qt::ControlModifier, Qt::NoScrollPhase, false);
+        QWheelEvent event(inView, m_canvas->mapToGlobal(at), {},
+                          QPoint(0, static_cast<int>(std::lround(120.0 * notches))), Qt::NoButton, Qt::ControlModifier,
+                          Qt::NoScrollPhase, false);
         QCoreApplication::sendEvent(m_window.workbench().output(), &event);
     }
 
     /// One event and the painting that follows from it.
-    template <class Act> static void frame(Cost &cost, const Act &act)
+    template <class Act>
+    static void frame(Cost &cost, const Act &act)
     {
         QElapsedTimer clock;
         clock.start();
@@ -144,7 +150,9 @@ public:
         QWidget *canvas = plot->canvas();
         const double before = m_window.document().shownThreshold();
         const double farthest = plot->axisScaleDiv(QwtAxis::XBottom).upperBound();
-        const auto at = [&](double nats) { return QPointF(plot->transform(QwtAxis::XBottom, nats), 0.5 * canvas->height()); };
+        const auto at = [&](double nats) {
+            return QPointF(plot->transform(QwtAxis::XBottom, nats), 0.5 * canvas->height());
+        };
         mouse(canvas, QEvent::MouseButtonPress, at(before));
         for (int i = 0; i < frames; ++i) {
             const double share = 1.0 - std::abs(1.0 - 2.0 * i / frames);
@@ -180,9 +188,8 @@ int main(int argc, char **argv)
     const QSize canvas = window.workbench().output()->canvas()->size();
     const auto &picture = *window.document().analysis()->input;
     std::printf("window %d x %d, two canvases of %d x %d; %lld frames, %lld cells, %lld frames a row; %zu events\n",
-                window.width(),
-                window.height(),
-                canvas.width(), canvas.height(), static_cast<long long>(picture.frameCount()), static_cast<long long>(picture.cells()),
+                window.width(), window.height(), canvas.width(), canvas.height(),
+                static_cast<long long>(picture.frameCount()), static_cast<long long>(picture.cells()),
                 static_cast<long long>(picture.framesPerRow(0)), window.document().shownEvents().size());
     Hand hand(window);
     Viewport &viewport = window.document().viewport();

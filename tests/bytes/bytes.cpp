@@ -1,5 +1,5 @@
-// Prints a number for what each stage of the chain makes of simulated input. Linked twice, with the core as it is and with one that has
-// no loops for newer processors: what both print must be the same.
+// Prints a number for what each stage of the chain makes of simulated input. Linked twice, with the core as it is and
+// with one that has no loops for newer processors: what both print must be the same.
 
 #include "analysis/AnalysisSettings.h"
 #include "base/Random.h"
@@ -69,8 +69,8 @@ void printLines()
 
     for (std::size_t kind = 0; kind < detectorNames.size(); ++kind) {
         const MarkovModel model = makeModel(settings.model, normalised.grid());
-        const auto detector =
-            makeDetector(detectorOfKind(kind), model, normalised.grid(), {2.0, 2.0}, ResetRule{ResetLaw::Half, 0.7, 0.0, 0.01});
+        const auto detector = makeDetector(detectorOfKind(kind), model, normalised.grid(), {2.0, 2.0},
+                                           ResetRule{ResetLaw::Half, 0.7, 0.0, 0.01});
         print(detectorNames[kind].data(), statisticOf(*detector, frames, cells));
     }
     ModelSettings wide = laws::billon();

@@ -21,54 +21,55 @@ private slots:
 
 namespace {
 
-    /// Σ over all paths of P_1 Π P Π e^λ, and the part of it that passes each state of each frame.
-    struct Enumeration {
-        const StateSpace &space;
-        const std::vector<double> &initial;
-        const std::vector<double> &lambda;
-        Index frames;
-        std::vector<double> sums;
-        double total = 0.0;
-        std::vector<Index> path{};
+/// Σ over all paths of P_1 Π P Π e^λ, and the part of it that passes each state of each frame.
+struct Enumeration {
+    const StateSpace &space;
+    const std::vector<double> &initial;
+    const std::vector<double> &lambda;
+    Index frames;
+    std::vector<double> sums;
+    double total = 0.0;
+    std::vector<Index> path{};
 
-        void run()
-        {
-            sums.assign(static_cast<std::size_t>(frames * space.stateCount()), 0.0);
-            for (Index n = 0; n < space.stateCount(); ++n)
-                descend(n, initial[static_cast<std::size_t>(n)]);
-        }
-
-        void descend(Index state, double weight)
-        {
-            const Index t = std::ssize(path);
-            weight *= std::exp(lambda[static_cast<std::size_t>(t * space.cellCount() + space.cellOf(state))]);
-            path.push_back(state);
-            if (t + 1 == frames) {
-                total += weight;
-                for (Index i = 0; i < frames; ++i)
-                    sums[static_cast<std::size_t>(i * space.stateCount() + path[static_cast<std::size_t>(i)])] += weight;
-            } else {
-                for (Index next = 0; next < space.stateCount(); ++next)
-                    for (const StateSpace::Predecessor &p : space.predecessors(next, t + 1))
-                        if (p.state == state)
-                            descend(next, weight * std::exp(p.lnProbability));
-            }
-            path.pop_back();
-        }
-    };
-
-    KinematicAxis axis(Index cells, bool cyclic, int firstRate, int rates, std::vector<double> change, std::vector<double> step, int perCell)
+    void run()
     {
-        KinematicAxis result;
-        result.cells = cells;
-        result.cyclic = cyclic;
-        result.firstRate = firstRate;
-        result.rateCount = rates;
-        result.rateChange = std::move(change);
-        result.step = std::move(step);
-        result.ratesPerCell = perCell;
-        return result;
+        sums.assign(static_cast<std::size_t>(frames * space.stateCount()), 0.0);
+        for (Index n = 0; n < space.stateCount(); ++n)
+            descend(n, initial[static_cast<std::size_t>(n)]);
     }
+
+    void descend(Index state, double weight)
+    {
+        const Index t = std::ssize(path);
+        weight *= std::exp(lambda[static_cast<std::size_t>(t * space.cellCount() + space.cellOf(state))]);
+        path.push_back(state);
+        if (t + 1 == frames) {
+            total += weight;
+            for (Index i = 0; i < frames; ++i)
+                sums[static_cast<std::size_t>(i * space.stateCount() + path[static_cast<std::size_t>(i)])] += weight;
+        } else {
+            for (Index next = 0; next < space.stateCount(); ++next)
+                for (const StateSpace::Predecessor &p : space.predecessors(next, t + 1))
+                    if (p.state == state)
+                        descend(next, weight * std::exp(p.lnProbability));
+        }
+        path.pop_back();
+    }
+};
+
+KinematicAxis axis(Index cells, bool cyclic, int firstRate, int rates, std::vector<double> change,
+                   std::vector<double> step, int perCell)
+{
+    KinematicAxis result;
+    result.cells = cells;
+    result.cyclic = cyclic;
+    result.firstRate = firstRate;
+    result.rateCount = rates;
+    result.rateChange = std::move(change);
+    result.step = std::move(step);
+    result.ratesPerCell = perCell;
+    return result;
+}
 
 } // namespace
 
@@ -121,7 +122,8 @@ void tst_ForwardBackward::strongEvidenceElsewhereHidesNoPath()
 void tst_ForwardBackward::whereThereIsNoPath()
 {
     const StateSpace space({axis(3, false, 0, 1, {1.0}, {1.0}, 1)});
-    QVERIFY_THROWS_EXCEPTION(Error, forwardBackward(space, {}, std::vector<double>(6, -std::numeric_limits<double>::infinity())));
+    QVERIFY_THROWS_EXCEPTION(
+        Error, forwardBackward(space, {}, std::vector<double>(6, -std::numeric_limits<double>::infinity())));
 }
 
 QTEST_APPLESS_MAIN(tst_ForwardBackward)

@@ -1,5 +1,5 @@
-#include "base/Random.h"
 #include "base/Error.h"
+#include "base/Random.h"
 #include "detect/ModelBank.h"
 #include "model/sonarModels.h"
 
@@ -17,7 +17,8 @@ std::vector<ModelBank::Member> members(double secondOffset)
     slow.fastestRange = 3;
     SonarMotion turning = manoeuvring(1);
     turning.fastestRange = 3;
-    return {{sonarModel(grid, slow), {ResetLaw::Mean}, 0.0}, {sonarModel(grid, turning), {ResetLaw::Mean}, secondOffset}};
+    return {{sonarModel(grid, slow), {ResetLaw::Mean}, 0.0},
+            {sonarModel(grid, turning), {ResetLaw::Mean}, secondOffset}};
 }
 
 std::vector<float> noise(std::uint64_t frame)

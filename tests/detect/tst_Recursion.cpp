@@ -18,7 +18,8 @@ struct Lattice {
     std::vector<KinematicAxis> axes;
 };
 
-KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std::vector<double> h, Rounding rounding = Rounding::HalfDown)
+KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std::vector<double> h,
+                    Rounding rounding = Rounding::HalfDown)
 {
     return {"a", cells, cyclic, firstRate, rateCount, std::move(h), {}, rounding};
 }
@@ -72,7 +73,8 @@ Index framesFor(const StateSpace &space)
 std::vector<std::vector<float>> randomFrames(Index cells, Index frames, std::uint64_t stream)
 {
     Random random(77, stream);
-    std::vector<std::vector<float>> y(static_cast<std::size_t>(frames), std::vector<float>(static_cast<std::size_t>(cells)));
+    std::vector<std::vector<float>> y(static_cast<std::size_t>(frames),
+                                      std::vector<float>(static_cast<std::size_t>(cells)));
     for (auto &frame : y)
         for (float &value : frame)
             value = static_cast<float>(random.exponential());
@@ -115,7 +117,8 @@ private:
     MarkovModel model() const
     {
         QFETCH(int, index);
-        return {StateSpace(lattices()[static_cast<std::size_t>(index)].axes), Likelihood(LikelihoodKind::Rice, 0.8), 1.0};
+        return {StateSpace(lattices()[static_cast<std::size_t>(index)].axes), Likelihood(LikelihoodKind::Rice, 0.8),
+                1.0};
     }
 };
 
@@ -132,7 +135,8 @@ void tst_Recursion::movesSumToOne()
 
 void tst_Recursion::fractionalRatesKeepToTheirLine()
 {
-    // Who keeps a rate of k/8 cell a step is never more than half a cell from the straight line, and makes k cells in 8 steps.
+    // Who keeps a rate of k/8 cell a step is never more than half a cell from the straight line, and makes k cells in 8
+    // steps.
     const KinematicAxis axis = fractional(9, false, 8, -8, 17, {0.9, 0.05});
     for (int rate = 0; rate < 17; ++rate) {
         double at = 0.0;
@@ -185,7 +189,8 @@ void tst_Recursion::bestPathWithReset()
                 double score = 0.0;
                 for (std::size_t i = 0; i < path.size(); ++i) {
                     const auto t = static_cast<std::size_t>(frames - length) + i;
-                    score += m.likelihood.at(static_cast<double>(y[t][static_cast<std::size_t>(m.space.cellOf(path[i]))]));
+                    score +=
+                        m.likelihood.at(static_cast<double>(y[t][static_cast<std::size_t>(m.space.cellOf(path[i]))]));
                     if (i > 0)
                         score +=
                             lnK + std::log(transitionProbability(m.space, path[i - 1], path[i], static_cast<Index>(t)));
@@ -194,7 +199,8 @@ void tst_Recursion::bestPathWithReset()
             });
         }
         const auto found = static_cast<double>(detector.scores()[static_cast<std::size_t>(last)]);
-        QVERIFY2(std::abs(found - best) < 2e-5, qPrintable(QString("state %1: %2, enumeration %3").arg(last).arg(found).arg(best)));
+        QVERIFY2(std::abs(found - best) < 2e-5,
+                 qPrintable(QString("state %1: %2, enumeration %3").arg(last).arg(found).arg(best)));
     }
     for (Index cell = 0; cell < m.space.cellCount(); ++cell) {
         float best = -1e30f;
@@ -248,14 +254,16 @@ void tst_Recursion::sumOverPaths()
         forEachPath(states, frames, last, [&](const std::vector<Index> &path) {
             double product = 1.0 / static_cast<double>(states);
             for (std::size_t i = 0; i < path.size(); ++i) {
-                product *= std::exp(m.likelihood.at(static_cast<double>(y[i][static_cast<std::size_t>(m.space.cellOf(path[i]))])));
+                product *= std::exp(
+                    m.likelihood.at(static_cast<double>(y[i][static_cast<std::size_t>(m.space.cellOf(path[i]))])));
                 if (i > 0)
                     product *= transitionProbability(m.space, path[i - 1], path[i], static_cast<Index>(i));
             }
             total += product;
         });
-    QVERIFY2(std::abs(detector.lnMean() - std::log(total)) < 1e-9 * std::max(1.0, std::abs(std::log(total))),
-             qPrintable(QString("%1, enumeration %2").arg(detector.lnMean(), 0, 'g', 15).arg(std::log(total), 0, 'g', 15)));
+    QVERIFY2(
+        std::abs(detector.lnMean() - std::log(total)) < 1e-9 * std::max(1.0, std::abs(std::log(total))),
+        qPrintable(QString("%1, enumeration %2").arg(detector.lnMean(), 0, 'g', 15).arg(std::log(total), 0, 'g', 15)));
 }
 
 void tst_Recursion::sumWithReset()
@@ -293,8 +301,9 @@ void tst_Recursion::tracedTermsAddUp()
     record.lnK = [&](Index) { return lnK; };
     record.forgotten = [](Index) { return std::span<const CellBox>(); };
     for (Index state = 0; state < m.space.stateCount(); ++state) {
-        const std::vector<PathStep> path = tracePath(m, grid, record, frames - 1, state,
-                                                      static_cast<double>(detector.scores()[static_cast<std::size_t>(state)]));
+        const std::vector<PathStep> path =
+            tracePath(m, grid, record, frames - 1, state,
+                      static_cast<double>(detector.scores()[static_cast<std::size_t>(state)]));
         QCOMPARE(path.back().state, state);
         QCOMPARE(path.back().frame, frames - 1);
         double sum = 0.0;
@@ -314,10 +323,11 @@ void tst_Recursion::tracedTermsAddUp()
         RecursionRecord cut = record;
         cut.checkpoint = [&](Index before) {
             const Index at = std::min<Index>((before - 1) / 5 * 5, 30);
-            return before > at ? RecursionRecord::Checkpoint{at, scores[static_cast<std::size_t>(at)]} : RecursionRecord::Checkpoint{};
+            return before > at ? RecursionRecord::Checkpoint{at, scores[static_cast<std::size_t>(at)]}
+                               : RecursionRecord::Checkpoint{};
         };
-        const std::vector<PathStep> again = tracePath(m, grid, cut, frames - 1, state,
-                                                       static_cast<double>(detector.scores()[static_cast<std::size_t>(state)]));
+        const std::vector<PathStep> again = tracePath(
+            m, grid, cut, frames - 1, state, static_cast<double>(detector.scores()[static_cast<std::size_t>(state)]));
         QCOMPARE(again.size(), path.size());
         for (std::size_t i = 0; i < path.size(); ++i)
             QCOMPARE(again[i].state, path[i].state);
@@ -326,7 +336,8 @@ void tst_Recursion::tracedTermsAddUp()
 
 void tst_Recursion::aThousandFramesStayFinite()
 {
-    const MarkovModel m{StateSpace({rated(6, true, -1, 3, {0.5, 0.25})}), Likelihood(LikelihoodKind::Exponential, 4.0), 1.0};
+    const MarkovModel m{StateSpace({rated(6, true, -1, 3, {0.5, 0.25})}), Likelihood(LikelihoodKind::Exponential, 4.0),
+                        1.0};
     SumDetector sum(m, {ResetLaw::None});
     Smd best(m, {ResetLaw::None});
     std::vector<float> statistic(6);
@@ -342,7 +353,8 @@ void tst_Recursion::aThousandFramesStayFinite()
 
 void tst_Recursion::shiftByACellShiftsTheAnswer()
 {
-    const MarkovModel m{StateSpace({rated(32, true, -2, 5, {1.0 / 3.0, 1.0 / 3.0})}), Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
+    const MarkovModel m{StateSpace({rated(32, true, -2, 5, {1.0 / 3.0, 1.0 / 3.0})}),
+                        Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
     Smd straight(m, {ResetLaw::Fixed, 0.69});
     Smd shifted(m, {ResetLaw::Fixed, 0.69});
     std::vector<float> a(32);

@@ -16,7 +16,8 @@ MarkovModel stable(Index cells, LikelihoodKind kind = LikelihoodKind::Linear)
 
 MarkovModel fiveSlopes(Index cells)
 {
-    return {StateSpace({{"f", cells, false, -2, 5, {1.0 / 3.0, 1.0 / 3.0}, {}, Rounding::HalfDown}}), Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
+    return {StateSpace({{"f", cells, false, -2, 5, {1.0 / 3.0, 1.0 / 3.0}, {}, Rounding::HalfDown}}),
+            Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
 }
 
 std::vector<float> exponentials(Random &random, Index count)
@@ -68,20 +69,23 @@ void tst_Smd::lindley()
             for (std::size_t i = 0; i < levels.size(); ++i)
                 above[i] += static_cast<double>(u) + lnK > levels[i] ? 1.0 : 0.0;
     }
-    QVERIFY2(std::abs(continued / frames - sigma) < 0.002, qPrintable(QString("%1, closed form %2").arg(continued / frames).arg(sigma)));
+    QVERIFY2(std::abs(continued / frames - sigma) < 0.002,
+             qPrintable(QString("%1, closed form %2").arg(continued / frames).arg(sigma)));
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const double expected = sigma * std::exp(-(1.0 - sigma) * levels[i]);
         const double found = above[i] / (frames * 4096.0);
         // Excursions last some ten frames, so ten times the binomial variance.
         const double error = std::sqrt(10.0 * expected / (frames * 4096.0));
-        QVERIFY2(std::abs(found - expected) < 5.0 * error, qPrintable(QString("T %1: %2, closed form %3").arg(levels[i]).arg(found).arg(expected)));
+        QVERIFY2(std::abs(found - expected) < 5.0 * error,
+                 qPrintable(QString("T %1: %2, closed form %3").arg(levels[i]).arg(found).arg(expected)));
     }
 }
 
 void tst_Smd::meanLawBalances()
 {
     // Parsons' self-check: the mean of ln Λ over all states is the mean of y, every frame.
-    Smd detector({StateSpace({{"r", 64, true, -3, 7, {1.0}, {}, Rounding::Trunc}}), Likelihood(), 1.0}, {ResetLaw::Mean});
+    Smd detector({StateSpace({{"r", 64, true, -3, 7, {1.0}, {}, Rounding::Trunc}}), Likelihood(), 1.0},
+                 {ResetLaw::Mean});
     Random random(4, 1);
     std::vector<float> statistic(64);
     for (int t = 0; t < 60; ++t) {
@@ -175,7 +179,8 @@ void tst_Smd::firstFrameIsTheLikelihood()
     // -r0 + ln I0(2√(r0 y)), r0 = 0.5; I0(√2) = 1.56608, I0(√20) = 17.4989
     QVERIFY(std::abs(statistic[0] + 0.5f) < 1e-6f);
     QVERIFY(std::abs(static_cast<double>(statistic[1]) - (-0.5 + std::log(1.5660829297563506))) < 1e-5);
-    QVERIFY(std::abs(static_cast<double>(statistic[2]) - (-0.5 + std::log(std::cyl_bessel_i(0.0, std::sqrt(20.0))))) < 1e-5);
+    QVERIFY(std::abs(static_cast<double>(statistic[2]) - (-0.5 + std::log(std::cyl_bessel_i(0.0, std::sqrt(20.0)))))
+            < 1e-5);
 }
 
 QTEST_APPLESS_MAIN(tst_Smd)

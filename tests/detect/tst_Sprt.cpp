@@ -65,7 +65,8 @@ KinematicAxis rated(Index cells)
 }
 
 /// Rates on an axis with ends: some rates lead off it from where they are.
-KinematicAxis bounded(Index cells, int firstRate, int rateCount, std::vector<double> rateChange, Rounding rounding = Rounding::HalfDown)
+KinematicAxis bounded(Index cells, int firstRate, int rateCount, std::vector<double> rateChange,
+                      Rounding rounding = Rounding::HalfDown)
 {
     KinematicAxis a = axis(cells);
     a.firstRate = firstRate;
@@ -112,13 +113,30 @@ std::vector<World> worlds()
         {"rates always changed", {bounded(4, -1, 3, {0.0, 0.5})}, {false}, {}},
         {"rates toward zero", {bounded(4, -2, 4, {0.4, 0.2, 0.1}, Rounding::Trunc)}, {false}, {}},
         {"rates of half a cell", {halves(bounded(3, -3, 6, {0.6, 0.2}))}, {false}, {}},
-        {"rates of half a cell round a ring", {[] { KinematicAxis a = halves(bounded(3, -2, 4, {0.6, 0.2})); a.cyclic = true; return a; }()}, {false}, {}},
+        {"rates of half a cell round a ring",
+         {[] {
+             KinematicAxis a = halves(bounded(3, -2, 4, {0.6, 0.2}));
+             a.cyclic = true;
+             return a;
+         }()},
+         {false},
+         {}},
         {"rates of half a cell to be held", {halves(bounded(4, -2, 5, {1.0}))}, {false}, {}},
-        {"whole and half rates", {bounded(2, -1, 2, {0.5, 0.25}), halves(bounded(2, 0, 2, {0.6, 0.2}))}, {false, false}, {}},
+        {"whole and half rates",
+         {bounded(2, -1, 2, {0.5, 0.25}), halves(bounded(2, 0, 2, {0.6, 0.2}))},
+         {false, false},
+         {}},
         {"rates on both axes", {bounded(2, -1, 2, {0.5, 0.25}), bounded(2, 0, 2, {0.6, 0.2})}, {false, false}, {}},
         {"a walk and rates", {gaussian(2, 0.7), bounded(2, -1, 3, {0.8, 0.1})}, {false, false}, {}},
         {"rates and Doppler between ends", {bounded(3, -1, 3, {0.5, 0.25}), axis(2)}, {false, true}, {}},
-        {"a walk that loses at the ends", {[] { KinematicAxis a = axis(4); a.step = {0.4, 0.3}; return a; }()}, {false}, {}},
+        {"a walk that loses at the ends",
+         {[] {
+             KinematicAxis a = axis(4);
+             a.step = {0.4, 0.3};
+             return a;
+         }()},
+         {false},
+         {}},
         {"a matrix that loses", {matrix({0.1, 0.5, 0.2, 0.3})}, {false}, {}},
     };
 }
@@ -147,8 +165,8 @@ SequentialModel unfolded(const World &world)
     return model;
 }
 
-/// The law of a renormalised axis with rates from its definition: moves off the axis do not exist, the others share their probability;
-/// a rate with none first becomes the nearest one with some.
+/// The law of a renormalised axis with rates from its definition: moves off the axis do not exist, the others share
+/// their probability; a rate with none first becomes the nearest one with some.
 double sharedProbability(const KinematicAxis &x, Index p, int rate, Index pNext, int rateNext, Index step)
 {
     const auto law = [&](int from, Index cell, int to) { return axisProbability(x, p, from, cell, to, step); };
@@ -226,7 +244,8 @@ Enumerated enumerate(const SequentialModel &model, const std::vector<std::vector
 std::vector<std::vector<double>> frames(Index cells, Index stages, std::uint64_t stream)
 {
     Random random(5, stream);
-    std::vector<std::vector<double>> y(static_cast<std::size_t>(stages), std::vector<double>(static_cast<std::size_t>(cells)));
+    std::vector<std::vector<double>> y(static_cast<std::size_t>(stages),
+                                       std::vector<double>(static_cast<std::size_t>(cells)));
     for (auto &frame : y)
         for (double &value : frame)
             value = random.exponential();
@@ -351,7 +370,8 @@ void tst_Sprt::tiesGoToTheLowest()
 
 void tst_Sprt::keptInPartsIsTheSame()
 {
-    // 3 × 3000 states, 600 stages: 43 MB of scores, so only milestones are kept; the corridor round the target fits in whole.
+    // 3 × 3000 states, 600 stages: 43 MB of scores, so only milestones are kept; the corridor round the target fits in
+    // whole.
     KinematicAxis wide = rated(3000);
     wide.cyclic = false;
     const auto lambdaAt = [](Index stage, Index cell) {
@@ -380,7 +400,8 @@ void tst_Sprt::aThousandStages()
     // One cell: ln Λ is the sum of λ, whatever its size.
     const SequentialModel one = makeSequentialModel({axis(1)}, {false}, twoToOne);
     // A uniform walk: ln Λ is the sum of ln of the mean, also where Λ itself is beyond the largest double.
-    const SequentialModel uniform = makeSequentialModel({gaussian(4, std::numeric_limits<double>::infinity())}, {false}, twoToOne);
+    const SequentialModel uniform =
+        makeSequentialModel({gaussian(4, std::numeric_limits<double>::infinity())}, {false}, twoToOne);
     LikelihoodRatio single(one);
     LikelihoodRatio all(uniform);
     Random random(3, 3);
@@ -457,7 +478,8 @@ void tst_Sprt::noEvidenceMeansNothing_data()
     QTest::addColumn<bool>("isFine");
     for (const bool isFine : {false, true})
         for (const bool isCyclic : {false, true})
-            QTest::addRow("%s, %s", isFine ? "17 slopes of 1/8" : "five slopes", isCyclic ? "cyclic" : "bounded") << isCyclic << isFine;
+            QTest::addRow("%s, %s", isFine ? "17 slopes of 1/8" : "five slopes", isCyclic ? "cyclic" : "bounded")
+                << isCyclic << isFine;
 }
 
 void tst_Sprt::noEvidenceMeansNothing()
@@ -469,7 +491,8 @@ void tst_Sprt::noEvidenceMeansNothing()
     slopes.ratesPerCell = isFine ? 8 : 1;
     slopes.cyclic = isCyclic;
     const SequentialModel model = makeSequentialModel({slopes}, {false}, Likelihood(LikelihoodKind::Exponential, 1.0));
-    const SprtResult result = runSprt(model, {}, 2000, [](Index, std::span<double> y) { std::fill(y.begin(), y.end(), 2.0 * std::log(2.0)); });
+    const SprtResult result = runSprt(
+        model, {}, 2000, [](Index, std::span<double> y) { std::fill(y.begin(), y.end(), 2.0 * std::log(2.0)); });
     QCOMPARE(result.decision, SprtDecision::Undecided);
     QCOMPARE(result.stages, Index(2000));
     for (const double lnLambda : result.lnLambda)
@@ -608,8 +631,8 @@ void tst_Sprt::partOfALine()
 {
     std::vector<float> values(5 * 10);
     std::iota(values.begin(), values.end(), 0.0f);
-    const auto whole =
-        std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 5, false}, Grid{{{"frequency", "Hz", 0.0, 1.0, 10, false}}}, values);
+    const auto whole = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 5, false},
+                                                    Grid{{{"frequency", "Hz", 0.0, 1.0, 10, false}}}, values);
     std::vector<double> y(3);
     stagesOf(whole, 2, 4, 3)(1, y); // frame 3, cells 4 … 6
     QCOMPARE(y, (std::vector<double>{34.0, 35.0, 36.0}));
@@ -617,7 +640,8 @@ void tst_Sprt::partOfALine()
 
 void tst_Sprt::sectors()
 {
-    // Only sector 1 has a target, from the second round on: the echo is overwhelming there and half a nat short of nothing elsewhere.
+    // Only sector 1 has a target, from the second round on: the echo is overwhelming there and half a nat short of
+    // nothing elsewhere.
     const SequentialModel model = makeSequentialModel({axis(1)}, {false}, twoToOne);
     const Survey made = survey(model, {}, 3, 2, 100, 20, [](const SectorVisit &visit) -> StageSource {
         const bool isThere = visit.sector == 1 && visit.round == 1;
@@ -651,8 +675,12 @@ void tst_Sprt::refusals()
     QVERIFY(says([] { checkSprt({1e-3, 0.6, 0}, "test"); }).startsWith("test.miss = 0.6"));
     QVERIFY(says([] { checkSprt({0.5, 0.5, 0}, "test"); }).contains("must be below 1"));
     QVERIFY(says([] { makeSequentialModel({axis(2)}, {false}, twoToOne, {0.5, 0.6}); }).contains("adds up to 1.1"));
-    QVERIFY(says([] { makeSequentialModel({axis(2)}, {false}, twoToOne, {1.0}); }).contains("holds 1 probabilities; there are 2 states"));
-    QVERIFY(says([] { makeSequentialModel({matrix({0.5, 0.6, 0.5, 0.5})}, {false}, twoToOne); }).contains("row 0 adds up to 1.1"));
+    QVERIFY(says([] {
+                makeSequentialModel({axis(2)}, {false}, twoToOne, {1.0});
+            }).contains("holds 1 probabilities; there are 2 states"));
+    QVERIFY(says([] {
+                makeSequentialModel({matrix({0.5, 0.6, 0.5, 0.5})}, {false}, twoToOne);
+            }).contains("row 0 adds up to 1.1"));
     QVERIFY(says([] {
                 KinematicAxis a = admissible(2);
                 a.cyclic = true;

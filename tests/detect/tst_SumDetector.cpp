@@ -13,13 +13,15 @@ constexpr Index cells = 6;
 
 MarkovModel model(double snr)
 {
-    return {StateSpace({{"a", cells, false, -1, 3, {0.5, 0.25}, {}, Rounding::HalfDown}}), Likelihood(LikelihoodKind::Rice, snr), 1.0};
+    return {StateSpace({{"a", cells, false, -1, 3, {0.5, 0.25}, {}, Rounding::HalfDown}}),
+            Likelihood(LikelihoodKind::Rice, snr), 1.0};
 }
 
 double lnSum(double a, double b)
 {
     const double high = std::max(a, b);
-    return high == -std::numeric_limits<double>::infinity() ? high : high + std::log(std::exp(a - high) + std::exp(b - high));
+    return high == -std::numeric_limits<double>::infinity() ? high
+                                                            : high + std::log(std::exp(a - high) + std::exp(b - high));
 }
 
 /// ln A of all states after the frames, by A(n, t) = e^λ (K Σ P(n|m) A(m, t-1) + 1), every term in logarithms.
@@ -82,10 +84,15 @@ private slots:
             const double best = *std::max_element(expected.begin(), expected.end());
             for (std::size_t n = 0; n < expected.size(); ++n) {
                 const auto score = static_cast<double>(detector.scores()[n]);
-                QVERIFY2(std::isfinite(score), qPrintable(QStringLiteral("frame %1, state %2: %3").arg(t).arg(n).arg(score)));
+                QVERIFY2(std::isfinite(score),
+                         qPrintable(QStringLiteral("frame %1, state %2: %3").arg(t).arg(n).arg(score)));
                 if (expected[n] > best - 600.0)
                     QVERIFY2(std::abs(score - expected[n]) < 1e-6 * std::max(1.0, std::abs(expected[n])),
-                             qPrintable(QStringLiteral("frame %1, state %2: %3, not %4").arg(t).arg(n).arg(score).arg(expected[n])));
+                             qPrintable(QStringLiteral("frame %1, state %2: %3, not %4")
+                                            .arg(t)
+                                            .arg(n)
+                                            .arg(score)
+                                            .arg(expected[n])));
             }
             QVERIFY(std::isfinite(detector.lnMean()));
         }

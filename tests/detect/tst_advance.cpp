@@ -1,6 +1,6 @@
+#include "app/cli/speed/plainForms.h"
 #include "base/Random.h"
 #include "detect/Smd.h"
-#include "app/cli/speed/plainForms.h"
 
 #include <QtTest>
 
@@ -8,7 +8,8 @@ using namespace faintline;
 
 namespace {
 
-KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std::vector<double> h, Rounding rounding = Rounding::HalfDown)
+KinematicAxis rated(Index cells, bool cyclic, int firstRate, int rateCount, std::vector<double> h,
+                    Rounding rounding = Rounding::HalfDown)
 {
     return {"a", cells, cyclic, firstRate, rateCount, std::move(h), {}, rounding};
 }
@@ -148,8 +149,9 @@ void tst_advance::blocksAndThreadsChangeNoBit()
 void tst_advance::regulationDoesNotDependOnThreads()
 {
     // Parsons' law sums over all states in floating point: large enough for several threads to take part.
-    const MarkovModel m{StateSpace({rated(4000, false, -10, 21, std::vector<double>(5, 1.0 / 9.0)), rated(8, true, 0, 1, {1.0})}),
-                        Likelihood(LikelihoodKind::Linear), 1.0};
+    const MarkovModel m{
+        StateSpace({rated(4000, false, -10, 21, std::vector<double>(5, 1.0 / 9.0)), rated(8, true, 0, 1, {1.0})}),
+        Likelihood(LikelihoodKind::Linear), 1.0};
     const Index cells = m.space.cellCount();
     const std::vector<float> y = noise(4 * cells);
     std::vector<float> a(y.size());

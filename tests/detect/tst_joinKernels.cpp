@@ -56,7 +56,9 @@ List slopes(const Planes &planes, Index count, float outer, float inner)
 List chained(const Planes &planes, Index count, float outer, float inner)
 {
     List list;
-    const auto at = [&](Index row, Index slope) { return planes.from.data() + row * (rowCells - 1) + margin - slope + 40; };
+    const auto at = [&](Index row, Index slope) {
+        return planes.from.data() + row * (rowCells - 1) + margin - slope + 40;
+    };
     for (Index to = 0; to < count; ++to) {
         list.sources.emplace_back();
         if (to > 0)
@@ -103,7 +105,8 @@ void tst_joinKernels::finishMax_data()
 {
     QTest::addColumn<QString>("law");
     QTest::addColumn<Index>("count");
-    for (const char *law : {"uniform", "outer less", "inner less", "chained uniform", "chained outer less", "anything", "singles"})
+    for (const char *law :
+         {"uniform", "outer less", "inner less", "chained uniform", "chained outer less", "anything", "singles"})
         for (const Index count : {1, 2, 3, 21, 64, 65, 100})
             QTest::newRow(qPrintable(QString("%1, %2 targets").arg(law).arg(count))) << QString(law) << count;
 }
@@ -113,13 +116,13 @@ void tst_joinKernels::finishMax()
     QFETCH(const QString, law);
     QFETCH(const Index, count);
     Planes planes(count + 1);
-    const List list = law == "uniform"          ? slopes(planes, count, -1.0f, -1.0f)
-        : law == "outer less"                   ? slopes(planes, count, -1.5f, -0.5f)
-        : law == "inner less"                   ? slopes(planes, count, -0.5f, -1.5f)
-        : law == "chained uniform"              ? chained(planes, count, -1.0f, -1.0f)
-        : law == "chained outer less"           ? chained(planes, count, -1.5f, -0.5f)
-        : law == "anything"                     ? anything(planes, count)
-                                                : singles(planes, count);
+    const List list = law == "uniform"              ? slopes(planes, count, -1.0f, -1.0f)
+                      : law == "outer less"         ? slopes(planes, count, -1.5f, -0.5f)
+                      : law == "inner less"         ? slopes(planes, count, -0.5f, -1.5f)
+                      : law == "chained uniform"    ? chained(planes, count, -1.0f, -1.0f)
+                      : law == "chained outer less" ? chained(planes, count, -1.5f, -0.5f)
+                      : law == "anything"           ? anything(planes, count)
+                                                    : singles(planes, count);
     std::vector<float> lambda(rowCells);
     Random(4, 0).exponentials(lambda);
     FrameJoin join;
@@ -129,7 +132,8 @@ void tst_joinKernels::finishMax()
         for (const Index n : {1, 15, 16, 33, 100}) {
             join.isFresh = isFresh;
             std::vector<float> statistic(rowCells, 2.0f);
-            const Continued found = faintline::finishMax(list.targets(planes), n, 0, 0, lambda.data(), join, statistic.data());
+            const Continued found =
+                faintline::finishMax(list.targets(planes), n, 0, 0, lambda.data(), join, statistic.data());
             Index went = 0;
             double sum = 0.0;
             for (Index i = 0; i < n; ++i) {

@@ -12,62 +12,62 @@ using namespace faintline;
 
 namespace {
 
-    using Frames = std::vector<std::vector<float>>;
+using Frames = std::vector<std::vector<float>>;
 
-    Grid gridOf(Index cells)
-    {
-        return {{Axis{"frequency", "Hz", 0.0, 1.0, cells, false}}};
-    }
+Grid gridOf(Index cells)
+{
+    return {{Axis{"frequency", "Hz", 0.0, 1.0, cells, false}}};
+}
 
-    Frames noise(Index frames, Index cells, std::uint64_t seed)
-    {
-        Random random(seed, 0);
-        Frames y(static_cast<std::size_t>(frames), std::vector<float>(static_cast<std::size_t>(cells)));
-        for (auto &frame : y)
-            for (float &value : frame)
-                value = static_cast<float>(random.exponential());
-        return y;
-    }
+Frames noise(Index frames, Index cells, std::uint64_t seed)
+{
+    Random random(seed, 0);
+    Frames y(static_cast<std::size_t>(frames), std::vector<float>(static_cast<std::size_t>(cells)));
+    for (auto &frame : y)
+        for (float &value : frame)
+            value = static_cast<float>(random.exponential());
+    return y;
+}
 
-    Frames run(Detector &detector, const Frames &y)
-    {
-        Frames statistic;
-        for (const auto &frame : y) {
-            statistic.emplace_back(frame.size());
-            detector.update(frame, statistic.back());
-        }
-        return statistic;
+Frames run(Detector &detector, const Frames &y)
+{
+    Frames statistic;
+    for (const auto &frame : y) {
+        statistic.emplace_back(frame.size());
+        detector.update(frame, statistic.back());
     }
+    return statistic;
+}
 
-    /// Billon's definition, word for word: sort every window.
-    float pOfNByDefinition(const Frames &y, Index t, Index f, const PofNSettings &settings, Index width)
-    {
-        std::vector<float> maxima;
-        for (Index frame = t - settings.n + 1; frame <= t; ++frame) {
-            float largest = 0.0f;
-            for (Index bin = f - (width - 1) / 2; bin <= f + width / 2; ++bin)
-                if (frame >= 0 && bin >= 0 && bin < std::ssize(y.front()))
-                    largest = std::max(largest, y[static_cast<std::size_t>(frame)][static_cast<std::size_t>(bin)]);
-            maxima.push_back(largest);
-        }
-        std::sort(maxima.begin(), maxima.end(), std::greater<>());
-        const auto isEvent = [&](float value) { return static_cast<double>(value) > settings.r1; };
-        if (std::count_if(maxima.begin(), maxima.end(), isEvent) < settings.p)
-            return 0.0f;
-        const double mean = std::accumulate(maxima.begin(), maxima.begin() + settings.p, 0.0) / settings.p;
-        return mean > settings.r2 ? static_cast<float>(mean) : 0.0f;
+/// Billon's definition, word for word: sort every window.
+float pOfNByDefinition(const Frames &y, Index t, Index f, const PofNSettings &settings, Index width)
+{
+    std::vector<float> maxima;
+    for (Index frame = t - settings.n + 1; frame <= t; ++frame) {
+        float largest = 0.0f;
+        for (Index bin = f - (width - 1) / 2; bin <= f + width / 2; ++bin)
+            if (frame >= 0 && bin >= 0 && bin < std::ssize(y.front()))
+                largest = std::max(largest, y[static_cast<std::size_t>(frame)][static_cast<std::size_t>(bin)]);
+        maxima.push_back(largest);
     }
+    std::sort(maxima.begin(), maxima.end(), std::greater<>());
+    const auto isEvent = [&](float value) { return static_cast<double>(value) > settings.r1; };
+    if (std::count_if(maxima.begin(), maxima.end(), isEvent) < settings.p)
+        return 0.0f;
+    const double mean = std::accumulate(maxima.begin(), maxima.begin() + settings.p, 0.0) / settings.p;
+    return mean > settings.r2 ? static_cast<float>(mean) : 0.0f;
+}
 
-    MarkovModel threeSlopes(Index cells)
-    {
-        KinematicAxis axis;
-        axis.name = "frequency";
-        axis.cells = cells;
-        axis.firstRate = -1;
-        axis.rateCount = 3;
-        axis.rateChange = {1.0 / 3.0, 1.0 / 3.0};
-        return {StateSpace({axis}), Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
-    }
+MarkovModel threeSlopes(Index cells)
+{
+    KinematicAxis axis;
+    axis.name = "frequency";
+    axis.cells = cells;
+    axis.firstRate = -1;
+    axis.rateCount = 3;
+    axis.rateChange = {1.0 / 3.0, 1.0 / 3.0};
+    return {StateSpace({axis}), Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
+}
 
 } // namespace
 
@@ -116,7 +116,8 @@ void tst_peers::pOfNSortsEveryWindow()
         for (Index f = 0; f < 37; ++f) {
             const float expected = pOfNByDefinition(y, t, f, settings, width);
             const float ours = statistic[static_cast<std::size_t>(t)][static_cast<std::size_t>(f)];
-            QVERIFY2(std::abs(ours - expected) <= 1e-5f * std::max(1.0f, expected), qPrintable(QString("frame %1, cell %2").arg(t).arg(f)));
+            QVERIFY2(std::abs(ours - expected) <= 1e-5f * std::max(1.0f, expected),
+                     qPrintable(QString("frame %1, cell %2").arg(t).arg(f)));
             events += expected > 0.0f ? 1 : 0;
         }
     QVERIFY(events > 0);
@@ -158,7 +159,8 @@ void tst_peers::exponentialFades()
     Integrator detector(1, IntegratorSettings::Shape::Exponential, 10);
     const Frames statistic = run(detector, Frames(30, {1.0f}));
     for (std::size_t t = 0; t < statistic.size(); ++t) // a step's answer: 1 - a^(t+1)
-        QVERIFY(std::abs(static_cast<double>(statistic[t][0]) - (1.0 - std::exp(-0.1 * static_cast<double>(t + 1)))) < 1e-6);
+        QVERIFY(std::abs(static_cast<double>(statistic[t][0]) - (1.0 - std::exp(-0.1 * static_cast<double>(t + 1))))
+                < 1e-6);
 }
 
 void tst_peers::energyIsTheFrame()
@@ -189,7 +191,8 @@ void tst_peers::everyKindCanBeMade()
         const DetectorSettings settings = detectorOfKind(kind);
         QCOMPARE(settings.index(), kind);
         const auto detector = makeDetector(settings, threeSlopes(13), gridOf(13), {2.0, 1.0}, {});
-        const bool scoresPaths = std::holds_alternative<SmdSettings>(settings) || std::holds_alternative<ShiryaevRobertsSettings>(settings);
+        const bool scoresPaths =
+            std::holds_alternative<SmdSettings>(settings) || std::holds_alternative<ShiryaevRobertsSettings>(settings);
         QCOMPARE(dynamic_cast<const PathDetector *>(detector.get()) != nullptr, scoresPaths);
         for (const auto &frame : run(*detector, y))
             for (const float value : frame)

@@ -22,7 +22,8 @@ std::vector<float> noise(std::size_t cells, std::uint64_t stream, std::uint64_t 
     return y;
 }
 
-/// Parsons' recursion written out, state by state in double: the oracle shares nothing with the program but the definition.
+/// Parsons' recursion written out, state by state in double: the oracle shares nothing with the program but the
+/// definition.
 struct PlainParsons {
     static constexpr int ranges = 24;
     static constexpr int beams = 6;
@@ -73,12 +74,13 @@ struct PlainParsons {
         lnK = -sum / states;
         resetFraction = static_cast<double>(resets) / states;
         for (int n = 0; n < states; ++n)
-            lnL[static_cast<std::size_t>(n)] =
-                static_cast<double>(y[static_cast<std::size_t>(n % (ranges * beams))]) + best[static_cast<std::size_t>(n)] + lnK;
+            lnL[static_cast<std::size_t>(n)] = static_cast<double>(y[static_cast<std::size_t>(n % (ranges * beams))])
+                                               + best[static_cast<std::size_t>(n)] + lnK;
     }
 };
 
-const Grid smallGrid{{{"range", "m", 0.0, 1.0, PlainParsons::ranges, false}, {"bearing", "°", 0.0, 1.0, PlainParsons::beams, true}}};
+const Grid smallGrid{
+    {{"range", "m", 0.0, 1.0, PlainParsons::ranges, false}, {"bearing", "°", 0.0, 1.0, PlainParsons::beams, true}}};
 
 SonarMotion smallMotion(std::vector<double> hRange, std::vector<double> hBearing)
 {
@@ -143,7 +145,8 @@ void tst_regulation::meanLawIsParsons()
     std::vector<float> d(144);
     for (int ping = 0; ping < 8; ++ping) {
         std::vector<float> y = noise(144, 7, static_cast<std::uint64_t>(ping));
-        // A target of power 5 from range 4 and beam 4 on, two cells and a beam a ping: over the wrap and to the range's end.
+        // A target of power 5 from range 4 and beam 4 on, two cells and a beam a ping: over the wrap and to the range's
+        // end.
         if (const int range = 4 + 2 * ping; range < PlainParsons::ranges)
             y[static_cast<std::size_t>(range * PlainParsons::beams + (4 + ping) % PlainParsons::beams)] += 5.0f;
         plain.update(y);
@@ -152,14 +155,16 @@ void tst_regulation::meanLawIsParsons()
         QVERIFY(std::abs(1.0 - detector.regulation().continuedFraction - plain.resetFraction) < 1e-12);
         double worst = 0.0;
         for (std::size_t n = 0; n < plain.lnL.size(); ++n)
-            worst = std::max(worst, std::abs(static_cast<double>(detector.scores()[n]) + detector.offset() - plain.lnL[n]));
+            worst =
+                std::max(worst, std::abs(static_cast<double>(detector.scores()[n]) + detector.offset() - plain.lnL[n]));
         QVERIFY2(worst < 1e-4, qPrintable(QString("ping %1: %2 nat").arg(ping).arg(worst)));
     }
 }
 
 void tst_regulation::dampedHalfLawIsSteady()
 {
-    // One-to-one transitions: half of the states reset at K = -2 ln 2 (Lindley). Paths that run off the range's ends shift it slightly.
+    // One-to-one transitions: half of the states reset at K = -2 ln 2 (Lindley). Paths that run off the range's ends
+    // shift it slightly.
     const NoiseBand band = noiseBand(regulated({ResetLaw::Half, -1.0, 0.0, 0.1}, 300, 600));
     QVERIFY2(std::abs(band.mean + 2.0 * std::log(2.0)) < 0.08, qPrintable(QString::number(band.mean)));
     QVERIFY2(band.deviation < 0.03, qPrintable(QString::number(band.deviation)));
@@ -169,7 +174,8 @@ void tst_regulation::undampedHalfLawSwings()
 {
     const NoiseBand damped = noiseBand(regulated({ResetLaw::Half, -1.386, 0.0, 0.1}, 300, 300));
     const NoiseBand hard = noiseBand(regulated({ResetLaw::Half, -1.386, 0.0, 8.0}, 300, 300));
-    QVERIFY2(hard.deviation > 10.0 * damped.deviation, qPrintable(QString("%1, %2").arg(hard.deviation).arg(damped.deviation)));
+    QVERIFY2(hard.deviation > 10.0 * damped.deviation,
+             qPrintable(QString("%1, %2").arg(hard.deviation).arg(damped.deviation)));
 }
 
 void tst_regulation::noiseBandHoldsItsNoise()
@@ -187,7 +193,8 @@ void tst_regulation::noiseBandHoldsItsNoise()
 
 void tst_regulation::signalsDragK()
 {
-    // Signals that nobody takes over: K leaves its band downward. Taken out and their cells inhibited, as the chain does, it stays.
+    // Signals that nobody takes over: K leaves its band downward. Taken out and their cells inhibited, as the chain
+    // does, it stays.
     const MarkovModel model = sonarModel(smallGrid, smallMotion({1.0}, {1.0}));
     const auto lastK = [&](float power, bool inhibited) {
         Smd detector(model, {ResetLaw::Mean});
@@ -207,7 +214,8 @@ void tst_regulation::signalsDragK()
     };
     const double quiet = lastK(0.0f, false);
     QVERIFY2(lastK(5.0f, false) < quiet - 0.5, qPrintable(QString("%1, %2").arg(lastK(5.0f, false)).arg(quiet)));
-    QVERIFY2(std::abs(lastK(5.0f, true) - quiet) < 0.3, qPrintable(QString("%1, %2").arg(lastK(5.0f, true)).arg(quiet)));
+    QVERIFY2(std::abs(lastK(5.0f, true) - quiet) < 0.3,
+             qPrintable(QString("%1, %2").arg(lastK(5.0f, true)).arg(quiet)));
 }
 
 void tst_regulation::inhibitedCellsDoNotCount()

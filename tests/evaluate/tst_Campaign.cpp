@@ -1,10 +1,10 @@
 #include "base/AtomicFile.h"
 #include "base/Error.h"
 #include "base/Random.h"
-#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/Campaign.h"
 #include "evaluate/experiments/PdCurve.h"
 #include "evaluate/experiments/SignalMask.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/measuredThreshold.h"
 #include "exchange/CampaignFile.h"
 #include "recording/SimulatedRecording.h"
@@ -23,41 +23,43 @@ using namespace faintline;
 
 namespace {
 
-    DetectorUnderTest detectorUnderTest(const char *name, const DetectorSettings &detector)
-    {
-        DetectorUnderTest result{name, {}};
-        result.settings.model = laws::billon(); // the law of ln K = 0.69
-        result.settings.detector = detector;
-        return result;
-    }
+DetectorUnderTest detectorUnderTest(const char *name, const DetectorSettings &detector)
+{
+    DetectorUnderTest result{name, {}};
+    result.settings.model = laws::billon(); // the law of ln K = 0.69
+    result.settings.detector = detector;
+    return result;
+}
 
-    LineExperiment smallExperiment()
-    {
-        LineExperiment experiment;
-        experiment.frames = 120;
-        experiment.blockFrames = 60;
-        experiment.runs = 6;
-        experiment.durationWindows = 20.0;
-        experiment.snrDb = {-3.0, 3.0};
-        experiment.wanderCells = 0.5;
-        experiment.detectors = {detectorUnderTest("SMD", SmdSettings{SmdSettings::Reset::Fixed, 0.69}), detectorUnderTest("3 of 4", PofNSettings{3, 4}),
-                                detectorUnderTest("integrator", IntegratorSettings{IntegratorSettings::Shape::Boxcar, 20.0})};
-        return experiment;
-    }
+LineExperiment smallExperiment()
+{
+    LineExperiment experiment;
+    experiment.frames = 120;
+    experiment.blockFrames = 60;
+    experiment.runs = 6;
+    experiment.durationWindows = 20.0;
+    experiment.snrDb = {-3.0, 3.0};
+    experiment.wanderCells = 0.5;
+    experiment.detectors = {
+        detectorUnderTest("SMD", SmdSettings{SmdSettings::Reset::Fixed, 0.69}),
+        detectorUnderTest("3 of 4", PofNSettings{3, 4}),
+        detectorUnderTest("integrator", IntegratorSettings{IntegratorSettings::Shape::Boxcar, 20.0})};
+    return experiment;
+}
 
-    std::vector<int> firstRuns(int count)
-    {
-        std::vector<int> runs(static_cast<std::size_t>(count));
-        std::iota(runs.begin(), runs.end(), 0);
-        return runs;
-    }
+std::vector<int> firstRuns(int count)
+{
+    std::vector<int> runs(static_cast<std::size_t>(count));
+    std::iota(runs.begin(), runs.end(), 0);
+    return runs;
+}
 
-    RunContext onThreads(int threads)
-    {
-        RunContext context;
-        context.threads = threads;
-        return context;
-    }
+RunContext onThreads(int threads)
+{
+    RunContext context;
+    context.threads = threads;
+    return context;
+}
 
 } // namespace
 
@@ -121,8 +123,8 @@ void tst_Campaign::shardsMergeToTheWhole()
     QCOMPARE(b.readAll(), bytes);
 
     parts.pop_back();
-    QVERIFY_EXCEPTION_THROWN(merge(parts), Error);             // a shard is missing
-    QVERIFY_EXCEPTION_THROWN(merge({whole, whole}), Error);    // twice the same
+    QVERIFY_EXCEPTION_THROWN(merge(parts), Error);          // a shard is missing
+    QVERIFY_EXCEPTION_THROWN(merge({whole, whole}), Error); // twice the same
     Campaign foreign = whole;
     setSeed(foreign.experiment, 99);
     QVERIFY_EXCEPTION_THROWN(merge({whole, foreign}), Error);
@@ -279,7 +281,8 @@ void tst_Campaign::injectedIntoARecording()
     injection.snrDb = {-30.0, 12.0};
     injection.durationSeconds = 20.0;
     injection.settings.spectrogram.windowSeconds = 0.5;
-    injection.detectors = {detectorUnderTest("energy", EnergySettings{}), detectorUnderTest("3 of 4", PofNSettings{3, 4})};
+    injection.detectors = {detectorUnderTest("energy", EnergySettings{}),
+                           detectorUnderTest("3 of 4", PofNSettings{3, 4})};
     Campaign campaign = begin(injection);
     QCOMPARE(campaign.thresholds.size(), std::size_t(2));
     carryOut(campaign, firstRuns(6), onThreads(2));
@@ -310,7 +313,8 @@ void tst_Campaign::allDetectorsAreTriedWhereNoSignalIs()
     injection.snrDb = {-30.0, 15.0};
     injection.durationSeconds = 20.0;
     injection.settings.spectrogram.windowSeconds = 0.5;
-    injection.detectors = {detectorUnderTest("energy", EnergySettings{}), detectorUnderTest("3 of 4", PofNSettings{3, 4}), detectorUnderTest("SMD", SmdSettings{})};
+    injection.detectors = {detectorUnderTest("energy", EnergySettings{}),
+                           detectorUnderTest("3 of 4", PofNSettings{3, 4}), detectorUnderTest("SMD", SmdSettings{})};
     Campaign campaign = begin(injection);
     carryOut(campaign, firstRuns(12), onThreads(2));
     const InjectionTrials trials(injection, openRecording(injection.recording));
@@ -319,7 +323,8 @@ void tst_Campaign::allDetectorsAreTriedWhereNoSignalIs()
             QVERIFY2(std::abs(hz - 50.0) > 4.0, qPrintable(QString("trial %1 at %2 Hz").arg(trial).arg(hz)));
     for (const CurvePoint &point : pdCurve(campaign)) {
         QCOMPARE(point.trials, 12);
-        QVERIFY2(point.snrDb > 0.0 ? point.pd > 0.9 : point.pd < 0.1, qPrintable(QString::fromStdString(point.detector)));
+        QVERIFY2(point.snrDb > 0.0 ? point.pd > 0.9 : point.pd < 0.1,
+                 qPrintable(QString::fromStdString(point.detector)));
     }
 }
 
@@ -334,16 +339,21 @@ void tst_Campaign::thresholdsAreOfFalseAlarmsCounted()
     Calibration calibration;
     calibration.eventRate = 1e-3;
     const auto counted = [](const std::vector<float> &values, double threshold) {
-        const auto n = std::count_if(values.begin(), values.end(), [&](float value) { return static_cast<double>(value) > threshold; });
-        return -static_cast<double>(values.size()) * std::log1p(-static_cast<double>(n) / static_cast<double>(values.size()));
+        const auto n = std::count_if(values.begin(), values.end(),
+                                     [&](float value) { return static_cast<double>(value) > threshold; });
+        return -static_cast<double>(values.size())
+               * std::log1p(-static_cast<double>(n) / static_cast<double>(values.size()));
     };
     // The calibration, wrong for both, does not matter where there is enough to count.
     for (const double wanted : {12.0, 100.0}) {
         QVERIFY(std::abs(counted(maxima, measuredThreshold(maxima, wanted, calibration, 1e-6)) - wanted) < 0.6);
-        QVERIFY(std::abs(counted(inOtherUnits, measuredThreshold(inOtherUnits, wanted, calibration, 1e-6)) - wanted) < 0.6);
+        QVERIFY(std::abs(counted(inOtherUnits, measuredThreshold(inOtherUnits, wanted, calibration, 1e-6)) - wanted)
+                < 0.6);
     }
     // One of them is ten, moved on by its slope.
-    QVERIFY(std::abs(measuredThreshold(maxima, 1.0, calibration, 1e-6) - measuredThreshold(maxima, 10.0, calibration, 1e-5) - std::log(10.0)) < 1e-9);
+    QVERIFY(std::abs(measuredThreshold(maxima, 1.0, calibration, 1e-6)
+                     - measuredThreshold(maxima, 10.0, calibration, 1e-5) - std::log(10.0))
+            < 1e-9);
     const std::vector<float> undecided(2000, -std::numeric_limits<float>::infinity());
     QCOMPARE(measuredThreshold(undecided, 1.0, calibration, 1e-6), calibration.thresholdForEventRate(1e-6));
 }
@@ -358,7 +368,8 @@ void tst_Campaign::signalsAreMasked()
     std::vector<float> y(6, 1.0f);
     mask.blank(1, 4, y); // bins 4 … 9
     QCOMPARE(y, (std::vector<float>{0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f}));
-    QVERIFY(mask.touches(1, 5, 6) && !mask.touches(1, 6, 6) && !mask.touches(1, -3, 1) && !mask.touches(0, 0, 9) && !mask.touches(7, 0, 9));
+    QVERIFY(mask.touches(1, 5, 6) && !mask.touches(1, 6, 6) && !mask.touches(1, -3, 1) && !mask.touches(0, 0, 9)
+            && !mask.touches(7, 0, 9));
     QVERIFY(std::abs(mask.freeShare() - 23.0 / 30.0) < 1e-12);
 }
 
@@ -388,10 +399,14 @@ void tst_Campaign::refusals_data()
     QTest::newRow("no detector") << QByteArray(R"({"snrDb": [0]})") << QByteArray("detectors");
     QTest::newRow("unknown key") << QByteArray(R"({"snr": [0], "detectors": [{"name": "a"}]})") << QByteArray("snr");
     QTest::newRow("no SNR") << QByteArray(R"({"snrDb": [], "detectors": [{"name": "a"}]})") << QByteArray("snrDb");
-    QTest::newRow("longer than its block") << QByteArray(R"({"durationWindows": 151, "detectors": [{"name": "a"}]})") << QByteArray("durationWindows");
-    QTest::newRow("wanders too far") << QByteArray(R"({"wanderCells": 30, "detectors": [{"name": "a"}]})") << QByteArray("wanderCells");
-    QTest::newRow("bad setting") << QByteArray(R"({"detectors": [{"name": "a", "settings": {"smd.k": 1}}]})") << QByteArray("smd.k");
-    QTest::newRow("no recording") << QByteArray(R"({"kind": "injection", "detectors": [{"name": "a"}]})") << QByteArray("recording");
+    QTest::newRow("longer than its block")
+        << QByteArray(R"({"durationWindows": 151, "detectors": [{"name": "a"}]})") << QByteArray("durationWindows");
+    QTest::newRow("wanders too far") << QByteArray(R"({"wanderCells": 30, "detectors": [{"name": "a"}]})")
+                                     << QByteArray("wanderCells");
+    QTest::newRow("bad setting") << QByteArray(R"({"detectors": [{"name": "a", "settings": {"smd.k": 1}}]})")
+                                 << QByteArray("smd.k");
+    QTest::newRow("no recording") << QByteArray(R"({"kind": "injection", "detectors": [{"name": "a"}]})")
+                                  << QByteArray("recording");
 }
 
 void tst_Campaign::refusals()

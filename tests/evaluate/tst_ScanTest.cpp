@@ -98,7 +98,8 @@ void tst_ScanTest::noModelLosesProbability()
         LikelihoodRatio ratio(model);
         const std::vector<double> lambda(static_cast<std::size_t>(model.reduction.stateCells()), 0.0);
         for (int stage = 0; stage < 100; ++stage)
-            QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12, qPrintable(QString("stage %1: %2").arg(stage).arg(ratio.lnLambda())));
+            QVERIFY2(std::abs(ratio.update(lambda)) < 1e-12,
+                     qPrintable(QString("stage %1: %2").arg(stage).arg(ratio.lnLambda())));
     };
     ScanScene scene = smallTest().scene;
     for (const int cells : {1, 3})
@@ -372,8 +373,8 @@ void tst_ScanTest::entropyOfTheWalk()
 void tst_ScanTest::refusals_data()
 {
     QTest::addColumn<QString>("member");
-    for (const char *name :
-         {"sprt.falseAlarm", "sprt.cutOffStage", "scene.rangeCells", "design.averagedCells", "survey.targetSectors", "runs.walks"})
+    for (const char *name : {"sprt.falseAlarm", "sprt.cutOffStage", "scene.rangeCells", "design.averagedCells",
+                             "survey.targetSectors", "runs.walks"})
         QTest::newRow(name) << name;
 }
 

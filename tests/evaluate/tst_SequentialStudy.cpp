@@ -25,7 +25,8 @@ KinematicAxis walk(Index cells, double deviation)
     return a;
 }
 
-SequentialStudy study(std::vector<KinematicAxis> axes, std::vector<bool> isFolded, double snr, std::optional<double> actual, Index trials)
+SequentialStudy study(std::vector<KinematicAxis> axes, std::vector<bool> isFolded, double snr,
+                      std::optional<double> actual, Index trials)
 {
     SequentialStudy made;
     made.model = makeSequentialModel(axes, isFolded, Likelihood(LikelihoodKind::Exponential, snr));
@@ -86,13 +87,15 @@ void tst_SequentialStudy::isTheExactWalk()
     QFETCH(bool, isTarget);
     QFETCH(double, actualDb);
     const double design = ratioFromDb(3.0);
-    const SequentialStudy made = study({axis(1)}, {false}, design, isTarget ? std::optional(ratioFromDb(actualDb)) : std::nullopt, 20000);
+    const SequentialStudy made =
+        study({axis(1)}, {false}, design, isTarget ? std::optional(ratioFromDb(actualDb)) : std::nullopt, 20000);
     const SequentialOutcome outcome = simulate(made);
     const DeterministicSprt exact = deterministicSprt(made.sprt, design, ratioFromDb(actualDb));
     const DeterministicSprt::Law &law = isTarget ? exact.h1 : exact.h0;
     QVERIFY(std::abs(outcome.stages.value - law.meanStages) < 4.0 * outcome.stages.standardError);
     QVERIFY(std::abs(outcome.deviationStages / law.deviationStages - 1.0) < 0.05);
-    QVERIFY(std::abs(outcome.variation.value - law.deviationStages / law.meanStages) < 4.0 * outcome.variation.standardError);
+    QVERIFY(std::abs(outcome.variation.value - law.deviationStages / law.meanStages)
+            < 4.0 * outcome.variation.standardError);
     const double p = static_cast<double>(outcome.acceptedH1) / 20000.0;
     QVERIFY(std::abs(p - law.acceptH1) < 4.0 * std::sqrt(law.acceptH1 * (1.0 - law.acceptH1) / 20000.0));
     Index counted = 0;
@@ -125,8 +128,9 @@ void tst_SequentialStudy::isThePlainTest()
         rated.cyclic = false;
         rated.ratesPerCell = 3;
     }
-    SequentialStudy made = world == 0   ? study({walk(9, 1.0)}, {false}, 2.0, actual, 60)
-                           : world == 1 ? study({walk(3, 0.6), walk(4, 1.0), axis(3)}, {false, false, true}, 2.0, actual, 60)
+    SequentialStudy made = world == 0 ? study({walk(9, 1.0)}, {false}, 2.0, actual, 60)
+                           : world == 1
+                               ? study({walk(3, 0.6), walk(4, 1.0), axis(3)}, {false, false, true}, 2.0, actual, 60)
                            : world == 2 ? study({axis(6)}, {true}, 2.0, actual, 60)
                                         : study({rated}, {false}, 2.0, actual, 60);
     made.sprt.cutOffStage = 40;
@@ -144,7 +148,8 @@ void tst_SequentialStudy::isThePlainTest()
                 source(stage, y);
                 taken.emplace_back(y.begin(), y.end());
             }
-            std::copy(taken[static_cast<std::size_t>(stage)].begin(), taken[static_cast<std::size_t>(stage)].end(), y.begin());
+            std::copy(taken[static_cast<std::size_t>(stage)].begin(), taken[static_cast<std::size_t>(stage)].end(),
+                      y.begin());
         });
         acceptedH1 += result.decision == SprtDecision::H1 ? 1 : 0;
         ++stopCounts[static_cast<std::size_t>(result.stages - 1)];

@@ -1,5 +1,5 @@
-#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/Campaign.h"
+#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/sweepCurve.h"
 #include "exchange/CampaignFile.h"
 #include "recording/SimulatedRecording.h"
@@ -15,55 +15,55 @@ using namespace faintline;
 
 namespace {
 
-    /// A line that is there to be found, three thresholds.
-    SweepExperiment sweep()
-    {
-        SweepExperiment sweep;
-        sweep.trials = 6;
-        sweep.snrDb = 4.0;
-        sweep.durationSeconds = 15.0;
-        sweep.marginSeconds = 8.0;
-        sweep.sampleRateHz = 200.0;
-        sweep.settings.spectrogram.windowSeconds = 0.5;
-        sweep.settings.model.lowestSlope = sweep.settings.model.highestSlope = 0;
-        sweep.settings.model.slopeChange = {1.0};
-        sweep.parameter = "decide.thresholdNats";
-        sweep.values = {3.0, 12.0, 400.0};
-        return sweep;
-    }
+/// A line that is there to be found, three thresholds.
+SweepExperiment sweep()
+{
+    SweepExperiment sweep;
+    sweep.trials = 6;
+    sweep.snrDb = 4.0;
+    sweep.durationSeconds = 15.0;
+    sweep.marginSeconds = 8.0;
+    sweep.sampleRateHz = 200.0;
+    sweep.settings.spectrogram.windowSeconds = 0.5;
+    sweep.settings.model.lowestSlope = sweep.settings.model.highestSlope = 0;
+    sweep.settings.model.slopeChange = {1.0};
+    sweep.parameter = "decide.thresholdNats";
+    sweep.values = {3.0, 12.0, 400.0};
+    return sweep;
+}
 
-    Campaign carriedOut(const SweepExperiment &sweep, int threads = 1)
-    {
-        RunContext context;
-        context.threads = threads;
-        Campaign campaign = begin(sweep, context);
-        carryOut(campaign, runsOfShard(sweep, 0, 1), context);
-        return campaign;
-    }
+Campaign carriedOut(const SweepExperiment &sweep, int threads = 1)
+{
+    RunContext context;
+    context.threads = threads;
+    Campaign campaign = begin(sweep, context);
+    carryOut(campaign, runsOfShard(sweep, 0, 1), context);
+    return campaign;
+}
 
-    std::string whyNot(const SweepExperiment &sweep)
-    {
-        try {
-            checkExperiment(sweep);
-        } catch (const Error &error) {
-            return error.what();
-        }
-        return {};
+std::string whyNot(const SweepExperiment &sweep)
+{
+    try {
+        checkExperiment(sweep);
+    } catch (const Error &error) {
+        return error.what();
     }
+    return {};
+}
 
-    SweepExperiment with(const std::string &parameter, const std::vector<double> &values)
-    {
-        SweepExperiment changed = sweep();
-        changed.parameter = parameter;
-        changed.values = values;
-        return changed;
-    }
+SweepExperiment with(const std::string &parameter, const std::vector<double> &values)
+{
+    SweepExperiment changed = sweep();
+    changed.parameter = parameter;
+    changed.values = values;
+    return changed;
+}
 
-    QByteArray bytesOf(const std::string &path)
-    {
-        QFile file(QString::fromStdString(path));
-        return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
-    }
+QByteArray bytesOf(const std::string &path)
+{
+    QFile file(QString::fromStdString(path));
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
 
 } // namespace
 
@@ -81,7 +81,8 @@ private slots:
     {
         QCOMPARE(sweepValues("model.snr", 0.1, 0.5, 5, false), (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
         QCOMPARE(sweepValues("model.snr", 0.25, 4.0, 5, true), (std::vector<double>{0.25, 0.5, 1.0, 2.0, 4.0}));
-        QCOMPARE(sweepValues("model.slopesPerBin", 1, 3, 5, false), (std::vector<double>{1, 2, 3})); // whole, without repeats
+        QCOMPARE(sweepValues("model.slopesPerBin", 1, 3, 5, false),
+                 (std::vector<double>{1, 2, 3})); // whole, without repeats
         QVERIFY_THROWS_EXCEPTION(Error, sweepValues("model.snr", 0.0, 1.0, 3, true));
         QVERIFY_THROWS_EXCEPTION(Error, sweepValues("detector.kind", 0.0, 1.0, 3, false));
     }
@@ -92,9 +93,11 @@ private slots:
         QTest::addColumn<double>("value");
         QTest::addColumn<QString>("why");
         QTest::newRow("unknown") << "model.snt" << 1.0 << "model.snt: unknown setting; did you mean model.snr";
-        QTest::newRow("a choice") << "detector.kind" << 1.0 << "parameter = detector.kind: must be a setting that is one number";
+        QTest::newRow("a choice") << "detector.kind" << 1.0
+                                  << "parameter = detector.kind: must be a setting that is one number";
         QTest::newRow("another detector's") << "pOfN.n" << 4.0 << "parameter = pOfN.n: belongs to a different detector";
-        QTest::newRow("out of range") << "spectrogram.windowSeconds" << -1.0 << "spectrogram.windowSeconds = -1: must lie in 0";
+        QTest::newRow("out of range") << "spectrogram.windowSeconds" << -1.0
+                                      << "spectrogram.windowSeconds = -1: must lie in 0";
         QTest::newRow("not whole") << "model.slopesPerBin" << 1.5 << "model.slopesPerBin = 1.5: must be a whole number";
     }
 
@@ -122,7 +125,8 @@ private slots:
         QVERIFY(std::get<SweepExperiment>(after) == before);
         Json json = toJson(before);
         json["values"] = Json{{"from", 1.0}, {"to", 100.0}, {"steps", 3}, {"scale", "log"}};
-        QCOMPARE(std::get<SweepExperiment>(experimentFromJson(json, "test")).values, (std::vector<double>{1.0, 10.0, 100.0}));
+        QCOMPARE(std::get<SweepExperiment>(experimentFromJson(json, "test")).values,
+                 (std::vector<double>{1.0, 10.0, 100.0}));
         json["values"]["scale"] = "square";
         QVERIFY_THROWS_EXCEPTION(Error, experimentFromJson(json, "test"));
         json.erase("values");
@@ -164,7 +168,8 @@ private slots:
 
         QCOMPARE(tradeOffChart(campaign).curves.front().points.size(), std::size_t(3));
         QCOMPARE(tradeOffChart(campaign).curves.front().points[1].label, std::string("12"));
-        QCOMPARE(sweepChart(campaign, SweepMeasure::Latency).curves.front().points.size(), std::size_t(2)); // never is no latency
+        QCOMPARE(sweepChart(campaign, SweepMeasure::Latency).curves.front().points.size(),
+                 std::size_t(2)); // never is no latency
         QCOMPARE(pdCurve(campaign)[1].detector, std::string("decide.thresholdNats = 12"));
     }
 
@@ -175,8 +180,8 @@ private slots:
         experiment.trials = 2;
         const double never = -INFINITY;
         Campaign campaign{experiment, {10.0, 20.0}, {}};
-        campaign.outcomes = {sweepOutcome(0, 3, 1800.0, 2.0), sweepOutcome(1, 0, 1800.0, never), sweepOutcome(2, 1, 1800.0, 4.0),
-                             sweepOutcome(3, 0, 1800.0, 6.0)};
+        campaign.outcomes = {sweepOutcome(0, 3, 1800.0, 2.0), sweepOutcome(1, 0, 1800.0, never),
+                             sweepOutcome(2, 1, 1800.0, 4.0), sweepOutcome(3, 0, 1800.0, 6.0)};
         const std::vector<SweepPoint> curve = sweepCurve(campaign);
         QCOMPARE(curve[0].pd, 1.0);
         QCOMPARE(curve[0].falseAlarmsPerHour, 4.0);

@@ -9,29 +9,30 @@ using namespace faintline;
 
 namespace {
 
-    /// The largest ratio, of logarithms' difference, between the closed form and the simulated calibration where that speaks for itself.
-    double largestGap(const AnalysisSettings &settings)
-    {
-        const auto calibration = calibrate(settings, {}, CalibrationDepth::FirstEstimate);
-        double largest = 0.0;
-        int compared = 0;
-        for (const ExceedancePoint &point : closedFormExceedance(settings, *calibration)) {
-            if (point.probability > 0.5 || point.probability < 2e-3)
-                continue;
-            ++compared;
-            largest = std::max(largest, std::abs(std::log(calibration->exceedanceAt(point.level) / point.probability)));
-        }
-        return compared < 5 ? INFINITY : largest;
+/// The largest ratio, of logarithms' difference, between the closed form and the simulated calibration where that
+/// speaks for itself.
+double largestGap(const AnalysisSettings &settings)
+{
+    const auto calibration = calibrate(settings, {}, CalibrationDepth::FirstEstimate);
+    double largest = 0.0;
+    int compared = 0;
+    for (const ExceedancePoint &point : closedFormExceedance(settings, *calibration)) {
+        if (point.probability > 0.5 || point.probability < 2e-3)
+            continue;
+        ++compared;
+        largest = std::max(largest, std::abs(std::log(calibration->exceedanceAt(point.level) / point.probability)));
     }
+    return compared < 5 ? INFINITY : largest;
+}
 
-    AnalysisSettings withoutOverlap()
-    {
-        AnalysisSettings settings;
-        settings.spectrogram.stepsPerWindow = 1;
-        settings.spectrogram.binsPerCell = 1;
-        settings.spectrogram.window = WindowShape::Rectangular;
-        return settings;
-    }
+AnalysisSettings withoutOverlap()
+{
+    AnalysisSettings settings;
+    settings.spectrogram.stepsPerWindow = 1;
+    settings.spectrogram.binsPerCell = 1;
+    settings.spectrogram.window = WindowShape::Rectangular;
+    return settings;
+}
 
 } // namespace
 

@@ -1,7 +1,7 @@
 #include "evaluate/comparison/compareAnalyses.h"
 #include "evaluate/comparison/differencePicture.h"
-#include "evaluate/experiments/measureCost.h"
 #include "evaluate/comparison/settingDifferences.h"
+#include "evaluate/experiments/measureCost.h"
 #include "exchange/writeComparison.h"
 
 #include "base/Error.h"
@@ -17,73 +17,76 @@ using In = ComparedEvent::In;
 
 namespace {
 
-    constexpr Index frameCount = 100;
+constexpr Index frameCount = 100;
 
-    Track track(int id, Index onset, Index end, Index cell, double cellsPerFrame = 0.0)
-    {
-        Track result;
-        result.id = id;
-        result.onsetFrame = result.detectFrame = onset;
-        result.endFrame = end;
-        result.peakStatistic = 20.0 + id;
-        for (Index frame = onset; frame <= end; ++frame)
-            result.points.push_back({frame, cell + std::llround(cellsPerFrame * static_cast<double>(frame - onset)), 0, 1.0});
-        return result;
-    }
+Track track(int id, Index onset, Index end, Index cell, double cellsPerFrame = 0.0)
+{
+    Track result;
+    result.id = id;
+    result.onsetFrame = result.detectFrame = onset;
+    result.endFrame = end;
+    result.peakStatistic = 20.0 + id;
+    for (Index frame = onset; frame <= end; ++frame)
+        result.points.push_back(
+            {frame, cell + std::llround(cellsPerFrame * static_cast<double>(frame - onset)), 0, 1.0});
+    return result;
+}
 
-    /// An analysis that holds nothing but tracks, on frames of `stepSeconds` and bins of `stepHz`.
-    Analysis holding(std::vector<Track> tracks, double stepSeconds = 0.5, double stepHz = 2.0, bool isCyclic = false)
-    {
-        Analysis analysis;
-        const auto frames = static_cast<Index>(std::lround(frameCount * 0.5 / stepSeconds));
-        const auto cells = static_cast<Index>(std::lround(100.0 * 2.0 / stepHz));
-        const Axis hertz{"frequency", "Hz", 0.0, stepHz, cells, isCyclic};
-        analysis.frames =
-            std::make_shared<FrameArray>(Axis{"time", "s", 0.0, stepSeconds, frames, false}, Grid{{hertz}}, std::vector<float>());
-        analysis.tracks = std::move(tracks);
-        return analysis;
-    }
+/// An analysis that holds nothing but tracks, on frames of `stepSeconds` and bins of `stepHz`.
+Analysis holding(std::vector<Track> tracks, double stepSeconds = 0.5, double stepHz = 2.0, bool isCyclic = false)
+{
+    Analysis analysis;
+    const auto frames = static_cast<Index>(std::lround(frameCount * 0.5 / stepSeconds));
+    const auto cells = static_cast<Index>(std::lround(100.0 * 2.0 / stepHz));
+    const Axis hertz{"frequency", "Hz", 0.0, stepHz, cells, isCyclic};
+    analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, stepSeconds, frames, false}, Grid{{hertz}},
+                                                   std::vector<float>());
+    analysis.tracks = std::move(tracks);
+    return analysis;
+}
 
-    /// "A1", "B2", "A1=B2" in the order of the comparison.
-    QStringList words(const Comparison &comparison)
-    {
-        QStringList result;
-        for (const ComparedEvent &event : comparison.events) {
-            QStringList sides;
-            if (event.a)
-                sides << QStringLiteral("A%1").arg(event.a->id);
-            if (event.b)
-                sides << QStringLiteral("B%1").arg(event.b->id);
-            result << sides.join('=');
-        }
-        return result;
+/// "A1", "B2", "A1=B2" in the order of the comparison.
+QStringList words(const Comparison &comparison)
+{
+    QStringList result;
+    for (const ComparedEvent &event : comparison.events) {
+        QStringList sides;
+        if (event.a)
+            sides << QStringLiteral("A%1").arg(event.a->id);
+        if (event.b)
+            sides << QStringLiteral("B%1").arg(event.b->id);
+        result << sides.join('=');
     }
+    return result;
+}
 
-    QStringList compared(std::vector<Track> a, std::vector<Track> b, const CompareTolerance &tolerance = {})
-    {
-        return words(compareAnalyses(holding(std::move(a)), holding(std::move(b)), tolerance));
-    }
+QStringList compared(std::vector<Track> a, std::vector<Track> b, const CompareTolerance &tolerance = {})
+{
+    return words(compareAnalyses(holding(std::move(a)), holding(std::move(b)), tolerance));
+}
 
-    /// A statistic's picture, by eye: rows of cells in nat.
-    Analysis withStatistic(const std::vector<std::vector<float>> &rows, double threshold, double stepSeconds = 1.0, double stepHz = 1.0)
-    {
-        Analysis analysis;
-        const Axis time{"time", "s", 0.0, stepSeconds, std::ssize(rows), false};
-        const auto cells = std::ssize(rows.front());
-        analysis.frames = std::make_shared<FrameArray>(time, Grid{{{"frequency", "Hz", 0.0, stepHz, cells, false}}}, std::vector<float>());
-        const auto picture = std::make_shared<PeakPyramid>(time, cells, ByteScale(ByteScale::Kind::ScoreNats));
-        for (const std::vector<float> &row : rows)
-            picture->append(row);
-        picture->finish();
-        analysis.statistic = picture;
-        analysis.threshold = threshold;
-        return analysis;
-    }
+/// A statistic's picture, by eye: rows of cells in nat.
+Analysis withStatistic(const std::vector<std::vector<float>> &rows, double threshold, double stepSeconds = 1.0,
+                       double stepHz = 1.0)
+{
+    Analysis analysis;
+    const Axis time{"time", "s", 0.0, stepSeconds, std::ssize(rows), false};
+    const auto cells = std::ssize(rows.front());
+    analysis.frames = std::make_shared<FrameArray>(time, Grid{{{"frequency", "Hz", 0.0, stepHz, cells, false}}},
+                                                   std::vector<float>());
+    const auto picture = std::make_shared<PeakPyramid>(time, cells, ByteScale(ByteScale::Kind::ScoreNats));
+    for (const std::vector<float> &row : rows)
+        picture->append(row);
+    picture->finish();
+    analysis.statistic = picture;
+    analysis.threshold = threshold;
+    return analysis;
+}
 
-    double valueOf(const PeakPyramid &picture, int level, Index row, Index cell)
-    {
-        return picture.scale().value(picture.row(level, row)[static_cast<std::size_t>(cell)]);
-    }
+double valueOf(const PeakPyramid &picture, int level, Index row, Index cell)
+{
+    return picture.scale().value(picture.row(level, row)[static_cast<std::size_t>(cell)]);
+}
 
 } // namespace
 
@@ -120,7 +123,8 @@ private slots:
     {
         // They meet in the middle and are within the tolerance for a fifth of the time.
         QCOMPARE(compared({track(1, 0, 40, 20, 1.0)}, {track(1, 0, 40, 60, -1.0)}), (QStringList{"A1", "B1"}));
-        QCOMPARE(compared({track(1, 0, 40, 20, 1.0), track(2, 0, 40, 60, -1.0)}, {track(1, 0, 40, 60, -1.0), track(2, 0, 40, 20, 1.0)}),
+        QCOMPARE(compared({track(1, 0, 40, 20, 1.0), track(2, 0, 40, 60, -1.0)},
+                          {track(1, 0, 40, 60, -1.0), track(2, 0, 40, 20, 1.0)}),
                  (QStringList{"A1=B2", "A2=B1"}));
     }
 
@@ -134,7 +138,8 @@ private slots:
     void exchangingThemExchangesNames()
     {
         const std::vector<Track> some{track(1, 0, 90, 20), track(2, 5, 60, 70, 0.3), track(3, 50, 70, 10)};
-        const std::vector<Track> other{track(1, 2, 30, 21), track(2, 30, 88, 19), track(3, 6, 66, 71, 0.3), track(4, 1, 5, 90)};
+        const std::vector<Track> other{track(1, 2, 30, 21), track(2, 30, 88, 19), track(3, 6, 66, 71, 0.3),
+                                       track(4, 1, 5, 90)};
         const QStringList there = compared(some, other);
         QStringList back = compared(other, some);
         for (QString &word : back) {
@@ -165,7 +170,8 @@ private slots:
     void cyclicAxis()
     {
         const auto around = [](bool isCyclic) {
-            const Analysis a = holding({track(1, 10, 40, 1)}, 0.5, 2.0, isCyclic), b = holding({track(1, 10, 40, 98)}, 0.5, 2.0, isCyclic);
+            const Analysis a = holding({track(1, 10, 40, 1)}, 0.5, 2.0, isCyclic),
+                           b = holding({track(1, 10, 40, 98)}, 0.5, 2.0, isCyclic);
             return words(compareAnalyses(a, b));
         };
         QCOMPARE(around(true), QStringList{"A1=B1"});
@@ -175,8 +181,8 @@ private slots:
     void otherQuantitiesAreRefused()
     {
         Analysis ranges = holding({});
-        ranges.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 0.5, 10, false}, Grid{{{"range", "m", 0.0, 1.0, 10, false}}},
-                                                     std::vector<float>());
+        ranges.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 0.5, 10, false},
+                                                     Grid{{{"range", "m", 0.0, 1.0, 10, false}}}, std::vector<float>());
         QVERIFY_THROWS_EXCEPTION(Error, compareAnalyses(holding({}), ranges));
     }
 
@@ -250,10 +256,10 @@ private slots:
         writeComparison(compareAnalyses(a, b), b.grid(), path);
         QFile file(QString::fromStdString(path));
         QVERIFY(file.open(QIODevice::ReadOnly));
-        QCOMPARE(file.readAll(),
-                 QByteArray("in,event_a,event_b,t_onset,t_end,f,drift_hz_per_s,t_detect_a,t_detect_b,statistic_a,statistic_b,shared_s\n"
-                            "both,1,1,6,20,42,0,5,6,21,21,16.5\n"
-                            "A,2,,25,30,160,0,25,,22,,\n"));
+        QCOMPARE(file.readAll(), QByteArray("in,event_a,event_b,t_onset,t_end,f,drift_hz_per_s,t_detect_a,t_detect_b,"
+                                            "statistic_a,statistic_b,shared_s\n"
+                                            "both,1,1,6,20,42,0,5,6,21,21,16.5\n"
+                                            "A,2,,25,30,160,0,25,,22,,\n"));
         QVERIFY_THROWS_EXCEPTION(Error, checkComparisonPath("both.txt"));
     }
 

@@ -1,6 +1,6 @@
+#include "app/cli/speed/measureSpeed.h"
 #include "base/Error.h"
 #include "base/json.h"
-#include "app/cli/speed/measureSpeed.h"
 
 #include <QtTest>
 
@@ -25,7 +25,8 @@ void tst_measureSpeed::everyGoalNamesForms()
             std::vector<SpeedForm> forms = kernel.make();
             for (const SpeedGoal &goal : kernel.goals)
                 for (const std::string &wanted : {goal.faster, goal.slower})
-                    QVERIFY(std::any_of(forms.begin(), forms.end(), [&](const SpeedForm &form) { return form.name == wanted; }));
+                    QVERIFY(std::any_of(forms.begin(), forms.end(),
+                                        [&](const SpeedForm &form) { return form.name == wanted; }));
         }
 }
 
@@ -45,12 +46,15 @@ void tst_measureSpeed::ratiosAndChecks()
 {
     int fastRuns = 0;
     int slowRuns = 0;
-    const SpeedKernel kernel{"k", "title", "thing", {{"fast", "slow", 1e9}, {"slow", "fast", 0.0}},
-                             [&] {
-                                 return std::vector<SpeedForm>{{"fast", 1.0, 1, [&] { ++fastRuns; }},
-                                                               {"slow", 1.0, 1, [&] { ++slowRuns; }}};
-                             },
-                             {{"error", 1.0, [] { return 0.5; }}}};
+    const SpeedKernel kernel{
+        "k",
+        "title",
+        "thing",
+        {{"fast", "slow", 1e9}, {"slow", "fast", 0.0}},
+        [&] {
+            return std::vector<SpeedForm>{{"fast", 1.0, 1, [&] { ++fastRuns; }}, {"slow", 1.0, 1, [&] { ++slowRuns; }}};
+        },
+        {{"error", 1.0, [] { return 0.5; }}}};
     const SpeedResult result = measureSpeed(kernel, {3, 1e-4});
     QVERIFY(fastRuns >= 4 && slowRuns >= 4); // once to warm up, then each round
     QCOMPARE(result.ratios.size(), std::size_t(2));

@@ -133,7 +133,8 @@ void tst_noiseFit::energyDetectorSeesTheLawItself()
     const MisfitPfa pfa = misfitPfa(std::vector{band(law)}, settings, std::exp(-threshold)).front();
     const double actual = std::exp(-2.0 * threshold) * (1.0 + 2.0 * threshold);
     const double n = 256.0 * 6000.0;
-    // The threshold is found on as many cells: its error, 1/√(n·nominal) of e^{-T}, moves the other law along its slope.
+    // The threshold is found on as many cells: its error, 1/√(n·nominal) of e^{-T}, moves the other law along its
+    // slope.
     const double slope = 4.0 * threshold * std::exp(-2.0 * threshold);
     const double thresholdError = 1.0 / std::sqrt(n * std::exp(-threshold));
     QVERIFY(std::abs(pfa.actual - actual)

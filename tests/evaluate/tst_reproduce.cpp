@@ -92,13 +92,15 @@ void tst_reproduce::fewRuns()
     ReproduceOptions options;
     options.quick = true;
     const Reproduction made = reproducible(name.toStdString()).run(options, {});
-    const auto judged = std::count_if(made.cells.begin(), made.cells.end(), [](const ReproducedCell &cell) { return cell.isJudged(); });
+    const auto judged =
+        std::count_if(made.cells.begin(), made.cells.end(), [](const ReproducedCell &cell) { return cell.isJudged(); });
     QVERIFY(judged >= 4);
     for (const ReproducedCell &cell : made.cells)
-        QVERIFY2(cell.isInside(), qPrintable(QString("%1, %2: %3, not %4")
-                                                 .arg(QString::fromStdString(cell.row), QString::fromStdString(cell.column))
-                                                 .arg(cell.ours)
-                                                 .arg(cell.reference.value_or(0.0))));
+        QVERIFY2(cell.isInside(),
+                 qPrintable(QString("%1, %2: %3, not %4")
+                                .arg(QString::fromStdString(cell.row), QString::fromStdString(cell.column))
+                                .arg(cell.ours)
+                                .arg(cell.reference.value_or(0.0))));
 }
 
 QTEST_APPLESS_MAIN(tst_reproduce)

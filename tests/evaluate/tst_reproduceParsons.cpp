@@ -4,7 +4,8 @@
 
 using namespace faintline;
 
-/// What of Parsons' paper can be checked within a second. The figures take seconds to minutes: `faintline-cli reproduce parsons`.
+/// What of Parsons' paper can be checked within a second. The figures take seconds to minutes: `faintline-cli reproduce
+/// parsons`.
 class tst_reproduceParsons : public QObject
 {
     Q_OBJECT

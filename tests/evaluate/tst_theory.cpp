@@ -74,7 +74,8 @@ void tst_theory::integratorAgainstMarcumQ()
             }
             const auto found = std::count_if(mean.begin(), mean.end(), [&](float d) { return d > threshold; });
             const double error = std::sqrt(pd * (1.0 - pd) / trials);
-            QVERIFY2(std::abs(static_cast<double>(found) / trials - pd) < 4.5 * error, qPrintable(QString("%1 looks, Pd %2").arg(looks).arg(pd)));
+            QVERIFY2(std::abs(static_cast<double>(found) / trials - pd) < 4.5 * error,
+                     qPrintable(QString("%1 looks, Pd %2").arg(looks).arg(pd)));
         }
 }
 
@@ -93,7 +94,8 @@ void tst_theory::estimatedNoise()
         double own = 0.0;
         double others = 0.0;
         for (int i = 0; i < looks + references; ++i) {
-            const double re = static_cast<double>(normals[static_cast<std::size_t>(2 * i)]) + (i < looks ? std::sqrt(snr) : 0.0);
+            const double re =
+                static_cast<double>(normals[static_cast<std::size_t>(2 * i)]) + (i < looks ? std::sqrt(snr) : 0.0);
             const double im = static_cast<double>(normals[static_cast<std::size_t>(2 * i + 1)]);
             (i < looks ? own : others) += re * re + im * im;
         }
@@ -118,7 +120,9 @@ void tst_theory::pOfNAgainstBinomial()
             detector.update(y, statistic);
         }
         const double expected = pdOfPofN(p, n, std::exp(-0.7));
-        const double found = static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 0.0f; })) / cells;
+        const double found =
+            static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 0.0f; }))
+            / cells;
         QVERIFY(std::abs(found - expected) < 4.5 * std::sqrt(expected * (1.0 - expected) / cells));
     }
 }
@@ -147,7 +151,8 @@ void tst_theory::lindley()
             continue;
         ++frames;
         // Before this frame's y is added the score is L of Lindley's recursion; with it, D = max(L, 0) + y.
-        above += static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 6.0f; }));
+        above +=
+            static_cast<double>(std::count_if(statistic.begin(), statistic.end(), [](float d) { return d > 6.0f; }));
     }
     // P(L⁺ + y > T) in closed form: L⁺ + y + ln K is the next L, so P = P(L > T + ln K).
     const double expected = lindleyExceedance(6.0 + lnK, lnK);

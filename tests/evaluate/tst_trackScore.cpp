@@ -100,7 +100,8 @@ void tst_trackScore::afterItsEndIsNotHeldAgainstIt()
 
 void tst_trackScore::theEarliestTrackCounts()
 {
-    const TrackScore score = scoreTracks(std::vector{track(12, 14, 3, 0), track(7, 10, 3, 1)}, {{target(3)}}, grid, {3, 1});
+    const TrackScore score =
+        scoreTracks(std::vector{track(12, 14, 3, 0), track(7, 10, 3, 1)}, {{target(3)}}, grid, {3, 1});
     QCOMPARE(score.targets[0].tracks, 2);
     QCOMPARE(score.targets[0].detectLatency, Index(3));
     QVERIFY(!score.targets[0].isConfirmed());
@@ -108,7 +109,8 @@ void tst_trackScore::theEarliestTrackCounts()
 
 void tst_trackScore::twoTargetsTwoTracks()
 {
-    const TrackScore score = scoreTracks(std::vector{track(8, 14, 7, 0), track(8, 14, 3, 0)}, {{target(3), target(7)}}, grid, {3, 1});
+    const TrackScore score =
+        scoreTracks(std::vector{track(8, 14, 7, 0), track(8, 14, 3, 0)}, {{target(3), target(7)}}, grid, {3, 1});
     QCOMPARE(score.targetOfTrack, (std::vector<int>{1, 0}));
 }
 

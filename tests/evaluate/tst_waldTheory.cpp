@@ -87,8 +87,8 @@ void tst_waldTheory::mixtureIsSimulated()
         for (const bool isTarget : {false, true}) {
             double mean = 0.0;
             for (int cell = 0; cell < cells; ++cell)
-                mean +=
-                    std::exp((cell == 0 && isTarget ? 1.0 + snr : 1.0) * random.exponential() * snr / (1.0 + snr)) / (1.0 + snr) / cells;
+                mean += std::exp((cell == 0 && isTarget ? 1.0 + snr : 1.0) * random.exponential() * snr / (1.0 + snr))
+                        / (1.0 + snr) / cells;
             sum[isTarget] += std::log(mean) / runs;
             squares[isTarget] += std::log(mean) * std::log(mean) / runs;
         }
@@ -137,11 +137,13 @@ void tst_waldTheory::walkIsSimulated()
     const DeterministicSprt exact = deterministicSprt(settings, ratioFromDb(designDb), ratioFromDb(actualDb));
     for (const bool isTarget : {false, true}) {
         const DeterministicSprt::Law &law = isTarget ? exact.h1 : exact.h0;
-        const Counted counted = simulateWalk(settings, ratioFromDb(designDb), isTarget ? 1.0 + ratioFromDb(actualDb) : 1.0, runs);
+        const Counted counted =
+            simulateWalk(settings, ratioFromDb(designDb), isTarget ? 1.0 + ratioFromDb(actualDb) : 1.0, runs);
         const double deviation = std::sqrt(counted.square - counted.mean * counted.mean);
         QVERIFY(std::abs(counted.mean - law.meanStages) < 4.0 * deviation / std::sqrt(runs));
         QVERIFY(std::abs(deviation / law.deviationStages - 1.0) < 0.05);
-        QVERIFY(std::abs(counted.acceptH1 - law.acceptH1) < 4.0 * std::sqrt(law.acceptH1 * (1.0 - law.acceptH1) / runs));
+        QVERIFY(std::abs(counted.acceptH1 - law.acceptH1)
+                < 4.0 * std::sqrt(law.acceptH1 * (1.0 - law.acceptH1) / runs));
     }
 }
 
@@ -161,8 +163,8 @@ void tst_waldTheory::walkIsConsistent()
     // It ends almost surely, by two equations that know nothing of each other.
     QVERIFY(std::abs(exact.h0.acceptH1 + exact.h0.acceptH0 - 1.0) < 1e-10);
     QVERIFY(std::abs(exact.h1.acceptH1 + exact.h1.acceptH0 - 1.0) < 1e-10);
-    // Upward overshoots are exponential, without memory: with E1 e^{-overshoot} = 1/(1 + ρ) on a target the change of measure from there
-    // to noise is exact, α = (1 - β) e^{-ln γ1}/(1 + ρ).
+    // Upward overshoots are exponential, without memory: with E1 e^{-overshoot} = 1/(1 + ρ) on a target the change of
+    // measure from there to noise is exact, α = (1 - β) e^{-ln γ1}/(1 + ρ).
     const double change = std::exp(-sprtBoundaries(settings).lnUpper) / (1.0 + snr);
     QVERIFY(std::abs(exact.h0.acceptH1 / (exact.h1.acceptH1 * change) - 1.0) < 1e-9);
 }
@@ -176,9 +178,9 @@ void tst_waldTheory::walkByShooting_data()
 
 void tst_waldTheory::walkByShooting()
 {
-    // With J(x) = ∫_x N(z) f-weight dz the equation reads N(x) = 1 + e^{(x-c-a)/s} J(x-c): from a guess of J at the lower end a it can be
-    // gone through upwards, and as J at the upper end depends linearly on the guess, two guesses give the right one. Trapezoids, two step
-    // widths.
+    // With J(x) = ∫_x N(z) f-weight dz the equation reads N(x) = 1 + e^{(x-c-a)/s} J(x-c): from a guess of J at the
+    // lower end a it can be gone through upwards, and as J at the upper end depends linearly on the guess, two guesses
+    // give the right one. Trapezoids, two step widths.
     QFETCH(bool, isTarget);
     const SprtSettings settings{1e-3, 1e-3, 0};
     const double a = sprtBoundaries(settings).lnLower;
@@ -204,7 +206,8 @@ void tst_waldTheory::walkByShooting()
             }
             const double start = a + static_cast<double>(J.size() - 1) * h;
             J.push_back(J.back()
-                        - 0.5 * (N[N.size() - 2] * std::exp(-(start - a) / s) + N.back() * std::exp(-(end - a) / s)) / s * (end - start));
+                        - 0.5 * (N[N.size() - 2] * std::exp(-(start - a) / s) + N.back() * std::exp(-(end - a) / s)) / s
+                              * (end - start));
             if (end == b)
                 break;
         }

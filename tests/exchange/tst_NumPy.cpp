@@ -45,41 +45,41 @@ private:
 
 namespace {
 
-    /// A file of NumPy's format put together by hand.
-    QByteArray file(const QByteArray &dictionary, const QByteArray &data, char version = 1)
-    {
-        QByteArray header = dictionary;
-        const int before = version == 1 ? 10 : 12;
-        while ((before + header.size() + 1) % 64 != 0)
-            header += ' ';
-        header += '\n';
-        QByteArray bytes("\x93NUMPY", 6);
-        bytes += version;
-        bytes += '\0';
-        bytes += static_cast<char>(header.size() & 0xff);
-        bytes += static_cast<char>(header.size() >> 8);
-        if (version > 1)
-            bytes += QByteArray(2, '\0');
-        return bytes + header + data;
-    }
+/// A file of NumPy's format put together by hand.
+QByteArray file(const QByteArray &dictionary, const QByteArray &data, char version = 1)
+{
+    QByteArray header = dictionary;
+    const int before = version == 1 ? 10 : 12;
+    while ((before + header.size() + 1) % 64 != 0)
+        header += ' ';
+    header += '\n';
+    QByteArray bytes("\x93NUMPY", 6);
+    bytes += version;
+    bytes += '\0';
+    bytes += static_cast<char>(header.size() & 0xff);
+    bytes += static_cast<char>(header.size() >> 8);
+    if (version > 1)
+        bytes += QByteArray(2, '\0');
+    return bytes + header + data;
+}
 
-    QByteArray dictionary(const char *type, const char *shape, const char *order = "False")
-    {
-        return QByteArray("{'descr': '") + type + "', 'fortran_order': " + order + ", 'shape': " + shape + ", }";
-    }
+QByteArray dictionary(const char *type, const char *shape, const char *order = "False")
+{
+    return QByteArray("{'descr': '") + type + "', 'fortran_order': " + order + ", 'shape': " + shape + ", }";
+}
 
-    template <class T>
-    QByteArray bytesOf(const std::vector<T> &values)
-    {
-        return {reinterpret_cast<const char *>(values.data()), static_cast<qsizetype>(values.size() * sizeof(T))};
-    }
+template <class T>
+QByteArray bytesOf(const std::vector<T> &values)
+{
+    return {reinterpret_cast<const char *>(values.data()), static_cast<qsizetype>(values.size() * sizeof(T))};
+}
 
-    void write(const std::string &path, const std::vector<Index> &shape, const std::vector<float> &values)
-    {
-        NumPyWriter writer(path, shape);
-        writer.write(values);
-        writer.finish();
-    }
+void write(const std::string &path, const std::vector<Index> &shape, const std::vector<float> &values)
+{
+    NumPyWriter writer(path, shape);
+    writer.write(values);
+    writer.finish();
+}
 
 } // namespace
 
@@ -140,8 +140,10 @@ void tst_NumPy::headersOfOthers_data()
     QTest::newRow("no spaces") << file("{'descr':'<f4','fortran_order':False,'shape':(2,3)}", data);
     QTest::newRow("version 2") << file("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", data, 2);
     QTest::newRow("version 3") << file("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", data, 3);
-    QTest::newRow("more than the shape says") << file("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", data + data);
-    QTest::newRow("double") << file("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }", bytesOf(std::vector<double>{1, 2, 3, 4, 5, 6}));
+    QTest::newRow("more than the shape says")
+        << file("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", data + data);
+    QTest::newRow("double") << file("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }",
+                                    bytesOf(std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
 
 void tst_NumPy::headersOfOthers()
@@ -158,15 +160,19 @@ void tst_NumPy::refusals_data()
     QTest::addColumn<QByteArray>("bytes");
     QTest::addColumn<QString>("message");
     const QByteArray data(64, '\0');
-    const auto row = [](const char *name, const QByteArray &bytes, const char *message) { QTest::newRow(name) << bytes << QString::fromUtf8(message); };
+    const auto row = [](const char *name, const QByteArray &bytes, const char *message) {
+        QTest::newRow(name) << bytes << QString::fromUtf8(message);
+    };
     row("empty", "", "is not a NumPy file (.npy)");
     row("text", "frame,cell,value\n0,0,1\n", "is not a NumPy file (.npy)");
     row("Fortran order", file(dictionary("<f4", "(2, 3)", "True"), data), "is in Fortran order; save it in C order");
-    row("big-endian", file(dictionary(">f4", "(2, 3)"), data), "holds '>f4'; expected float32 or float64, little-endian");
+    row("big-endian", file(dictionary(">f4", "(2, 3)"), data),
+        "holds '>f4'; expected float32 or float64, little-endian");
     row("integers", file(dictionary("<i4", "(2, 3)"), data), "holds '<i4'; float32");
     row("complex", file(dictionary("<c8", "(2, 3)"), data), "holds '<c8'; float32");
     row("objects", file(dictionary("|O", "(2, 3)"), data), "holds '|O'; float32");
-    row("structure", file("{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (2, 3)}", data), "float32 or float64");
+    row("structure", file("{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (2, 3)}", data),
+        "float32 or float64");
     row("no type", file("{'fortran_order': False, 'shape': (2, 3)}", data), "has no 'descr'");
     row("no order", file("{'descr': '<f4', 'shape': (2, 3)}", data), "has no 'fortran_order'");
     row("no shape", file("{'descr': '<f4', 'fortran_order': False}", data), "has no 'shape'");
@@ -178,8 +184,10 @@ void tst_NumPy::refusals_data()
     row("not a number", file(dictionary("<f4", "(nan, 3)"), data), "its NumPy shape holds 'nan'");
     row("infinite", file(dictionary("<f4", "(inf, 3)"), data), "its NumPy shape holds 'inf'");
     row("too many values", file(dictionary("<f4", "(65536, 65536)"), data), "holds more than 2³¹ values");
-    row("overflowing product", file(dictionary("<f4", "(4294967296, 4294967296, 4)"), data), "holds more than 2³¹ values");
-    row("overflowing before a 0", file(dictionary("<f4", "(1099511627776, 1099511627776, 0)"), data), "holds more than 2³¹ values");
+    row("overflowing product", file(dictionary("<f4", "(4294967296, 4294967296, 4)"), data),
+        "holds more than 2³¹ values");
+    row("overflowing before a 0", file(dictionary("<f4", "(1099511627776, 1099511627776, 0)"), data),
+        "holds more than 2³¹ values");
     row("endless header", QByteArray("\x93NUMPY\x02\x00\xff\xff\xff\xff", 12) + data, "its NumPy header is too long");
 }
 
@@ -198,7 +206,8 @@ void tst_NumPy::cutShortAnywhere()
     QVERIFY(refusal(whole).empty());
     for (qsizetype length = 0; length < whole.size(); ++length) {
         const std::string said = refusal(whole.left(length));
-        QVERIFY2(said.starts_with(path("refused.npy") + ": is "), qPrintable(QString("%1 bytes: %2").arg(length).arg(said.c_str())));
+        QVERIFY2(said.starts_with(path("refused.npy") + ": is "),
+                 qPrintable(QString("%1 bytes: %2").arg(length).arg(said.c_str())));
     }
     const QByteArray second = file(dictionary("<f4", "(2, 3)"), QByteArray(24, '\0'), 2);
     for (qsizetype length = 0; length < second.size(); ++length)
@@ -217,7 +226,7 @@ void tst_NumPy::hugeShapesTakeNoMemory()
     // A file of 128 bytes that claims gigabytes is seen to be short before room is made for them.
     QFETCH(QByteArray, shape);
     for (const char *type : {"<f4", "<f8"})
-        QVERIFY(contains(refusal(file(dictionary(type, shape.data()), {})), "is truncated: its shape (" ));
+        QVERIFY(contains(refusal(file(dictionary(type, shape.data()), {})), "is truncated: its shape ("));
 }
 
 void tst_NumPy::writtenInPieces()

@@ -1,7 +1,7 @@
 #include "exchange/annotationText.h"
 #include "exchange/readAnnotations.h"
-#include "exchange/writeReviewed.h"
 #include "exchange/writeEvents.h"
+#include "exchange/writeReviewed.h"
 #include "support/recordings.h"
 
 #include <QtTest>
@@ -41,40 +41,42 @@ private:
 
 namespace {
 
-    class Nothing : public Recording
-    {
-    public:
-        explicit Nothing(const RecordingInfo &info) { m_info = info; }
-        void read(int, Index, Index, std::span<float>) const override {}
-    };
+class Nothing : public Recording
+{
+public:
+    explicit Nothing(const RecordingInfo &info) { m_info = info; }
+    void read(int, Index, Index, std::span<float>) const override {}
+};
 
-    Analysis threeTracks(const RecordingInfo &info)
-    {
-        Analysis analysis;
-        const Grid grid{{{"frequency", "Hz", -50.0, 2.5, 40, false}}};
-        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.25, 0.5, 20, false}, grid, std::vector<float>(800, 1.0f));
-        analysis.recording = std::make_shared<Nothing>(info);
-        analysis.calibration = std::make_shared<Calibration>();
-        for (int id = 1; id <= 3; ++id) {
-            Track track{id, 2, 3, 12, 14.75 + id, true, false, {}};
-            for (Index frame = 2; frame <= 12; ++frame)
-                track.points.push_back({frame, 10 * id + (frame > 8 ? 1 : 0), 0, 1.0});
-            analysis.tracks.push_back(track);
-        }
-        return analysis;
+Analysis threeTracks(const RecordingInfo &info)
+{
+    Analysis analysis;
+    const Grid grid{{{"frequency", "Hz", -50.0, 2.5, 40, false}}};
+    analysis.frames =
+        std::make_shared<FrameArray>(Axis{"time", "s", 0.25, 0.5, 20, false}, grid, std::vector<float>(800, 1.0f));
+    analysis.recording = std::make_shared<Nothing>(info);
+    analysis.calibration = std::make_shared<Calibration>();
+    for (int id = 1; id <= 3; ++id) {
+        Track track{id, 2, 3, 12, 14.75 + id, true, false, {}};
+        for (Index frame = 2; frame <= 12; ++frame)
+            track.points.push_back({frame, 10 * id + (frame > 8 ? 1 : 0), 0, 1.0});
+        analysis.tracks.push_back(track);
     }
+    return analysis;
+}
 
-    Annotations said(const Analysis &analysis)
-    {
-        const std::vector<Event> all = events(analysis);
-        Annotations annotations;
-        annotations.reviews = withVerdict({}, analysis, all, {1}, Verdict::Accepted);
-        annotations.reviews = withVerdict(annotations.reviews, analysis, all, {2}, Verdict::Rejected);
-        annotations.reviews = withNote(annotations.reviews, analysis, all, 2, "mains, \"hum\" of 50 Hz; ½");
-        annotations.reviews = withNote(annotations.reviews, analysis, all, 3, "look again");
-        annotations.boxes = {{1.0, 2.5, -12.5, 30.0, "hand-made, box", "by me", Verdict::None}, {3.0, 4.0, {}, {}, "", "", Verdict::None}};
-        return annotations;
-    }
+Annotations said(const Analysis &analysis)
+{
+    const std::vector<Event> all = events(analysis);
+    Annotations annotations;
+    annotations.reviews = withVerdict({}, analysis, all, {1}, Verdict::Accepted);
+    annotations.reviews = withVerdict(annotations.reviews, analysis, all, {2}, Verdict::Rejected);
+    annotations.reviews = withNote(annotations.reviews, analysis, all, 2, "mains, \"hum\" of 50 Hz; ½");
+    annotations.reviews = withNote(annotations.reviews, analysis, all, 3, "look again");
+    annotations.boxes = {{1.0, 2.5, -12.5, 30.0, "hand-made, box", "by me", Verdict::None},
+                         {3.0, 4.0, {}, {}, "", "", Verdict::None}};
+    return annotations;
+}
 
 } // namespace
 
@@ -139,22 +141,27 @@ void tst_annotations::severalAxes()
 {
     Analysis analysis;
     const Grid grid{{{"range", "m", 0.0, 10.0, 5, false}, {"bearing", "deg", 0.0, 90.0, 4, true}}};
-    analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 2.0, 3, false}, grid, std::vector<float>(60, 1.0f));
+    analysis.frames =
+        std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 2.0, 3, false}, grid, std::vector<float>(60, 1.0f));
     analysis.tracks = {{1, 0, 1, 2, 9.0, true, false, {{0, 5, 0, 1.0}, {1, 5, 0, 2.0}, {2, 5, 0, 3.0}}}};
     Annotations annotations;
     annotations.reviews = withVerdict({}, analysis, events(analysis), {1}, Verdict::Accepted);
     writeReviewed(analysis, events(analysis), annotations, path("p.csv"));
-    QVERIFY(readBytes(path("p.csv")).startsWith("event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,open,review,signal,label,note\n"
-                                                "1,0,2,4,10,90,"));
+    QVERIFY(readBytes(path("p.csv"))
+                .startsWith("event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,open,review,"
+                            "signal,label,note\n"
+                            "1,0,2,4,10,90,"));
     QVERIFY(readBytes(path("p.csv")).contains(",accepted,1,\"event 1\",\"\"\n"));
 }
 
 void tst_annotations::raven()
 {
     // As Raven Pro 1.6 writes it, with two views of one selection, columns in another order, and Windows' line ends.
-    const auto boxes = read("r.txt", "Selection\tView\tChannel\tBegin Time (s)\tEnd Time (s)\tHigh Freq (Hz)\tLow Freq (Hz)\tSpecies\r\n"
-                                     "1\tWaveform 1\t1\t0.5\t1.25\t800.0\t200.0\tEPFU\r\n1\tSpectrogram 1\t1\t0.5\t1.25\t800.0\t200.0\tEPFU\r\n"
-                                     "2\tSpectrogram 1\t1\t3\t4\t900\t100\t\r\n");
+    const auto boxes =
+        read("r.txt",
+             "Selection\tView\tChannel\tBegin Time (s)\tEnd Time (s)\tHigh Freq (Hz)\tLow Freq (Hz)\tSpecies\r\n"
+             "1\tWaveform 1\t1\t0.5\t1.25\t800.0\t200.0\tEPFU\r\n1\tSpectrogram 1\t1\t0.5\t1.25\t800.0\t200.0\tEPFU\r\n"
+             "2\tSpectrogram 1\t1\t3\t4\t900\t100\t\r\n");
     QCOMPARE(boxes.size(), std::size_t(2));
     QVERIFY((boxes[0] == Annotation{0.5, 1.25, 200.0, 800.0, "EPFU", "", Verdict::None}));
     QVERIFY((boxes[1] == Annotation{3.0, 4.0, 100.0, 900.0, "", "", Verdict::None}));
@@ -180,7 +187,10 @@ void tst_annotations::sigmf()
 
 void tst_annotations::textsAreTakenApart()
 {
-    for (const auto &[label, verdict, note] : {std::tuple{"a", Verdict::None, ""}, {"a", Verdict::None, "n"}, {"", Verdict::Rejected, "n [x]"}, {"a b", Verdict::Accepted, ""}}) {
+    for (const auto &[label, verdict, note] : {std::tuple{"a", Verdict::None, ""},
+                                               {"a", Verdict::None, "n"},
+                                               {"", Verdict::Rejected, "n [x]"},
+                                               {"a b", Verdict::Accepted, ""}}) {
         Annotation box;
         takeApart(annotationText(label, verdict, note), box);
         QCOMPARE(box.label, std::string(label));
@@ -198,10 +208,13 @@ void tst_annotations::hostile_data()
     QTest::newRow("annotation that is a number") << QByteArray("{\"annotations\": [3]}");
     QTest::newRow("annotations that are text") << QByteArray("{\"annotations\": \"none\"}");
     QTest::newRow("start that is text") << QByteArray("{\"annotations\": [{\"core:sample_start\": \"now\"}]}");
-    QTest::newRow("negative count") << QByteArray("{\"annotations\": [{\"core:sample_start\": 9, \"core:sample_count\": -4}]}");
-    QTest::newRow("huge") << QByteArray("{\"annotations\": [{\"core:sample_start\": 1e308, \"core:sample_count\": 1e308}], \"global\": {\"core:sample_rate\": 1e-300}}");
+    QTest::newRow("negative count") << QByteArray(
+        "{\"annotations\": [{\"core:sample_start\": 9, \"core:sample_count\": -4}]}");
+    QTest::newRow("huge") << QByteArray("{\"annotations\": [{\"core:sample_start\": 1e308, \"core:sample_count\": "
+                                        "1e308}], \"global\": {\"core:sample_rate\": 1e-300}}");
     QTest::newRow("rate of nothing") << QByteArray("{\"annotations\": [], \"global\": {\"core:sample_rate\": 0}}");
-    QTest::newRow("one edge") << QByteArray("{\"annotations\": [{\"core:sample_start\": 1, \"core:freq_lower_edge\": 1}]}");
+    QTest::newRow("one edge") << QByteArray(
+        "{\"annotations\": [{\"core:sample_start\": 1, \"core:freq_lower_edge\": 1}]}");
     QTest::newRow("no label") << QByteArray("just some text\n");
     QTest::newRow("not a number") << QByteArray("nan\t1\tx\n");
     QTest::newRow("infinite") << QByteArray("0\tinf\tx\n");
@@ -225,7 +238,8 @@ void tst_annotations::hostile()
     QVERIFY(why.size() < 400);
     QVERIFY(why.find("exception") == std::string::npos);
     QVERIFY(!errorOf([&] { readAnnotations(path("nowhere"), m_info); }).empty());
-    QVERIFY(errorOf([&] { readAnnotations(path("."), m_info); }).ends_with("is a folder; expected a file of annotations"));
+    QVERIFY(
+        errorOf([&] { readAnnotations(path("."), m_info); }).ends_with("is a folder; expected a file of annotations"));
     QVERIFY(read("empty", "").empty());
 }
 

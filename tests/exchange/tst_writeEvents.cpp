@@ -43,32 +43,32 @@ private:
 
 namespace {
 
-    class Comma : public std::numpunct<char>
-    {
-        char do_decimal_point() const override { return ','; }
-        char do_thousands_sep() const override { return '.'; }
-        std::string do_grouping() const override { return "\3"; }
-    };
+class Comma : public std::numpunct<char>
+{
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
 
-    /// Frames every half second from 0.25 s on; bins of 2.5 Hz from 1000 Hz on.
-    Analysis twoTracks()
-    {
-        Analysis analysis;
-        const Axis time{"time", "s", 0.25, 0.5, 8, false};
-        const Grid grid{{{"frequency", "Hz", 1000.0, 2.5, 10, false}}};
-        analysis.frames = std::make_shared<FrameArray>(time, grid, std::vector<float>(80, 1.0f));
-        auto calibration = std::make_shared<Calibration>();
-        calibration->lnK = -0.125;
-        analysis.calibration = calibration;
-        analysis.threshold = 12.5;
-        // In order of detection: the second one began earlier.
-        Track rising{1, 2, 3, 5, 14.75, true, false, {{2, 4, 0, 2.0}, {3, 5, 0, 13.0}, {4, 6, 0, 14.75}, {5, 7, 0, 9.5}}};
-        Track steady{2, 1, 4, 7, 1.0 / 3.0, false, true, {}};
-        for (Index frame = 1; frame <= 7; ++frame)
-            steady.points.push_back({frame, 1, 0, 0.1 * static_cast<double>(frame)});
-        analysis.tracks = {rising, steady};
-        return analysis;
-    }
+/// Frames every half second from 0.25 s on; bins of 2.5 Hz from 1000 Hz on.
+Analysis twoTracks()
+{
+    Analysis analysis;
+    const Axis time{"time", "s", 0.25, 0.5, 8, false};
+    const Grid grid{{{"frequency", "Hz", 1000.0, 2.5, 10, false}}};
+    analysis.frames = std::make_shared<FrameArray>(time, grid, std::vector<float>(80, 1.0f));
+    auto calibration = std::make_shared<Calibration>();
+    calibration->lnK = -0.125;
+    analysis.calibration = calibration;
+    analysis.threshold = 12.5;
+    // In order of detection: the second one began earlier.
+    Track rising{1, 2, 3, 5, 14.75, true, false, {{2, 4, 0, 2.0}, {3, 5, 0, 13.0}, {4, 6, 0, 14.75}, {5, 7, 0, 9.5}}};
+    Track steady{2, 1, 4, 7, 1.0 / 3.0, false, true, {}};
+    for (Index frame = 1; frame <= 7; ++frame)
+        steady.points.push_back({frame, 1, 0, 0.1 * static_cast<double>(frame)});
+    analysis.tracks = {rising, steady};
+    return analysis;
+}
 
 } // namespace
 
@@ -89,9 +89,10 @@ void tst_writeEvents::cleanup()
 void tst_writeEvents::eventsAsCsv()
 {
     // By onset. The rising one climbs a bin, 2.5 Hz, a frame, half a second: 5 Hz/s; at its detection it is in bin 5.
-    QCOMPARE(written(twoTracks(), "e.csv"), QByteArray("event,t_onset,t_detect,t_end,f,drift_hz_per_s,statistic,confirmed,open\n"
-                                                       "2,0.75,2.25,3.75,1002.5,0,0.3333333333333333,0,1\n"
-                                                       "1,1.25,1.75,2.75,1012.5,5,14.75,1,0\n"));
+    QCOMPARE(written(twoTracks(), "e.csv"),
+             QByteArray("event,t_onset,t_detect,t_end,f,drift_hz_per_s,statistic,confirmed,open\n"
+                        "2,0.75,2.25,3.75,1002.5,0,0.3333333333333333,0,1\n"
+                        "1,1.25,1.75,2.75,1012.5,5,14.75,1,0\n"));
 }
 
 void tst_writeEvents::tracksAsCsv()
@@ -179,8 +180,9 @@ void tst_writeEvents::severalAxes()
     const Grid grid{{{"bearing", "°", 0.0, 90.0, 2, true}, {"range", "m", 100.0, 10.0, 5, false}}};
     analysis.frames = std::make_shared<FrameArray>(analysis.time(), grid, std::vector<float>(80, 1.0f));
     const QByteArray events = written(analysis, "s.csv");
-    QVERIFY(events.startsWith("event,t_onset,t_detect,t_end,bearing,range,drift_hz_per_s,statistic,confirmed,open,bearing_per_s,range_per_s\n"
-                              "2,0.75,2.25,3.75,0,110,0,"));
+    QVERIFY(events.startsWith(
+        "event,t_onset,t_detect,t_end,bearing,range,drift_hz_per_s,statistic,confirmed,open,bearing_per_s,range_per_s\n"
+        "2,0.75,2.25,3.75,0,110,0,"));
     const QByteArray tracks = written(analysis, "st.csv", true);
     QVERIFY(tracks.startsWith("track,t,bearing,range,statistic\n"
                               "1,1.25,0,140,2\n"

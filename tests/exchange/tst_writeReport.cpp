@@ -18,39 +18,40 @@ private slots:
 
 namespace {
 
-    Analysis tracksOf(int count)
-    {
-        Analysis analysis;
-        analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.25, 0.5, 10, false}, Grid{{{"frequency", "Hz", 1000.0, 2.5, 100, false}}},
-                                                       std::vector<float>(1000, 1.0f));
-        Calibration calibration;
-        calibration.levels = {0.0, 10.0};
-        calibration.exceedance = {0.5, 1e-4};
-        calibration.eventRate = 1e-5;
-        analysis.calibration = std::make_shared<Calibration>(calibration);
-        analysis.threshold = 12.5;
-        analysis.cellFramesPerHour = 1e6;
-        for (int id = 1; id <= count; ++id) {
-            Track track{id, 1, 2, 6, 10.0 + id, true, false, {}};
-            for (Index frame = 1; frame <= 6; ++frame)
-                track.points.push_back({frame, 5 * id, 0, 1.0});
-            analysis.tracks.push_back(track);
-        }
-        return analysis;
+Analysis tracksOf(int count)
+{
+    Analysis analysis;
+    analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.25, 0.5, 10, false},
+                                                   Grid{{{"frequency", "Hz", 1000.0, 2.5, 100, false}}},
+                                                   std::vector<float>(1000, 1.0f));
+    Calibration calibration;
+    calibration.levels = {0.0, 10.0};
+    calibration.exceedance = {0.5, 1e-4};
+    calibration.eventRate = 1e-5;
+    analysis.calibration = std::make_shared<Calibration>(calibration);
+    analysis.threshold = 12.5;
+    analysis.cellFramesPerHour = 1e6;
+    for (int id = 1; id <= count; ++id) {
+        Track track{id, 1, 2, 6, 10.0 + id, true, false, {}};
+        for (Index frame = 1; frame <= 6; ++frame)
+            track.points.push_back({frame, 5 * id, 0, 1.0});
+        analysis.tracks.push_back(track);
     }
+    return analysis;
+}
 
-    /// Tags balanced, references known: read as XML once what HTML may leave open is closed.
-    QString fault(const std::string &html)
-    {
-        QString text = QString::fromStdString(html);
-        text.remove("<!DOCTYPE html>");
-        static const QRegularExpression open("<(meta|img)([^>]*)>");
-        text.replace(open, "<\\1\\2/>");
-        QXmlStreamReader reader(text);
-        while (!reader.atEnd())
-            reader.readNext();
-        return reader.hasError() ? reader.errorString() : QString();
-    }
+/// Tags balanced, references known: read as XML once what HTML may leave open is closed.
+QString fault(const std::string &html)
+{
+    QString text = QString::fromStdString(html);
+    text.remove("<!DOCTYPE html>");
+    static const QRegularExpression open("<(meta|img)([^>]*)>");
+    text.replace(open, "<\\1\\2/>");
+    QXmlStreamReader reader(text);
+    while (!reader.atEnd())
+        reader.readNext();
+    return reader.hasError() ? reader.errorString() : QString();
+}
 
 } // namespace
 
@@ -62,7 +63,8 @@ void tst_writeReport::wellFormedAndTheSameAgain()
     material.version = "1";
     material.events = events(analysis);
     material.annotations.reviews = withVerdict({}, analysis, material.events, {1}, Verdict::Rejected);
-    material.annotations.reviews = withNote(material.annotations.reviews, analysis, material.events, 2, "<script>alert(1)</script>");
+    material.annotations.reviews =
+        withNote(material.annotations.reviews, analysis, material.events, 2, "<script>alert(1)</script>");
     material.annotations.boxes = {{1.0, 2.0, {}, {}, "</td>", "", Verdict::None}};
     material.pictures = {{"title", std::string("\x89PNG\0x", 6), 3, 2}, {"t", "ab", 1, 1}, {"t", "abc", 1, 1}};
     material.provenance = "{\"settings\": {\"a\": \"<\"}}";

@@ -83,7 +83,8 @@ void readWindowExport(const Input &input)
     if (!cli::isOfWindow(provenance))
         return;
     try {
-        cli::remakeWindowExport(provenance, input.path, {}, input.path + ".csv", [](const std::string &) {}, context);
+        cli::remakeWindowExport(
+            provenance, input.path, {}, input.path + ".csv", [](const std::string &) {}, context);
     } catch (const Cancelled &) {
     }
 }
@@ -110,17 +111,24 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"filterbankHdf5", ".h5", [](const Input &input) { openFrames(input.path); }},
         {"strain", ".hdf5", [](const Input &input) { readSome(openRecording(input.path)); }},
         {"numpyDoubles", ".npy", [](const Input &input) { readDoubleFrames(input.path); }},
-        {"grid", ".json", [](const Input &input) { readGridFile(input.path, {3, 40}); }},
+        {"grid", ".json",
+         [](const Input &input) {
+             readGridFile(input.path, {3, 40});
+         }},
         {"model", ".json", [](const Input &input) { readModelFile(input.path); }},
         {"sequentialModel", ".json", [](const Input &input) { readSequentialModel(input.path); }},
-        {"lineScene", ".json", [](const Input &input) { SimulatedRecording(lineSceneFromJson(parseJson(input.text, "scene"))); }},
-        {"pingScene", ".json", [](const Input &input) { SimulatedPings(pingSceneFromJson(parseJson(input.text, "scene"))); }},
+        {"lineScene", ".json",
+         [](const Input &input) { SimulatedRecording(lineSceneFromJson(parseJson(input.text, "scene"))); }},
+        {"pingScene", ".json",
+         [](const Input &input) { SimulatedPings(pingSceneFromJson(parseJson(input.text, "scene"))); }},
         {"scanScene", ".json", [](const Input &input) { scanSceneFromJson(parseJson(input.text, "scene")); }},
         {"truth", ".json", [](const Input &input) { truthFromJson(parseJson(input.text, "truth")); }},
         {"pingTruth", ".json", [](const Input &input) { pingTruthFromJson(parseJson(input.text, "truth")); }},
         {"settings", ".json", [](const Input &input) { settingsFromJson(input.text, "settings"); }},
-        {"reviews", ".json", [](const Input &input) { annotationsFromJson(parseJson(input.text, "reviews"), "reviews"); }},
-        {"experiment", ".json", [](const Input &input) { experimentFromJson(parseJson(input.text, "experiment"), "experiment"); }},
+        {"reviews", ".json",
+         [](const Input &input) { annotationsFromJson(parseJson(input.text, "reviews"), "reviews"); }},
+        {"experiment", ".json",
+         [](const Input &input) { experimentFromJson(parseJson(input.text, "experiment"), "experiment"); }},
         {"campaign", ".json", [](const Input &input) { readCampaign(input.path); }},
         {"curve", ".csv", [](const Input &input) { readCurve(input.path); }},
         {"annotations", ".txt", [](const Input &input) { readAnnotations(input.path, {}); }},

@@ -1,4 +1,5 @@
-// One program that feeds bytes to any of its parsers: `FAINTLINE_FUZZ=NAME faintline-fuzz CORPUS`. tests/fuzz.sh runs all.
+// One program that feeds bytes to any of its parsers: `FAINTLINE_FUZZ=NAME faintline-fuzz CORPUS`. tests/fuzz.sh runs
+// all.
 
 #include "fuzz/fuzz.h"
 

@@ -2,13 +2,13 @@
 
 #include "fuzz/fuzz.h"
 
-#include "app/lessons/Lesson.h"
+#include "app/base/filePath.h"
+#include "app/control/scanScenario.h"
 #include "app/document/Provenance.h"
 #include "app/document/Session.h"
-#include "app/base/filePath.h"
+#include "app/lessons/Lesson.h"
 #include "app/render/readPicture.h"
 #include "app/render/replayPicture.h"
-#include "app/control/scanScenario.h"
 #include "base/oneLine.h"
 #include "widgets/base/labelText.h"
 
@@ -45,7 +45,8 @@ void showTexts(const Input &input)
     if (pathBytes(pathText(input.text)) != input.text)
         std::abort();
     const QString label = labelText(input.text);
-    if (label.size() > mostLabelLetters || !label.isValidUtf16() || oneLine(label.toStdString()) != label.trimmed().toStdString())
+    if (label.size() > mostLabelLetters || !label.isValidUtf16()
+        || oneLine(label.toStdString()) != label.trimmed().toStdString())
         std::abort();
     const QString message = messageText(input.text);
     if (!message.isValidUtf16() || oneLine(message.toStdString()) != message.trimmed().toStdString())
@@ -62,7 +63,8 @@ const std::vector<Parser> &faintline::fuzz::parsers()
 {
     static const std::vector<Parser> all{
         {"session", ".faintline", readSessions},
-        {"lesson", ".json", [](const Input &input) { lessonFromJson(input.text, QStringLiteral("/dev/shm/lesson.json")); }},
+        {"lesson", ".json",
+         [](const Input &input) { lessonFromJson(input.text, QStringLiteral("/dev/shm/lesson.json")); }},
         {"scans", ".json", [](const Input &input) { readScanTest(pathText(input.path)); }},
         {"source", ".json", [](const Input &input) { sourceOf(pathText(input.path)); }},
         {"picture", ".png", [](const Input &input) { scaleOf(readPicture(pathText(input.path))); }},

@@ -45,11 +45,14 @@ void tst_Likelihood::rice()
     for (std::size_t i = 0; i < y.size(); ++i) {
         // I0 overflows beyond 700: e^{-x} I0(x) from its asymptotic series there, to a part in 10¹⁰.
         const double x = 2.0 * std::sqrt(snr * static_cast<double>(y[i]));
-        const double lnI0 = x < 600.0 ? std::log(boost::math::cyl_bessel_i(0, x))
-                                      : x - 0.5 * std::log(2.0 * M_PI * x) + std::log1p(1.0 / (8.0 * x) + 9.0 / (128.0 * x * x));
+        const double lnI0 =
+            x < 600.0 ? std::log(boost::math::cyl_bessel_i(0, x))
+                      : x - 0.5 * std::log(2.0 * M_PI * x) + std::log1p(1.0 / (8.0 * x) + 9.0 / (128.0 * x * x));
         const double expected = -snr + lnI0;
-        worst = std::max(worst, std::abs(static_cast<double>(lambda[i]) - expected) / std::max(1.0, std::abs(expected)));
-        QVERIFY(std::abs(likelihood.at(static_cast<double>(y[i])) - expected) < 1e-9 * std::max(1.0, std::abs(expected)));
+        worst =
+            std::max(worst, std::abs(static_cast<double>(lambda[i]) - expected) / std::max(1.0, std::abs(expected)));
+        QVERIFY(std::abs(likelihood.at(static_cast<double>(y[i])) - expected)
+                < 1e-9 * std::max(1.0, std::abs(expected)));
     }
     QVERIFY2(worst < 1e-6, qPrintable(QString::number(worst)));
 }
@@ -62,7 +65,10 @@ void tst_Likelihood::affine()
     std::vector<float> lambda(3);
     exponential.apply(y, lambda);
     for (std::size_t i = 0; i < 3; ++i) // ln of the two densities' ratio
-        QVERIFY(std::abs(static_cast<double>(lambda[i]) - std::log(0.25 * std::exp(-static_cast<double>(y[i]) / 4.0) / std::exp(-static_cast<double>(y[i])))) < 1e-6);
+        QVERIFY(std::abs(static_cast<double>(lambda[i])
+                         - std::log(0.25 * std::exp(-static_cast<double>(y[i]) / 4.0)
+                                    / std::exp(-static_cast<double>(y[i]))))
+                < 1e-6);
     linear.apply(y, lambda);
     QCOMPARE(lambda, y);
 }

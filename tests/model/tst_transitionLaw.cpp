@@ -28,8 +28,8 @@ void signalFrame(Random &random, double snr, std::vector<float> &y)
     }
 }
 
-/// Paths that stay where they are and pay ln 3 a step, each on a signal: what their mean statistic gains in a frame, once settled, and
-/// the standard error of that.
+/// Paths that stay where they are and pay ln 3 a step, each on a signal: what their mean statistic gains in a frame,
+/// once settled, and the standard error of that.
 std::pair<double, double> growth(const Likelihood &likelihood, double snr, double lnK)
 {
     constexpr std::size_t cells = 2000;
@@ -130,7 +130,8 @@ private slots:
             QVERIFY2(std::abs(meanEvidence(likelihood, snr) - mean) < 5.0 * error, qPrintable(QString::number(snr)));
         }
         // E λ = (1 + SNR)·ρ/(1 + ρ) - ln(1 + ρ)
-        QVERIFY(std::abs(meanEvidence(Likelihood(LikelihoodKind::Exponential, 2.0), 5.0) - (4.0 - std::log(3.0))) < 1e-12);
+        QVERIFY(std::abs(meanEvidence(Likelihood(LikelihoodKind::Exponential, 2.0), 5.0) - (4.0 - std::log(3.0)))
+                < 1e-12);
         QCOMPARE(meanEvidence(Likelihood(LikelihoodKind::Linear), 5.0), 6.0);
     }
 

@@ -161,8 +161,8 @@ void tst_AudioRecording::twoChannelsAsIq()
     }
 
     writeAudio(path("three.wav"), SF_FORMAT_WAV | SF_FORMAT_PCM_16, 3, 8000, someNoise(300));
-    QVERIFY(contains(errorOf([&] { AudioRecording(path("three.wav"), true); }),
-                     "three.wav: has 3 channel(s); I/Q needs"));
+    QVERIFY(
+        contains(errorOf([&] { AudioRecording(path("three.wav"), true); }), "three.wav: has 3 channel(s); I/Q needs"));
 }
 
 void tst_AudioRecording::manyChannels()
@@ -273,9 +273,11 @@ void tst_AudioRecording::aiffRatesThatAreNone()
     QFETCH(QByteArray, rate);
     QFETCH(double, hertz);
     const QByteArray common = QByteArray::fromHex("0001000000640010") + rate; // one channel, 100 frames, 16 bits
-    const QByteArray chunks = "AIFFCOMM" + QByteArray::fromHex("00000012") + common + "SSND" + QByteArray::fromHex("000000d0") + QByteArray(208, '\0');
+    const QByteArray chunks = "AIFFCOMM" + QByteArray::fromHex("00000012") + common + "SSND"
+                              + QByteArray::fromHex("000000d0") + QByteArray(208, '\0');
     writeBytes(path("rate.aiff"), "FORM" + QByteArray::fromHex("00000102") + chunks);
-    const std::string refusal = errorOf([&] { QCOMPARE(AudioRecording(path("rate.aiff"), false).info().sampleRateHz, hertz); });
+    const std::string refusal =
+        errorOf([&] { QCOMPARE(AudioRecording(path("rate.aiff"), false).info().sampleRateHz, hertz); });
     QVERIFY2(refusal.empty() == (hertz > 0.0), refusal.c_str());
     QVERIFY(hertz > 0.0 || contains(refusal, "sample rate"));
 }

@@ -121,8 +121,8 @@ void tst_PingScene::physicalRatesAreCellRates()
     PingScene physical = scene;
     scene.targets = {targetAt(10, 2, {leg(0, 3, 0.5)})};
     PingLeg own;
-    own.rangeRateMetresPerSecond = 0.75;      // 3 cells of 10 m in 40 s
-    own.bearingRateDegreesPerSecond = 0.375;  // half a beam of 30° in 40 s
+    own.rangeRateMetresPerSecond = 0.75;     // 3 cells of 10 m in 40 s
+    own.bearingRateDegreesPerSecond = 0.375; // half a beam of 30° in 40 s
     physical.targets = {targetAt(10, 2, {own})};
     QCOMPARE(cellsOf(physical), cellsOf(scene));
 }
@@ -133,7 +133,8 @@ void tst_PingScene::turnsSlide()
     scene.pings = 7;
     // Rates 4 4 | 2 0 0 …: the turn from 4 to 0 takes two pings; steps are the means of neighbours: 4, 3, 1, 0, 0, 0.
     scene.targets = {targetAt(10, 0, {leg(2, 4, 0), leg(0, 0, 0, 2)})};
-    QCOMPARE(cellsOf(scene), (std::vector<Index>{at(10, 0), at(14, 0), at(17, 0), at(18, 0), at(18, 0), at(18, 0), at(18, 0)}));
+    QCOMPARE(cellsOf(scene),
+             (std::vector<Index>{at(10, 0), at(14, 0), at(17, 0), at(18, 0), at(18, 0), at(18, 0), at(18, 0)}));
 }
 
 void tst_PingScene::leavesTheRangeEdge()
@@ -207,21 +208,33 @@ void tst_PingScene::refusals_data()
 {
     QTest::addColumn<QString>("json");
     QTest::addColumn<QString>("where");
-    QTest::newRow("kind") << R"({"kind": "lines"})" << "kind";
-    QTest::newRow("unknown key") << R"({"kind": "pings", "beans": 3})" << "beans";
-    QTest::newRow("too many cells") << R"({"kind": "pings", "rangeCells": 1000000, "beams": 1000})" << "rangeCells";
-    QTest::newRow("more than a turn") << R"({"kind": "pings", "beams": 20, "beamStepDegrees": 20})" << "beamStepDegrees";
-    QTest::newRow("range outside") << R"({"kind": "pings", "targets": [{"rangeMetres": 100}]})" << "targets[0].rangeMetres";
-    QTest::newRow("vanishes first") << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "appearPing": 9, "vanishPing": 5}]})"
-                                    << "targets[0].vanishPing";
-    QTest::newRow("appears too late") << R"({"kind": "pings", "pings": 5, "targets": [{"rangeMetres": 4000, "appearPing": 5}]})"
-                                      << "targets[0].appearPing";
-    QTest::newRow("endless leg before another") << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "legs": [{}, {"pings": 3}]}]})"
-                                                << "targets[0].legs[0].pings";
-    QTest::newRow("legs not a list") << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "legs": 3}]})" << "targets[0].legs";
-    QTest::newRow("target not an object") << R"({"kind": "pings", "targets": [3]})" << "targets[0]";
-    QTest::newRow("echo") << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "echo": "loud"}]})" << "targets[0].echo";
-    QTest::newRow("reverberation at no range") << R"({"kind": "pings", "firstRangeMetres": 0, "reverberation": {}})" << "firstRangeMetres";
+    QTest::newRow("kind") << R"({"kind": "lines"})"
+                          << "kind";
+    QTest::newRow("unknown key") << R"({"kind": "pings", "beans": 3})"
+                                 << "beans";
+    QTest::newRow("too many cells") << R"({"kind": "pings", "rangeCells": 1000000, "beams": 1000})"
+                                    << "rangeCells";
+    QTest::newRow("more than a turn") << R"({"kind": "pings", "beams": 20, "beamStepDegrees": 20})"
+                                      << "beamStepDegrees";
+    QTest::newRow("range outside") << R"({"kind": "pings", "targets": [{"rangeMetres": 100}]})"
+                                   << "targets[0].rangeMetres";
+    QTest::newRow("vanishes first")
+        << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "appearPing": 9, "vanishPing": 5}]})"
+        << "targets[0].vanishPing";
+    QTest::newRow("appears too late")
+        << R"({"kind": "pings", "pings": 5, "targets": [{"rangeMetres": 4000, "appearPing": 5}]})"
+        << "targets[0].appearPing";
+    QTest::newRow("endless leg before another")
+        << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "legs": [{}, {"pings": 3}]}]})"
+        << "targets[0].legs[0].pings";
+    QTest::newRow("legs not a list") << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "legs": 3}]})"
+                                     << "targets[0].legs";
+    QTest::newRow("target not an object") << R"({"kind": "pings", "targets": [3]})"
+                                          << "targets[0]";
+    QTest::newRow("echo") << R"({"kind": "pings", "targets": [{"rangeMetres": 4000, "echo": "loud"}]})"
+                          << "targets[0].echo";
+    QTest::newRow("reverberation at no range") << R"({"kind": "pings", "firstRangeMetres": 0, "reverberation": {}})"
+                                               << "firstRangeMetres";
 }
 
 void tst_PingScene::refusals()

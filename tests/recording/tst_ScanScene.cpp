@@ -106,7 +106,9 @@ void tst_ScanScene::targetMovesAsAllowed()
         doppler[static_cast<std::size_t>(path[k][3])] += 1.0;
     }
     // At the edge of range: one of two, or the Gaussian's share among what exists, q(0) : q(1) : q(2) : q(3).
-    const auto q = [](double d) { return 0.5 * (std::erf((d + 0.5) / 0.8 / std::sqrt(2.0)) - std::erf((d - 0.5) / 0.8 / std::sqrt(2.0))); };
+    const auto q = [](double d) {
+        return 0.5 * (std::erf((d + 0.5) / 0.8 / std::sqrt(2.0)) - std::erf((d - 0.5) / 0.8 / std::sqrt(2.0)));
+    };
     const double p = scene.moves == ScanMoves::Uniform ? 0.5 : q(0.0) / (q(0.0) + q(1.0) + q(2.0) + q(3.0));
     QVERIFY(std::abs(stays / fromEdge - p) < 4.0 * std::sqrt(p * (1.0 - p) / fromEdge));
     for (const double n : doppler)
@@ -163,8 +165,10 @@ void tst_ScanScene::refusals_data()
     QTest::newRow("kind") << QByteArray(R"({"kind": "lines"})") << "kind: must be \"scans\"";
     QTest::newRow("unknown") << QByteArray(R"({"rangeCell": 3})") << "rangeCell: unknown";
     QTest::newRow("no range") << QByteArray(R"({"rangeCells": 0})") << "rangeCells = 0: must lie in 1";
-    QTest::newRow("too large") << QByteArray(R"({"rangeCells": 1000000, "dopplerCells": 1000})") << "at most 2²⁸ are possible";
-    QTest::newRow("too long") << QByteArray(R"({"rangeCells": 100000, "stages": 1000000})") << "more than 2³¹ values in all";
+    QTest::newRow("too large") << QByteArray(R"({"rangeCells": 1000000, "dopplerCells": 1000})")
+                               << "at most 2²⁸ are possible";
+    QTest::newRow("too long") << QByteArray(R"({"rangeCells": 100000, "stages": 1000000})")
+                              << "more than 2³¹ values in all";
     QTest::newRow("moves") << QByteArray(R"({"moves": "fast"})") << "moves = fast: must be one of uniform, gaussian";
 }
 

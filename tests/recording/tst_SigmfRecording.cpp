@@ -108,7 +108,8 @@ void tst_SigmfRecording::datasetOfAnotherName()
     QCOMPARE(openRecording(write(meta))->info().sampleCount, Index(7));
     for (const char *name : {"../b.bin", "b.bin\\u0000.txt"}) {
         QByteArray other = meta;
-        QVERIFY(contains(errorOf([&] { openRecording(write(other.replace("b.bin", name))); }), "must be the name of a file in the same folder"));
+        QVERIFY(contains(errorOf([&] { openRecording(write(other.replace("b.bin", name))); }),
+                         "must be the name of a file in the same folder"));
     }
 }
 
@@ -141,10 +142,12 @@ void tst_SigmfRecording::badMetadata_data()
     QTest::newRow("unknown type") << changed("ci16_le", "ci12_le")
                                   << "global.core:datatype: ci12_le is not a sample type; expected one of cf32";
     QTest::newRow("type a number") << changed("\"ci16_le\"", "16") << "global.core:datatype: must be a text";
-    QTest::newRow("no rate") << changed("core:sample_rate", "rate") << "core:sample_rate: is missing; frequencies require it";
+    QTest::newRow("no rate") << changed("core:sample_rate", "rate")
+                             << "core:sample_rate: is missing; frequencies require it";
     QTest::newRow("rate 0") << changed("48000.5", "0") << "core:sample_rate: must be a number in 1e-09 … 1e+15";
     QTest::newRow("rate a text") << changed("48000.5", "\"x\"") << "core:sample_rate: must be a number";
-    QTest::newRow("rate too large") << changed("48000.5", "1e999") << "not valid JSON: it contains a number that is too large";
+    QTest::newRow("rate too large") << changed("48000.5", "1e999")
+                                    << "not valid JSON: it contains a number that is too large";
     QTest::newRow("no channel") << changed("channels\": 2", "channels\": 0")
                                 << "num_channels: must be a number in 1 … 1024";
     QTest::newRow("half a channel") << changed("channels\": 2", "channels\": 1.5")
@@ -157,8 +160,9 @@ void tst_SigmfRecording::badMetadata_data()
                                      << "captures[0].core:header_bytes: must be a number in 0";
     QTest::newRow("header beyond the file")
         << changed("_bytes\": 4", "_bytes\": 4000") << "contains no complete sample: 20 bytes";
-    QTest::newRow("a second header") << changed("}],", "}, {\"core:sample_start\": 1, \"core:header_bytes\": 9}],")
-                                     << "captures[1].core:header_bytes: bytes can be skipped before the first capture only";
+    QTest::newRow("a second header")
+        << changed("}],", "}, {\"core:sample_start\": 1, \"core:header_bytes\": 9}],")
+        << "captures[1].core:header_bytes: bytes can be skipped before the first capture only";
 }
 
 void tst_SigmfRecording::badMetadata()

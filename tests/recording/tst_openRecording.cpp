@@ -77,8 +77,8 @@ void tst_openRecording::rawFilesAskForWhatIsMissing()
 {
     writeBytes(path("a.cs16"), QByteArray(400, '\1'));
     writeBytes(path("a.iq"), QByteArray(400, '\1'));
-    QVERIFY(
-        contains(refusal(path("a.cs16")), "(ci16_le according to its name); give their rate in Hz (such as --raw-rate 48000)"));
+    QVERIFY(contains(refusal(path("a.cs16")),
+                     "(ci16_le according to its name); give their rate in Hz (such as --raw-rate 48000)"));
     QVERIFY(contains(refusal(path("a.iq")),
                      "give their type and rate in Hz (such as --raw-type ci16_le --raw-rate 48000)"));
     OpenOptions options;

@@ -29,31 +29,34 @@ private slots:
 
 namespace {
 
-    std::vector<float> noise(int count, std::uint64_t stream)
-    {
-        std::vector<float> values(static_cast<std::size_t>(count));
-        Random(1, stream).normals(values, 1.0f);
-        return values;
-    }
+std::vector<float> noise(int count, std::uint64_t stream)
+{
+    std::vector<float> values(static_cast<std::size_t>(count));
+    Random(1, stream).normals(values, 1.0f);
+    return values;
+}
 
-    std::vector<std::complex<float>> transform(const Fft &fft, const std::vector<float> &samples)
-    {
-        const auto buffer = fft.buffer();
-        std::copy(samples.begin(), samples.end(), buffer->input().begin());
-        fft.run(*buffer);
-        return {buffer->output().begin(), buffer->output().end()};
-    }
+std::vector<std::complex<float>> transform(const Fft &fft, const std::vector<float> &samples)
+{
+    const auto buffer = fft.buffer();
+    std::copy(samples.begin(), samples.end(), buffer->input().begin());
+    fft.run(*buffer);
+    return {buffer->output().begin(), buffer->output().end()};
+}
 
-    std::complex<double> definition(const std::vector<float> &samples, bool isComplex, int length, int bin)
-    {
-        std::complex<double> sum = 0.0;
-        for (int n = 0; n < length; ++n) {
-            const auto i = static_cast<std::size_t>(n);
-            const std::complex<double> x = isComplex ? std::complex<double>(samples[2 * i], samples[2 * i + 1]) : samples[i];
-            sum += x * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(static_cast<long>(bin) * n % length) / length);
-        }
-        return sum;
+std::complex<double> definition(const std::vector<float> &samples, bool isComplex, int length, int bin)
+{
+    std::complex<double> sum = 0.0;
+    for (int n = 0; n < length; ++n) {
+        const auto i = static_cast<std::size_t>(n);
+        const std::complex<double> x =
+            isComplex ? std::complex<double>(samples[2 * i], samples[2 * i + 1]) : samples[i];
+        sum += x
+               * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(static_cast<long>(bin) * n % length)
+                                     / length);
     }
+    return sum;
+}
 
 } // namespace
 
@@ -78,7 +81,8 @@ void tst_Fft::equalsTheDefinition()
     for (int bin = 0; bin < fft.binCount(); ++bin) {
         const std::complex<double> difference =
             std::complex<double>(bins[static_cast<std::size_t>(bin)]) - definition(samples, isComplex, length, bin);
-        QVERIFY2(std::abs(difference) < 1e-6 * std::sqrt(length) * 4.0, qPrintable(QString("bin %1: off by %2").arg(bin).arg(std::abs(difference))));
+        QVERIFY2(std::abs(difference) < 1e-6 * std::sqrt(length) * 4.0,
+                 qPrintable(QString("bin %1: off by %2").arg(bin).arg(std::abs(difference))));
     }
 }
 

@@ -51,72 +51,75 @@ private slots:
 
 namespace {
 
-    constexpr double rate = 1000.0;
+constexpr double rate = 1000.0;
 
-    std::vector<float> gaussian(Index count, std::uint64_t stream, float deviation = 1.0f)
+std::vector<float> gaussian(Index count, std::uint64_t stream, float deviation = 1.0f)
+{
+    std::vector<float> values(static_cast<std::size_t>(count));
+    Random(9, stream).normals(values, deviation);
+    return values;
+}
+
+/// Adds a tone whose y is `db` above white noise of variance 1 (Hann window, on a bin: A²N/6 = 10^(db/10)).
+void addTone(std::vector<float> &samples, double hz, double db, double windowSamples)
+{
+    const double amplitude = std::sqrt(6.0 * std::pow(10.0, db / 10.0) / windowSamples);
+    for (std::size_t n = 0; n < samples.size(); ++n)
+        samples[n] +=
+            static_cast<float>(amplitude * std::cos(2.0 * std::numbers::pi * hz * static_cast<double>(n) / rate));
+}
+
+/// All frames of a recording after the normaliser.
+struct Normalised {
+    std::shared_ptr<const NormalisedSpectrogram> frames;
+    Index frameCount = 0;
+    Index bins = 0;
+    std::vector<float> y;
+
+    Index binAt(double hz) const { return frames->grid().axes[0].nearest(hz); }
+    float at(Index frame, Index bin) const { return y[static_cast<std::size_t>(frame * bins + bin)]; }
+
+    double mean(Index firstFrame, Index endFrame, Index firstBin, Index endBin) const
     {
-        std::vector<float> values(static_cast<std::size_t>(count));
-        Random(9, stream).normals(values, deviation);
-        return values;
+        double sum = 0.0;
+        for (Index frame = firstFrame; frame < endFrame; ++frame)
+            for (Index bin = firstBin; bin < endBin; ++bin)
+                sum += static_cast<double>(at(frame, bin));
+        return sum / static_cast<double>((endFrame - firstFrame) * (endBin - firstBin));
     }
-
-    /// Adds a tone whose y is `db` above white noise of variance 1 (Hann window, on a bin: A²N/6 = 10^(db/10)).
-    void addTone(std::vector<float> &samples, double hz, double db, double windowSamples)
+    double mean() const { return mean(0, frameCount, 0, bins); }
+    double meanOfBin(Index bin) const { return mean(0, frameCount, bin, bin + 1); }
+    bool isSound() const
     {
-        const double amplitude = std::sqrt(6.0 * std::pow(10.0, db / 10.0) / windowSamples);
-        for (std::size_t n = 0; n < samples.size(); ++n)
-            samples[n] += static_cast<float>(amplitude * std::cos(2.0 * std::numbers::pi * hz * static_cast<double>(n) / rate));
+        return std::ranges::all_of(y, [](float value) { return std::isfinite(value) && value >= 0.0f; });
     }
+};
 
-    /// All frames of a recording after the normaliser.
-    struct Normalised {
-        std::shared_ptr<const NormalisedSpectrogram> frames;
-        Index frameCount = 0;
-        Index bins = 0;
-        std::vector<float> y;
+Normalised normalised(std::vector<float> samples, const SpectrogramSettings &spectral = {0.5, 2, 2},
+                      bool isComplex = false, const SelectionSettings &selection = {},
+                      const NormaliserSettings &settings = {})
+{
+    const auto recording = std::make_shared<MemoryRecording>(std::move(samples), rate, isComplex);
+    const auto spectrogram = std::make_shared<Spectrogram>(recording, spectral, selection);
+    Normalised result;
+    result.frames =
+        std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, settings), settings);
+    result.frameCount = result.frames->time().count;
+    result.bins = result.frames->grid().size();
+    result.y.resize(static_cast<std::size_t>(result.frameCount * result.bins));
+    result.frames->read(0, result.frameCount, result.y);
+    return result;
+}
 
-        Index binAt(double hz) const { return frames->grid().axes[0].nearest(hz); }
-        float at(Index frame, Index bin) const { return y[static_cast<std::size_t>(frame * bins + bin)]; }
+double dB(double ratio)
+{
+    return 10.0 * std::log10(ratio);
+}
 
-        double mean(Index firstFrame, Index endFrame, Index firstBin, Index endBin) const
-        {
-            double sum = 0.0;
-            for (Index frame = firstFrame; frame < endFrame; ++frame)
-                for (Index bin = firstBin; bin < endBin; ++bin)
-                    sum += static_cast<double>(at(frame, bin));
-            return sum / static_cast<double>((endFrame - firstFrame) * (endBin - firstBin));
-        }
-        double mean() const { return mean(0, frameCount, 0, bins); }
-        double meanOfBin(Index bin) const { return mean(0, frameCount, bin, bin + 1); }
-        bool isSound() const
-        {
-            return std::ranges::all_of(y, [](float value) { return std::isfinite(value) && value >= 0.0f; });
-        }
-    };
-
-    Normalised normalised(std::vector<float> samples, const SpectrogramSettings &spectral = {0.5, 2, 2}, bool isComplex = false,
-                          const SelectionSettings &selection = {}, const NormaliserSettings &settings = {})
-    {
-        const auto recording = std::make_shared<MemoryRecording>(std::move(samples), rate, isComplex);
-        const auto spectrogram = std::make_shared<Spectrogram>(recording, spectral, selection);
-        Normalised result;
-        result.frames = std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, settings), settings);
-        result.frameCount = result.frames->time().count;
-        result.bins = result.frames->grid().size();
-        result.y.resize(static_cast<std::size_t>(result.frameCount * result.bins));
-        result.frames->read(0, result.frameCount, result.y);
-        return result;
-    }
-
-    double dB(double ratio)
-    {
-        return 10.0 * std::log10(ratio);
-    }
-
-    QByteArray said(const char *what, double value)
-    {
-        return QByteArray(what) + " " + QByteArray::number(value);
-    }
+QByteArray said(const char *what, double value)
+{
+    return QByteArray(what) + " " + QByteArray::number(value);
+}
 
 } // namespace
 
@@ -133,7 +136,8 @@ void tst_NoiseNormaliser::whiteNoiseHasMeanOne_data()
         QTest::addRow("%s, short window", kind) << isComplex << 0.1 << 2 << 2 << static_cast<int>(WindowShape::Hann);
         QTest::addRow("%s, no overlap", kind) << isComplex << 0.1 << 1 << 1 << static_cast<int>(WindowShape::Hann);
         QTest::addRow("%s, Billon", kind) << isComplex << 0.5 << 2 << 4 << static_cast<int>(WindowShape::Rectangular);
-        QTest::addRow("%s, Blackman-Harris", kind) << isComplex << 0.25 << 4 << 1 << static_cast<int>(WindowShape::BlackmanHarris);
+        QTest::addRow("%s, Blackman-Harris", kind)
+            << isComplex << 0.25 << 4 << 1 << static_cast<int>(WindowShape::BlackmanHarris);
     }
 }
 
@@ -144,8 +148,8 @@ void tst_NoiseNormaliser::whiteNoiseHasMeanOne()
     QFETCH(int, steps);
     QFETCH(int, binsPerCell);
     QFETCH(int, shape);
-    const Normalised n = normalised(gaussian(isComplex ? 200000 : 100000, 1), {windowSeconds, steps, binsPerCell, static_cast<WindowShape>(shape)},
-                                    isComplex);
+    const Normalised n = normalised(gaussian(isComplex ? 200000 : 100000, 1),
+                                    {windowSeconds, steps, binsPerCell, static_cast<WindowShape>(shape)}, isComplex);
     QVERIFY(n.isSound());
     // One y of deviation 1 for each window and cell; the background's own scatter, a median's, doubles the error.
     const double cells = (isComplex ? rate : 0.5 * rate) * windowSeconds;
@@ -160,14 +164,16 @@ void tst_NoiseNormaliser::whiteNoiseHasMeanOne()
     }
 }
 
-// Levels are means of logarithms, whose shortfall depends on how alike neighbouring cells are. That of Hann's window for all of them left
-// Billon's 0.3 % short, which at one false alarm an hour halves what comes of an order.
+// Levels are means of logarithms, whose shortfall depends on how alike neighbouring cells are. That of Hann's window
+// for all of them left Billon's 0.3 % short, which at one false alarm an hour halves what comes of an order.
 void tst_NoiseNormaliser::noWindowShiftsTheMean()
 {
     const std::vector<float> samples = gaussian(2000000, 2);
-    for (const WindowShape shape : {WindowShape::Rectangular, WindowShape::Hann, WindowShape::Blackman, WindowShape::BlackmanHarris}) {
+    for (const WindowShape shape :
+         {WindowShape::Rectangular, WindowShape::Hann, WindowShape::Blackman, WindowShape::BlackmanHarris}) {
         const double mean = normalised(samples, {0.25, 2, 1, shape}, true).mean();
-        QVERIFY2(std::abs(mean - 1.0) < 0.002, said(windowShapeNames[static_cast<std::size_t>(shape)].data(), mean)); // 0.0003 by chance
+        QVERIFY2(std::abs(mean - 1.0) < 0.002,
+                 said(windowShapeNames[static_cast<std::size_t>(shape)].data(), mean)); // 0.0003 by chance
     }
 }
 
@@ -192,7 +198,8 @@ void tst_NoiseNormaliser::steepSlope()
     }
     const Normalised n = normalised(samples);
     const NoiseBackground &background = n.frames->background();
-    const double span = (background.lnPowerAt(200.0, 5.0) - background.lnPowerAt(200.0, 495.0)) * 10.0 / std::numbers::ln10;
+    const double span =
+        (background.lnPowerAt(200.0, 5.0) - background.lnPowerAt(200.0, 495.0)) * 10.0 / std::numbers::ln10;
     QVERIFY2(std::abs(span - 101.5) < 2.0, said("span in dB", span));
     QVERIFY2(std::abs(n.mean() - 1.0) < 0.04, said("mean", n.mean()));
     // In 20 bands: within 0.5 dB, 1.3 dB in the outermost ones, where the slope bends.
@@ -234,7 +241,8 @@ void tst_NoiseNormaliser::strongLineLeavesItsNeighboursAlone()
     // The background beside the line and below it: what it was, to half a dB.
     for (double hz = 150.0; hz <= 270.0; hz += 2.0) {
         const double lift =
-            (with.frames->background().lnPowerAt(200.0, hz) - without.frames->background().lnPowerAt(200.0, hz)) * 10.0 / std::numbers::ln10;
+            (with.frames->background().lnPowerAt(200.0, hz) - without.frames->background().lnPowerAt(200.0, hz)) * 10.0
+            / std::numbers::ln10;
         QVERIFY2(std::abs(lift) < 0.5, said("dB lift", lift));
     }
     // Cells on the zeros of the window's side lobes: pure noise still, three cells away.
@@ -264,7 +272,8 @@ void tst_NoiseNormaliser::levelStep()
     const Normalised n = normalised(samples, {0.1, 2, 2});
     QVERIFY(n.isSound());
     const Index block = 100; // frames, a little more than the 48 windows of one
-    for (const auto &[from, to] : {std::pair<Index, Index>{0, 3000 - block}, {3000 + block, 5400 - block}, {5400 + block, n.frameCount}}) {
+    for (const auto &[from, to] :
+         {std::pair<Index, Index>{0, 3000 - block}, {3000 + block, 5400 - block}, {5400 + block, n.frameCount}}) {
         const double mean = n.mean(from, to, 0, n.bins);
         QVERIFY2(std::abs(mean - 1.0) < 0.05, said("mean away from the steps", mean));
     }
@@ -277,10 +286,12 @@ void tst_NoiseNormaliser::levelStep()
 
 void tst_NoiseNormaliser::driftingLevel()
 {
-    // 1.5 dB up and down in 30 s, a little more than a block: within ±41 %, followed until the noise's own scatter is left.
+    // 1.5 dB up and down in 30 s, a little more than a block: within ±41 %, followed until the noise's own scatter is
+    // left.
     std::vector<float> samples = gaussian(400000, 21);
     for (std::size_t i = 0; i < samples.size(); ++i)
-        samples[i] *= static_cast<float>(std::pow(10.0, 0.075 * std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / (30.0 * rate))));
+        samples[i] *= static_cast<float>(
+            std::pow(10.0, 0.075 * std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / (30.0 * rate))));
     const Normalised n = normalised(samples);
     double sum = 0.0;
     double counted = 0.0;
@@ -295,37 +306,37 @@ void tst_NoiseNormaliser::driftingLevel()
 
 namespace {
 
-    using Pieces = std::vector<std::pair<double, double>>;
+using Pieces = std::vector<std::pair<double, double>>;
 
-    /// dB at each sample, from (samples, dB at their end), over and over.
-    std::vector<float> gains(std::size_t count, const Pieces &pieces)
-    {
-        std::vector<float> result;
-        double before = pieces.back().second;
-        while (result.size() < count)
-            for (const auto &[length, db] : pieces) {
-                for (double i = 0.0; i < length && result.size() < count; i += 1.0)
-                    result.push_back(static_cast<float>(std::pow(10.0, 0.05 * (before + (db - before) * i / length))));
-                before = db;
-            }
-        return result;
-    }
-
-    /// Deviation of (mean over tiles of 16 frames and the whole band) - 1, beside what counting alone gives: Σ|ρ|² over neighbours is 1.94 in
-    /// frequency and 1.06 in time with a Hann window that overlaps by half.
-    std::pair<double, double> tileErrors(const Normalised &n)
-    {
-        constexpr Index tile = 16;
-        constexpr Index edge = 12;
-        double sum = 0.0;
-        double counted = 0.0;
-        for (Index first = 0; first + tile <= n.frameCount; first += tile) {
-            sum += std::pow(n.mean(first, first + tile, edge, n.bins - edge) - 1.0, 2.0);
-            counted += 1.0;
+/// dB at each sample, from (samples, dB at their end), over and over.
+std::vector<float> gains(std::size_t count, const Pieces &pieces)
+{
+    std::vector<float> result;
+    double before = pieces.back().second;
+    while (result.size() < count)
+        for (const auto &[length, db] : pieces) {
+            for (double i = 0.0; i < length && result.size() < count; i += 1.0)
+                result.push_back(static_cast<float>(std::pow(10.0, 0.05 * (before + (db - before) * i / length))));
+            before = db;
         }
-        const double cells = 0.5 * static_cast<double>(n.bins - 2 * edge);
-        return {std::sqrt(sum / counted), std::sqrt(1.94 * 1.06 / (cells * tile))};
+    return result;
+}
+
+/// Deviation of (mean over tiles of 16 frames and the whole band) - 1, beside what counting alone gives: Σ|ρ|² over
+/// neighbours is 1.94 in frequency and 1.06 in time with a Hann window that overlaps by half.
+std::pair<double, double> tileErrors(const Normalised &n)
+{
+    constexpr Index tile = 16;
+    constexpr Index edge = 12;
+    double sum = 0.0;
+    double counted = 0.0;
+    for (Index first = 0; first + tile <= n.frameCount; first += tile) {
+        sum += std::pow(n.mean(first, first + tile, edge, n.bins - edge) - 1.0, 2.0);
+        counted += 1.0;
     }
+    const double cells = 0.5 * static_cast<double>(n.bins - 2 * edge);
+    return {std::sqrt(sum / counted), std::sqrt(1.94 * 1.06 / (cells * tile))};
+}
 
 } // namespace
 
@@ -337,7 +348,8 @@ void tst_NoiseNormaliser::levelsAreFollowed_data()
     QTest::newRow("3 dB within two windows and a half, up and down") << Pieces{{1250, 3}, {1250, 0}};
     QTest::newRow("6 dB within 15 windows") << Pieces{{7500, 6}, {7500, 0}};
     QTest::newRow("25 dB within 30 windows") << Pieces{{15000, 25}, {20000, 25}, {15000, 0}, {20000, 0}};
-    QTest::newRow("steps of 20 dB") << Pieces{{1, 20}, {7777, 20}, {1, 0}, {13131, 0}, {1, -20}, {9191, -20}, {1, 0}, {31313, 0}};
+    QTest::newRow("steps of 20 dB") << Pieces{{1, 20},  {7777, 20},  {1, 0}, {13131, 0},
+                                              {1, -20}, {9191, -20}, {1, 0}, {31313, 0}};
     QTest::newRow("bursts") << Pieces{{1, 15}, {300, 15}, {1, 0}, {15000, 0}, {1, 8}, {2000, 8}, {1, 0}, {15000, 0}};
 }
 
@@ -362,7 +374,8 @@ void tst_NoiseNormaliser::levelsAreFollowed()
         for (Index frame = first; frame < first + 16; ++frame) {
             double power = 0.0;
             for (std::size_t i = 0; i < 500; ++i)
-                power += std::pow(static_cast<double>(window[i] * gain[static_cast<std::size_t>(frame) * 250 + i]), 2.0);
+                power +=
+                    std::pow(static_cast<double>(window[i] * gain[static_cast<std::size_t>(frame) * 250 + i]), 2.0);
             n.frames->background().readLnPower(n.frames->time().value(static_cast<double>(frame)), ln);
             double over = 0.0;
             for (std::size_t cell = 6; cell + 6 < ln.size(); ++cell)
@@ -390,7 +403,8 @@ void tst_NoiseNormaliser::steadyLineAmidSteps()
 
 void tst_NoiseNormaliser::quietBandBesideAKeyedOne()
 {
-    // Half of the band 40 dB above the other, and off half of the time: what lies beside it stays at 1, whatever it does.
+    // Half of the band 40 dB above the other, and off half of the time: what lies beside it stays at 1, whatever it
+    // does.
     std::vector<float> loud = gaussian(400000, 33);
     for (int pole = 0; pole < 6; ++pole) { // low-pass
         float state = 0.0f;
@@ -418,13 +432,17 @@ void tst_NoiseNormaliser::coloursThatTakeTurns()
         const double phase = 2.0 * std::numbers::pi * i / (taps - 1);
         const double blackman = 0.42 - 0.5 * std::cos(phase) + 0.08 * std::cos(2.0 * phase);
         const double sine = t == 0.0 ? 0.2 : std::sin(0.2 * std::numbers::pi * t) / (std::numbers::pi * t);
-        filter[static_cast<std::size_t>(i)] = static_cast<float>(2.0 * blackman * sine * std::cos(0.4 * std::numbers::pi * t));
+        filter[static_cast<std::size_t>(i)] =
+            static_cast<float>(2.0 * blackman * sine * std::cos(0.4 * std::numbers::pi * t));
     }
     const std::vector<float> white = gaussian(400000 + taps, 35);
-    const std::vector<float> gain = gains(400000, {{1, 0}, {3000, 0}, {1, -40}, {3000, -40}, {1, 10}, {3000, 10}, {1, -15}, {3000, -15}});
+    const std::vector<float> gain =
+        gains(400000, {{1, 0}, {3000, 0}, {1, -40}, {3000, -40}, {1, 10}, {3000, 10}, {1, -15}, {3000, -15}});
     std::vector<float> samples = gaussian(400000, 36);
     for (std::size_t i = 0; i < samples.size(); ++i)
-        samples[i] += 10.0f * gain[i] * std::inner_product(filter.begin(), filter.end(), white.begin() + static_cast<std::ptrdiff_t>(i), 0.0f);
+        samples[i] +=
+            10.0f * gain[i]
+            * std::inner_product(filter.begin(), filter.end(), white.begin() + static_cast<std::ptrdiff_t>(i), 0.0f);
     const Normalised n = normalised(samples);
     QVERIFY(!n.frames->background().stretches.empty());
     double sum = 0.0;
@@ -435,7 +453,8 @@ void tst_NoiseNormaliser::coloursThatTakeTurns()
             counted += 1.0;
         }
     const double counting = std::sqrt(1.94 * 1.06 / (30.0 * 16.0));
-    QVERIFY2(std::sqrt(sum / counted) < 2.0 * counting, said("deviation over that of counting", std::sqrt(sum / counted) / counting));
+    QVERIFY2(std::sqrt(sum / counted) < 2.0 * counting,
+             said("deviation over that of counting", std::sqrt(sum / counted) / counting));
 }
 
 void tst_NoiseNormaliser::sameAtTheEdges()
@@ -448,7 +467,9 @@ void tst_NoiseNormaliser::sameAtTheEdges()
         double sum = 0.0;
         for (Index block = 0; block < background.time.count; ++block)
             for (Index cell = from; cell < to; ++cell)
-                sum += std::pow(static_cast<double>(background.lnPower[static_cast<std::size_t>(block * cells + cell)]) - std::numbers::ln2, 2.0);
+                sum += std::pow(static_cast<double>(background.lnPower[static_cast<std::size_t>(block * cells + cell)])
+                                    - std::numbers::ln2,
+                                2.0);
         return std::sqrt(sum / static_cast<double>(background.time.count * (to - from)));
     };
     const double atEdges = std::max(deviation(0, 5), deviation(cells - 5, cells));
@@ -466,7 +487,8 @@ void tst_NoiseNormaliser::nothingAboveABandEdge()
         const double t = i - taps / 2;
         const double phase = 2.0 * std::numbers::pi * i / (taps - 1);
         const double blackman = 0.42 - 0.5 * std::cos(phase) + 0.08 * std::cos(2.0 * phase);
-        filter[static_cast<std::size_t>(i)] = blackman * (t == 0.0 ? 0.5 : std::sin(0.5 * std::numbers::pi * t) / (std::numbers::pi * t));
+        filter[static_cast<std::size_t>(i)] =
+            blackman * (t == 0.0 ? 0.5 : std::sin(0.5 * std::numbers::pi * t) / (std::numbers::pi * t));
     }
     std::vector<float> samples(white.size() - taps);
     for (std::size_t n = 0; n < samples.size(); ++n) {
@@ -477,7 +499,8 @@ void tst_NoiseNormaliser::nothingAboveABandEdge()
     }
     const Normalised n = normalised(samples);
     QVERIFY(n.isSound());
-    QVERIFY2(std::abs(n.mean(0, n.frameCount, 0, n.binAt(240.0)) - 1.0) < 0.03, said("below", n.mean(0, n.frameCount, 0, n.binAt(240.0))));
+    QVERIFY2(std::abs(n.mean(0, n.frameCount, 0, n.binAt(240.0)) - 1.0) < 0.03,
+             said("below", n.mean(0, n.frameCount, 0, n.binAt(240.0))));
     // On the way down, 20 dB a cell, and in the emptiness: noise, or less than that, but never a line.
     for (Index bin = n.binAt(240.0); bin < n.bins; ++bin)
         QVERIFY2(n.meanOfBin(bin) < 6.0, said("mean of a bin", n.meanOfBin(bin)));
@@ -495,7 +518,8 @@ void tst_NoiseNormaliser::digitalSilence()
     QVERIFY(std::abs(n.mean(3610, n.frameCount, 0, n.bins) - 1.0) < 0.04);
     // Noise up to the very edge of the silence is noise: 2000 values in 20 frames, a window's length away.
     for (Index first : {1940, 1960, 1978, 3600, 3620, 3640})
-        QVERIFY2(std::abs(n.mean(first, first + 20, 0, n.bins) - 1.0) < 0.3, said("near the silence", n.mean(first, first + 20, 0, n.bins)));
+        QVERIFY2(std::abs(n.mean(first, first + 20, 0, n.bins) - 1.0) < 0.3,
+                 said("near the silence", n.mean(first, first + 20, 0, n.bins)));
 }
 
 void tst_NoiseNormaliser::silenceAllOver()
@@ -543,7 +567,8 @@ void tst_NoiseNormaliser::clicks()
 
 void tst_NoiseNormaliser::shortBurstIsKept()
 {
-    // A line of four windows is shorter than half a block: it does not become background, nor does the guard take it away.
+    // A line of four windows is shorter than half a block: it does not become background, nor does the guard take it
+    // away.
     std::vector<float> samples = gaussian(200000, 12);
     std::vector<float> burst(2000, 0.0f);
     addTone(burst, 300.0, 20.0, 500.0);
@@ -609,7 +634,8 @@ void tst_NoiseNormaliser::framesAreAFunctionOfTheirIndex()
         for (Index end = n.frameCount; end > 0; end = std::max<Index>(0, end - 7)) {
             const Index first = std::max<Index>(0, end - 7);
             n.frames->read(first, end - first,
-                           std::span(pieces).subspan(static_cast<std::size_t>(first * n.bins), static_cast<std::size_t>((end - first) * n.bins)));
+                           std::span(pieces).subspan(static_cast<std::size_t>(first * n.bins),
+                                                     static_cast<std::size_t>((end - first) * n.bins)));
         }
     }
     QCOMPARE(pieces, n.y);
@@ -619,14 +645,16 @@ void tst_NoiseNormaliser::framesAreAFunctionOfTheirIndex()
 void tst_NoiseNormaliser::backgroundBetweenItsNodes()
 {
     // Two blocks, two cells: ln power 0, 2 and 4, 6.
-    const NoiseBackground background{{"time", "s", 10.0, 20.0, 2, false}, {"frequency", "Hz", 100.0, 50.0, 2, false}, {0, 2, 4, 6}, 0.0, {}, 0, {}};
+    const NoiseBackground background{
+        {"time", "s", 10.0, 20.0, 2, false}, {"frequency", "Hz", 100.0, 50.0, 2, false}, {0, 2, 4, 6}, 0.0, {}, 0, {}};
     QCOMPARE(background.lnPowerAt(10.0, 100.0), 0.0);
     QCOMPARE(background.lnPowerAt(10.0, 125.0), 1.0);
     QCOMPARE(background.lnPowerAt(20.0, 100.0), 2.0);
     QCOMPARE(background.lnPowerAt(20.0, 150.0), 4.0);
     QCOMPARE(background.lnPowerAt(-99.0, 999.0), 2.0); // the ends go on for ever
     QCOMPARE(background.lnPowerAt(99.0, 999.0), 6.0);
-    const NoiseBackground single{{"time", "s", 10.0, 20.0, 1, false}, {"frequency", "Hz", 100.0, 50.0, 1, false}, {3}, 0.0, {}, 0, {}};
+    const NoiseBackground single{
+        {"time", "s", 10.0, 20.0, 1, false}, {"frequency", "Hz", 100.0, 50.0, 1, false}, {3}, 0.0, {}, 0, {}};
     QCOMPARE(single.lnPowerAt(0.0, 0.0), 3.0);
     QCOMPARE(single.lnPowerAt(1e9, 1e9), 3.0);
 }

@@ -37,48 +37,49 @@ private slots:
 
 namespace {
 
-    Axis timeOf(Index frames)
-    {
-        return {"time", "s", 0.5, 0.25, frames, false};
-    }
+Axis timeOf(Index frames)
+{
+    return {"time", "s", 0.5, 0.25, frames, false};
+}
 
-    /// Scores in quarters of a nat, so that bytes hold them exactly.
-    std::vector<float> someScores(Index frames, Index cells, std::uint64_t stream)
-    {
-        Random random(7, stream);
-        std::vector<float> values(static_cast<std::size_t>(frames * cells));
-        for (float &value : values)
-            value = static_cast<float>(std::floor(random.uniform() * 180.0) / 4.0 - 3.0);
-        return values;
-    }
+/// Scores in quarters of a nat, so that bytes hold them exactly.
+std::vector<float> someScores(Index frames, Index cells, std::uint64_t stream)
+{
+    Random random(7, stream);
+    std::vector<float> values(static_cast<std::size_t>(frames * cells));
+    for (float &value : values)
+        value = static_cast<float>(std::floor(random.uniform() * 180.0) / 4.0 - 3.0);
+    return values;
+}
 
-    PeakPyramid built(const std::vector<float> &values, Index frames, Index cells, std::size_t budget = std::size_t(1) << 20)
-    {
-        PeakPyramid pyramid(timeOf(frames), cells, ByteScale(ByteScale::Kind::ScoreNats), budget);
-        pyramid.append(values);
-        pyramid.finish();
-        return pyramid;
-    }
+PeakPyramid built(const std::vector<float> &values, Index frames, Index cells,
+                  std::size_t budget = std::size_t(1) << 20)
+{
+    PeakPyramid pyramid(timeOf(frames), cells, ByteScale(ByteScale::Kind::ScoreNats), budget);
+    pyramid.append(values);
+    pyramid.finish();
+    return pyramid;
+}
 
-    /// Checks every row of every level against the plain maximum of the frames it stands for.
-    bool hasTheMaxima(const PeakPyramid &pyramid, const std::vector<float> &values, Index frames, Index cells)
-    {
-        for (int level = 0; level < pyramid.levelCount(); ++level) {
-            const Index perRow = pyramid.framesPerRow(level);
-            if (pyramid.rowCount(level) != (frames + perRow - 1) / perRow)
-                return false;
-            for (Index row = 0; row < pyramid.rowCount(level); ++row)
-                for (Index cell = 0; cell < cells; ++cell) {
-                    float largest = -INFINITY;
-                    for (Index frame = row * perRow; frame < std::min(frames, (row + 1) * perRow); ++frame)
-                        largest = std::max(largest, values[static_cast<std::size_t>(frame * cells + cell)]);
-                    const std::uint8_t byte = pyramid.row(level, row)[static_cast<std::size_t>(cell)];
-                    if (pyramid.scale().value(byte) != static_cast<double>(largest))
-                        return false;
-                }
-        }
-        return true;
+/// Checks every row of every level against the plain maximum of the frames it stands for.
+bool hasTheMaxima(const PeakPyramid &pyramid, const std::vector<float> &values, Index frames, Index cells)
+{
+    for (int level = 0; level < pyramid.levelCount(); ++level) {
+        const Index perRow = pyramid.framesPerRow(level);
+        if (pyramid.rowCount(level) != (frames + perRow - 1) / perRow)
+            return false;
+        for (Index row = 0; row < pyramid.rowCount(level); ++row)
+            for (Index cell = 0; cell < cells; ++cell) {
+                float largest = -INFINITY;
+                for (Index frame = row * perRow; frame < std::min(frames, (row + 1) * perRow); ++frame)
+                    largest = std::max(largest, values[static_cast<std::size_t>(frame * cells + cell)]);
+                const std::uint8_t byte = pyramid.row(level, row)[static_cast<std::size_t>(cell)];
+                if (pyramid.scale().value(byte) != static_cast<double>(largest))
+                    return false;
+            }
     }
+    return true;
+}
 
 } // namespace
 
@@ -163,7 +164,8 @@ void tst_PeakPyramid::encodingIsTheScale()
         const ByteScale scale(kind);
         for (int i = 0; i < 20000; ++i) {
             const double wanted = -20.0 + 140.0 * random.uniform() * (i % 3 == 0 ? 10.0 : 1.0);
-            const auto stored = static_cast<float>(kind == ByteScale::Kind::PowerDb ? std::pow(10.0, wanted / 10.0) : wanted);
+            const auto stored =
+                static_cast<float>(kind == ByteScale::Kind::PowerDb ? std::pow(10.0, wanted / 10.0) : wanted);
             std::uint8_t byte = 0;
             scale.encode({&stored, 1}, {&byte, 1});
             const double nearest = std::abs(scale.value(scale.byte(wanted)) - wanted);
@@ -233,7 +235,8 @@ void tst_PeakPyramid::piecesMakeTheSamePyramid()
     const std::vector<float> values = someScores(100, 5, 2);
     const PeakPyramid whole = built(values, 100, 5);
     PeakPyramid pieces(timeOf(100), 5, ByteScale(ByteScale::Kind::ScoreNats));
-    for (std::size_t first = 0, count = 1; first < 100; first += count, count = std::min<std::size_t>(count + 3, 100 - first))
+    for (std::size_t first = 0, count = 1; first < 100;
+         first += count, count = std::min<std::size_t>(count + 3, 100 - first))
         pieces.append(std::span(values).subspan(5 * first, 5 * count));
     pieces.finish();
     QCOMPARE(pieces.levelCount(), whole.levelCount());
@@ -273,7 +276,8 @@ void tst_PeakPyramid::budgetKeepsMaximaAndGeometry()
 
 void tst_PeakPyramid::soFarIsAPictureOfItsOwn()
 {
-    // What was taken on the way has the maxima of its frames, and keeps them while the picture goes on and is coarsened.
+    // What was taken on the way has the maxima of its frames, and keeps them while the picture goes on and is
+    // coarsened.
     const Index cells = 300;
     const Index frames = 5000;
     const std::vector<float> values = someScores(frames, cells, 9);
@@ -282,7 +286,8 @@ void tst_PeakPyramid::soFarIsAPictureOfItsOwn()
     const std::vector<Index> ends = {0, 1, 7, 873, 874, 1333, 3001, 4999, 5000};
     Index done = 0;
     for (Index end : ends) {
-        pyramid.append(std::span(values).subspan(static_cast<std::size_t>(done * cells), static_cast<std::size_t>((end - done) * cells)));
+        pyramid.append(std::span(values).subspan(static_cast<std::size_t>(done * cells),
+                                                 static_cast<std::size_t>((end - done) * cells)));
         done = end;
         taken.push_back(pyramid.soFar());
     }
@@ -328,7 +333,8 @@ void tst_PeakPyramid::roomForWhatItIsInTheEndIsEnough()
             PeakPyramid with(time, cells, ByteScale(ByteScale::Kind::ScoreNats), share);
             PeakPyramid within(time, cells, ByteScale(ByteScale::Kind::ScoreNats), least);
             for (Index frame = 0; frame < frames; ++frame) {
-                const std::uint8_t row[cells] = {std::uint8_t(frame * 37), std::uint8_t(frame * frame), std::uint8_t(frame / 5)};
+                const std::uint8_t row[cells] = {std::uint8_t(frame * 37), std::uint8_t(frame * frame),
+                                                 std::uint8_t(frame / 5)};
                 with.appendBytes(row);
                 within.appendBytes(row);
             }

@@ -37,7 +37,8 @@ Moments momentsOf(const std::vector<float> &values)
     for (float value : values)
         m.mean += static_cast<double>(value) / static_cast<double>(values.size());
     for (float value : values)
-        m.variance += (static_cast<double>(value) - m.mean) * (static_cast<double>(value) - m.mean) / static_cast<double>(values.size());
+        m.variance += (static_cast<double>(value) - m.mean) * (static_cast<double>(value) - m.mean)
+                      / static_cast<double>(values.size());
     return m;
 }
 
@@ -85,9 +86,11 @@ void tst_SimulatedPings::noiseIsExponential()
     const double n = static_cast<double>(y.size());
     const Moments m = momentsOf(y);
     QVERIFY2(std::abs(m.mean - 1.0) < 4.5 / std::sqrt(n), qPrintable(QString::number(m.mean)));
-    QVERIFY2(std::abs(m.variance - 1.0) < 4.5 * std::sqrt(8.0 / n), qPrintable(QString::number(m.variance))); // var of Exp's variance: 8
+    QVERIFY2(std::abs(m.variance - 1.0) < 4.5 * std::sqrt(8.0 / n),
+             qPrintable(QString::number(m.variance))); // var of Exp's variance: 8
     for (double level : {0.5, 2.0, 5.0}) {
-        const auto above = std::count_if(y.begin(), y.end(), [level](float v) { return static_cast<double>(v) > level; });
+        const auto above =
+            std::count_if(y.begin(), y.end(), [level](float v) { return static_cast<double>(v) > level; });
         const double p = std::exp(-level);
         QVERIFY(std::abs(static_cast<double>(above) / n - p) < 4.5 * std::sqrt(p * (1.0 - p) / n));
     }
@@ -99,7 +102,8 @@ void tst_SimulatedPings::looksAverage()
     const double n = static_cast<double>(y.size());
     const Moments m = momentsOf(y);
     QVERIFY(std::abs(m.mean - 1.0) < 4.5 * std::sqrt(0.2 / n));
-    QVERIFY(std::abs(m.variance - 0.2) < 4.5 * std::sqrt((2.0 * 0.04 + 6.0 * 0.008) / n)); // gamma of shape 5: κ₄ + 2κ₂²
+    QVERIFY(std::abs(m.variance - 0.2)
+            < 4.5 * std::sqrt((2.0 * 0.04 + 6.0 * 0.008) / n)); // gamma of shape 5: κ₄ + 2κ₂²
 }
 
 void tst_SimulatedPings::anyPingAlone()
@@ -150,7 +154,8 @@ void tst_SimulatedPings::echoes()
     const Moments m = momentsOf(targetCell(static_cast<Echo>(echo), 10.0 * std::log10(5.0), pings, looks));
     QVERIFY2(std::abs(m.mean - 6.0) < 4.5 * std::sqrt(variance / pings), qPrintable(QString::number(m.mean)));
     // The variance's own scatter is at most that of an exponential.
-    QVERIFY2(std::abs(m.variance - variance) < 4.5 * variance * std::sqrt(8.0 / pings), qPrintable(QString::number(m.variance)));
+    QVERIFY2(std::abs(m.variance - variance) < 4.5 * variance * std::sqrt(8.0 / pings),
+             qPrintable(QString::number(m.variance)));
 }
 
 void tst_SimulatedPings::constantPowerIsAdded()
@@ -191,7 +196,8 @@ void tst_SimulatedPings::reverberationIsTakenOut()
     made.reverberation = Reverberation{20.0, 3.0, static_cast<PingNormalisation>(normalisation)};
     const SimulatedPings pings(made);
     const std::vector<float> y = allOf(pings);
-    // Mean 1 at every range: per ring of ranges, to its own error. The curved background biases an estimate by up to half a percent.
+    // Mean 1 at every range: per ring of ranges, to its own error. The curved background biases an estimate by up to
+    // half a percent.
     const double bias = normalisation == 1 ? 0.006 : 0.0;
     for (Index first = 8; first + 20 <= 200; first += 20) {
         double sum = 0.0;

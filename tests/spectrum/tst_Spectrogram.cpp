@@ -41,40 +41,40 @@ private slots:
 
 namespace {
 
-    struct Case {
-        bool isComplex = false;
-        int windowSamples = 16;
-        int steps = 2;
-        int binsPerCell = 2;
-        WindowShape shape = WindowShape::Hann;
-    };
+struct Case {
+    bool isComplex = false;
+    int windowSamples = 16;
+    int steps = 2;
+    int binsPerCell = 2;
+    WindowShape shape = WindowShape::Hann;
+};
 
-    constexpr double rate = 1000.0;
+constexpr double rate = 1000.0;
 
-    SpectrogramSettings settingsOf(const Case &c)
-    {
-        return {c.windowSamples / rate, c.steps, c.binsPerCell, c.shape};
-    }
+SpectrogramSettings settingsOf(const Case &c)
+{
+    return {c.windowSamples / rate, c.steps, c.binsPerCell, c.shape};
+}
 
-    std::shared_ptr<MemoryRecording> noise(Index samples, bool isComplex, std::uint64_t stream = 1)
-    {
-        return std::make_shared<MemoryRecording>(someNoise(isComplex ? 2 * samples : samples, stream), rate, isComplex);
-    }
+std::shared_ptr<MemoryRecording> noise(Index samples, bool isComplex, std::uint64_t stream = 1)
+{
+    return std::make_shared<MemoryRecording>(someNoise(isComplex ? 2 * samples : samples, stream), rate, isComplex);
+}
 
-    std::vector<float> allOf(const Spectrogram &spectrogram)
-    {
-        std::vector<float> values(static_cast<std::size_t>(spectrogram.time().count * spectrogram.frequency().count));
-        spectrogram.read(0, spectrogram.time().count, values);
-        return values;
-    }
+std::vector<float> allOf(const Spectrogram &spectrogram)
+{
+    std::vector<float> values(static_cast<std::size_t>(spectrogram.time().count * spectrogram.frequency().count));
+    spectrogram.read(0, spectrogram.time().count, values);
+    return values;
+}
 
-    double mean(const std::vector<float> &values)
-    {
-        double sum = 0.0;
-        for (float value : values)
-            sum += static_cast<double>(value);
-        return sum / static_cast<double>(values.size());
-    }
+double mean(const std::vector<float> &values)
+{
+    double sum = 0.0;
+    for (float value : values)
+        sum += static_cast<double>(value);
+    return sum / static_cast<double>(values.size());
+}
 
 } // namespace
 
@@ -86,10 +86,10 @@ void tst_Spectrogram::equalsTheDefinition_data()
     for (bool isComplex : {false, true}) {
         const char *kind = isComplex ? "complex" : "real";
         QTest::addRow("%s, even", kind) << Case{isComplex, 16, 2, 2};
-        QTest::addRow("%s, odd window", kind) << Case{isComplex, 17, 2, 1};          // 18 bins
-        QTest::addRow("%s, odd transform", kind) << Case{isComplex, 15, 2, 1};       // 15 bins
-        QTest::addRow("%s, odd and padded", kind) << Case{isComplex, 9, 3, 3};       // 27 bins
-        QTest::addRow("%s, rounded up", kind) << Case{isComplex, 11, 1, 1};          // 12 bins
+        QTest::addRow("%s, odd window", kind) << Case{isComplex, 17, 2, 1};    // 18 bins
+        QTest::addRow("%s, odd transform", kind) << Case{isComplex, 15, 2, 1}; // 15 bins
+        QTest::addRow("%s, odd and padded", kind) << Case{isComplex, 9, 3, 3}; // 27 bins
+        QTest::addRow("%s, rounded up", kind) << Case{isComplex, 11, 1, 1};    // 12 bins
         QTest::addRow("%s, no overlap", kind) << Case{isComplex, 20, 1, 4};
         QTest::addRow("%s, hop of one", kind) << Case{isComplex, 8, 64, 1};
         QTest::addRow("%s, two samples", kind) << Case{isComplex, 2, 2, 1};
@@ -115,15 +115,17 @@ void tst_Spectrogram::equalsTheDefinition()
     const Index bins = spectrogram.frequency().count;
     QCOMPARE(bins, Index(c.isComplex ? spectrogram.transformLength() : spectrogram.transformLength() / 2 + 1));
     for (Index frame = 0; frame < spectrogram.time().count; ++frame) {
-        std::vector<float> windowed(samples.begin() + frame * hop * floats, samples.begin() + (frame * hop + c.windowSamples) * floats);
+        std::vector<float> windowed(samples.begin() + frame * hop * floats,
+                                    samples.begin() + (frame * hop + c.windowSamples) * floats);
         for (std::size_t i = 0; i < windowed.size(); ++i)
             windowed[i] *= window[i / static_cast<std::size_t>(floats)];
         for (Index bin = 0; bin < bins; ++bin) {
             const double turns = spectrogram.frequency().value(static_cast<double>(bin)) / rate;
             const double expected = std::norm(fourier(windowed.data(), c.windowSamples, c.isComplex, turns));
             const auto value = static_cast<double>(found[static_cast<std::size_t>(frame * bins + bin)]);
-            QVERIFY2(std::abs(value - expected) < 1e-5 * (expected + 0.04),
-                     qPrintable(QString("frame %1, bin %2: %3, directly %4").arg(frame).arg(bin).arg(value).arg(expected)));
+            QVERIFY2(
+                std::abs(value - expected) < 1e-5 * (expected + 0.04),
+                qPrintable(QString("frame %1, bin %2: %3, directly %4").arg(frame).arg(bin).arg(value).arg(expected)));
         }
     }
 }
@@ -225,7 +227,8 @@ void tst_Spectrogram::chunkedEqualsWhole()
         for (Index end = spectrogram.time().count; end > 0; end -= count) {
             count = std::min<Index>(count % 5 + 1, end);
             spectrogram.read(end - count, count,
-                             std::span(pieces).subspan(static_cast<std::size_t>(end - count) * bins, static_cast<std::size_t>(count) * bins));
+                             std::span(pieces).subspan(static_cast<std::size_t>(end - count) * bins,
+                                                       static_cast<std::size_t>(count) * bins));
         }
         QCOMPARE(pieces, whole);
     }
@@ -267,7 +270,8 @@ void tst_Spectrogram::whiteNoiseHasItsVariance_data()
     QTest::addColumn<int>("shape");
     for (std::size_t shape = 0; shape < windowShapeNames.size(); ++shape)
         for (bool isComplex : {false, true})
-            QTest::addRow("%s %s", windowShapeNames[shape].data(), isComplex ? "complex" : "real") << isComplex << static_cast<int>(shape);
+            QTest::addRow("%s %s", windowShapeNames[shape].data(), isComplex ? "complex" : "real")
+                << isComplex << static_cast<int>(shape);
 }
 
 void tst_Spectrogram::whiteNoiseHasItsVariance()
@@ -282,9 +286,11 @@ void tst_Spectrogram::whiteNoiseHasItsVariance()
     // Independent frames, and bins of which not more than three in a row tell the same: y ~ Exp(1), deviation 1.
     const double error = std::sqrt(3.0 / static_cast<double>(values.size()));
     QVERIFY2(std::abs(mean(values) - 1.0) < 4.0 * error, qPrintable(QString("%1 ± %2").arg(mean(values)).arg(error)));
-    // The lowest and the highest bin as well (800 values each; for real samples their y is χ² of one degree, variance 2).
+    // The lowest and the highest bin as well (800 values each; for real samples their y is χ² of one degree, variance
+    // 2).
     for (std::size_t bin : {std::size_t(0), static_cast<std::size_t>(spectrogram.frequency().count - 1)})
-        QVERIFY(std::abs(mean(every(values, static_cast<std::size_t>(spectrogram.frequency().count), bin)) - 1.0) < 4.0 * std::sqrt(2.0 / 800.0));
+        QVERIFY(std::abs(mean(every(values, static_cast<std::size_t>(spectrogram.frequency().count), bin)) - 1.0)
+                < 4.0 * std::sqrt(2.0 / 800.0));
 }
 
 void tst_Spectrogram::toneHasItsLevelAndBin_data()
@@ -314,7 +320,8 @@ void tst_Spectrogram::toneHasItsLevelAndBin()
     }
     const Spectrogram spectrogram(std::make_shared<MemoryRecording>(samples, rate, isComplex),
                                   settingsOf({isComplex, 100, 2, 2, static_cast<WindowShape>(shape)}));
-    // |A Σ w|², a quarter of it for a real tone. Mean and energy of the windows: 1 and 1; 1/2 and 3/8; 0.35875 and 0.25796.
+    // |A Σ w|², a quarter of it for a real tone. Mean and energy of the windows: 1 and 1; 1/2 and 3/8; 0.35875 and
+    // 0.25796.
     const double coherentGain = shape == 0 ? 1.0 : shape == 1 ? 0.25 / 0.375 : 0.35875 * 0.35875 / 0.2579635;
     const double expected = amplitude * amplitude * 100.0 * coherentGain * (isComplex ? 1.0 : 0.25);
     const Index bins = spectrogram.frequency().count;
@@ -348,7 +355,8 @@ void tst_Spectrogram::samplesThatAreNoNumbers()
     const auto recording = std::make_shared<MemoryRecording>(samples, rate);
     const Spectrogram spectrogram(recording, settingsOf({false, 100, 1, 1}));
     const std::vector<float> values = allOf(spectrogram);
-    QCOMPARE(values, allOf(Spectrogram(std::make_shared<MemoryRecording>(zeros, rate), settingsOf({false, 100, 1, 1}))));
+    QCOMPARE(values,
+             allOf(Spectrogram(std::make_shared<MemoryRecording>(zeros, rate), settingsOf({false, 100, 1, 1}))));
     QVERIFY(std::ranges::all_of(values, [](float y) { return std::isfinite(y) && y >= 0.0f; }));
     QCOMPARE(recording->nonFiniteCount(), Index(3));
 }
@@ -365,11 +373,15 @@ void tst_Spectrogram::otherChannel()
             m_info.sampleCount = 100;
             m_info.channelCount = 3;
         }
-        void read(int channel, Index, Index, std::span<float> out) const override { std::ranges::fill(out, static_cast<float>(channel)); }
+        void read(int channel, Index, Index, std::span<float> out) const override
+        {
+            std::ranges::fill(out, static_cast<float>(channel));
+        }
     };
     SelectionSettings selection;
     selection.channel = 2;
-    const Spectrogram spectrogram(std::make_shared<Constants>(), settingsOf({false, 100, 1, 1, WindowShape::Rectangular}), selection);
+    const Spectrogram spectrogram(std::make_shared<Constants>(),
+                                  settingsOf({false, 100, 1, 1, WindowShape::Rectangular}), selection);
     QVERIFY(std::abs(allOf(spectrogram)[0] - 2.0f * 2.0f * 100.0f) < 1e-3f);
 }
 
@@ -382,18 +394,23 @@ void tst_Spectrogram::refusals_data()
     QTest::addColumn<double>("high");
     QTest::addColumn<int>("channel");
     QTest::addColumn<QString>("message");
-    const auto row = [](const char *name, double window, double from, double to, double low, double high, int channel, const char *message) {
+    const auto row = [](const char *name, double window, double from, double to, double low, double high, int channel,
+                        const char *message) {
         QTest::newRow(name) << window << from << to << low << high << channel << QString::fromUtf8(message);
     };
-    row("shorter than a window", 2.0, 0, 0, 0, 0, 0, "memory: the selected part is 1000 samples (1 s) long, shorter than one window of 2 s");
+    row("shorter than a window", 2.0, 0, 0, 0, 0, 0,
+        "memory: the selected part is 1000 samples (1 s) long, shorter than one window of 2 s");
     row("part shorter than a window", 0.5, 0.2, 0.6, 0, 0, 0, "the selected part is 400 samples (0.4 s) long");
-    row("window of one sample", 0.001, 0, 0, 0, 0, 0, "spectrogram.windowSeconds = 0.001: contains fewer than 2 "
-                                                      "samples at 1000 Hz");
+    row("window of one sample", 0.001, 0, 0, 0, 0, 0,
+        "spectrogram.windowSeconds = 0.001: contains fewer than 2 "
+        "samples at 1000 Hz");
     row("endless window", 1e6, 0, 0, 0, 0, 0, "gives a transform of more than 100 million points");
-    row("behind the end", 0.1, 1.0, 0, 0, 0, 0, "selection.fromSeconds = 1: must lie before the end of the selection, "
-                                                "1 s");
-    row("from after to", 0.1, 0.8, 0.3, 0, 0, 0, "selection.fromSeconds = 0.8: must lie before the end of the "
-                                                 "selection, 0.3 s");
+    row("behind the end", 0.1, 1.0, 0, 0, 0, 0,
+        "selection.fromSeconds = 1: must lie before the end of the selection, "
+        "1 s");
+    row("from after to", 0.1, 0.8, 0.3, 0, 0, 0,
+        "selection.fromSeconds = 0.8: must lie before the end of the "
+        "selection, 0.3 s");
     row("band upside down", 0.1, 0, 0, 200, 100, 0, "selection.lowHz = 200: must not lie above selection.highHz");
     row("band between bins", 0.1, 0, 0, 101, 102, 0, "contains no bin; the recording spans 0 … 500 Hz");
     row("band above the recording", 0.1, 0, 0, 600, 700, 0, "contains no bin; the recording spans 0 … 500 Hz");
@@ -410,7 +427,9 @@ void tst_Spectrogram::refusals()
     QFETCH(double, high);
     QFETCH(int, channel);
     QFETCH(QString, message);
-    const std::string said = errorOf([&] { Spectrogram(noise(1000, false), {windowSeconds, 2, 1}, {channel, from, to, low, high}); });
+    const std::string said = errorOf([&] {
+        Spectrogram(noise(1000, false), {windowSeconds, 2, 1}, {channel, from, to, low, high});
+    });
     QVERIFY2(contains(said, message.toStdString()), said.c_str());
 }
 
@@ -420,13 +439,13 @@ void tst_Spectrogram::automaticWindow_data()
     QTest::addColumn<double>("rateHz");
     QTest::addColumn<double>("window");
     // 3·√(duration/rate), rounded to 1, 2, 5 · 10ⁿ.
-    QTest::newRow("a minute of speech") << 60.0 << 8000.0 << 0.2;        // 0.26
-    QTest::newRow("a day of shortwave") << 86400.0 << 12.0 << 200.0;     // 255
-    QTest::newRow("an hour at 1 Hz") << 3600.0 << 1.0 << 200.0;          // 180
-    QTest::newRow("a second of radio") << 1.0 << 2e6 << 0.002;           // 0.0021
-    QTest::newRow("at least 16 samples") << 0.1 << 1000.0 << 0.02;       // 0.03 is 30 samples
-    QTest::newRow("at most four million") << 1e9 << 50000.0 << 80.0;     // 424, of 31 years
-    QTest::newRow("no more than a quarter") << 0.05 << 100.0 << 0.0125;  // 0.067, but the recording is short
+    QTest::newRow("a minute of speech") << 60.0 << 8000.0 << 0.2;       // 0.26
+    QTest::newRow("a day of shortwave") << 86400.0 << 12.0 << 200.0;    // 255
+    QTest::newRow("an hour at 1 Hz") << 3600.0 << 1.0 << 200.0;         // 180
+    QTest::newRow("a second of radio") << 1.0 << 2e6 << 0.002;          // 0.0021
+    QTest::newRow("at least 16 samples") << 0.1 << 1000.0 << 0.02;      // 0.03 is 30 samples
+    QTest::newRow("at most four million") << 1e9 << 50000.0 << 80.0;    // 424, of 31 years
+    QTest::newRow("no more than a quarter") << 0.05 << 100.0 << 0.0125; // 0.067, but the recording is short
 }
 
 void tst_Spectrogram::automaticWindow()

@@ -39,33 +39,34 @@ private:
 
 namespace {
 
-    double energy(const std::vector<float> &window)
-    {
-        double sum = 0.0;
-        for (float w : window)
-            sum += static_cast<double>(w) * static_cast<double>(w);
-        return sum;
-    }
+double energy(const std::vector<float> &window)
+{
+    double sum = 0.0;
+    for (float w : window)
+        sum += static_cast<double>(w) * static_cast<double>(w);
+    return sum;
+}
 
-    /// |W(Δ)|²/|W(0)|² straight from the definition; the phase is taken about the window's middle, so W is real.
-    double response(const std::vector<float> &window, double distanceCells)
-    {
-        const auto length = static_cast<double>(window.size());
-        double sum = 0.0;
-        double atZero = 0.0;
-        for (std::size_t n = 0; n < window.size(); ++n) {
-            const double t = (static_cast<double>(n) + 0.5) / length - 0.5;
-            sum += static_cast<double>(window[n]) * std::cos(2.0 * std::numbers::pi * distanceCells * t);
-            atZero += static_cast<double>(window[n]);
-        }
-        return sum * sum / (atZero * atZero);
+/// |W(Δ)|²/|W(0)|² straight from the definition; the phase is taken about the window's middle, so W is real.
+double response(const std::vector<float> &window, double distanceCells)
+{
+    const auto length = static_cast<double>(window.size());
+    double sum = 0.0;
+    double atZero = 0.0;
+    for (std::size_t n = 0; n < window.size(); ++n) {
+        const double t = (static_cast<double>(n) + 0.5) / length - 0.5;
+        sum += static_cast<double>(window[n]) * std::cos(2.0 * std::numbers::pi * distanceCells * t);
+        atZero += static_cast<double>(window[n]);
     }
+    return sum * sum / (atZero * atZero);
+}
 
 } // namespace
 
 void tst_Window::knownValues()
 {
-    // Sampled in the middle of each interval: Hann sin²(π(n + ½)/4), n = 0 … 3, is 0.1464, 0.8536, 0.8536, 0.1464; Σ w² = 1.5.
+    // Sampled in the middle of each interval: Hann sin²(π(n + ½)/4), n = 0 … 3, is 0.1464, 0.8536, 0.8536, 0.1464; Σ w²
+    // = 1.5.
     const std::vector<float> hann = sampleWindow(WindowShape::Hann, 4);
     QVERIFY(std::abs(static_cast<double>(hann[0]) - 0.14644661 / std::sqrt(1.5)) < 1e-7);
     QVERIFY(std::abs(static_cast<double>(hann[1]) - 0.85355339 / std::sqrt(1.5)) < 1e-7);
@@ -124,8 +125,10 @@ void tst_Window::leakageIsBounded()
     for (double distance = 0.03; distance < 60.0; distance += distance < 20.0 ? 0.07 : 0.53) {
         const double leaked = response(window, distance);
         const double bound = leakageBound(static_cast<WindowShape>(shape), distance);
-        QVERIFY2(leaked <= bound * 1.01 + singlePrecision,
-                 qPrintable(QString("%1 dB at %2 cells, bound %3 dB").arg(10.0 * std::log10(leaked)).arg(distance).arg(10.0 * std::log10(bound))));
+        QVERIFY2(leaked <= bound * 1.01 + singlePrecision, qPrintable(QString("%1 dB at %2 cells, bound %3 dB")
+                                                                          .arg(10.0 * std::log10(leaked))
+                                                                          .arg(distance)
+                                                                          .arg(10.0 * std::log10(bound))));
         if (distance >= half)
             highest = std::max(highest, leaked);
     }

@@ -61,11 +61,13 @@ void tst_cellAveraging::silence()
 
 void tst_cellAveraging::evidenceIsExact()
 {
-    // The density of a target's quotient over that of noise, by finite differences of the distributions (1 + t/N(1+ρ))^{-N} and (1 +
-    // t/N)^{-N}.
+    // The density of a target's quotient over that of noise, by finite differences of the distributions (1 +
+    // t/N(1+ρ))^{-N} and (1 + t/N)^{-N}.
     constexpr Index N = 16;
     constexpr double snr = 4.0;
-    const auto tail = [](double t, double mean) { return std::pow(1.0 + t / (static_cast<double>(N) * mean), -static_cast<double>(N)); };
+    const auto tail = [](double t, double mean) {
+        return std::pow(1.0 + t / (static_cast<double>(N) * mean), -static_cast<double>(N));
+    };
     for (const double t : {0.1, 1.0, 5.0, 40.0}) {
         constexpr double h = 1e-5;
         const double target = tail(t - h, 1.0 + snr) - tail(t + h, 1.0 + snr);

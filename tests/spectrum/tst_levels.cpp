@@ -58,7 +58,7 @@ private slots:
 void tst_levels::mediansOfExponentials()
 {
     QCOMPARE(medianMean(1), 1.0);
-    QCOMPARE(medianMean(2), 0.5);             // the smaller of two
+    QCOMPARE(medianMean(2), 0.5); // the smaller of two
     QCOMPARE(medianMean(3), 1.0 / 3 + 1.0 / 2);
     QVERIFY(std::abs(medianMean(100001) - std::log(2.0)) < 1e-5);
     std::vector<float> four{4.0f, 1.0f, 3.0f, 2.0f};
@@ -75,7 +75,8 @@ void tst_levels::truncatedMeanOfExponentials()
     QVERIFY2(std::abs(mean / 3.0f - 1.0f) < 5.0f * 1.1f / std::sqrt(20000.0f), qPrintable(QString::number(mean)));
     // From a guess a tenth away it comes to the same within a three-hundredth.
     for (float guess : {2.7f, 3.3f})
-        QVERIFY2(std::abs(truncatedMean(cells, guess) / mean - 1.0f) < 0.0033f, qPrintable(QString::number(truncatedMean(cells, guess))));
+        QVERIFY2(std::abs(truncatedMean(cells, guess) / mean - 1.0f) < 0.0033f,
+                 qPrintable(QString::number(truncatedMean(cells, guess))));
     // However strong, twenty lines of 20000 cells do nothing to it.
     for (std::size_t i = 0; i < 20; ++i)
         cells[1000 * i] = 1e20f;
@@ -99,7 +100,9 @@ void tst_levels::meansOfCells()
         }
         std::vector<float> y;
         for (std::size_t i = 1; i + 1 < re.size(); ++i)
-            y.push_back(static_cast<float>((std::pow(re[i] - 0.5 * (re[i - 1] + re[i + 1]), 2.0) + std::pow(im[i] - 0.5 * (im[i - 1] + im[i + 1]), 2.0)) / 3.0));
+            y.push_back(static_cast<float>((std::pow(re[i] - 0.5 * (re[i - 1] + re[i + 1]), 2.0)
+                                            + std::pow(im[i] - 0.5 * (im[i - 1] + im[i + 1]), 2.0))
+                                           / 3.0));
         sum += std::pow(std::log(static_cast<double>(truncatedMean(y, 1.0f))), 2.0);
     }
     const double measured = std::sqrt(sum / trials);
@@ -156,7 +159,8 @@ void tst_levels::aRampCostsNothing()
 
 void tst_levels::swingsAreFollowed()
 {
-    // Periods from 6 values, which are kept as they are, to 1000, which are averaged over dozens: always less is left than there was.
+    // Periods from 6 values, which are kept as they are, to 1000, which are averaged over dozens: always less is left
+    // than there was.
     for (const auto &[period, most] : {std::pair{6.0, 1.05}, {30.0, 0.75}, {200.0, 0.4}, {1000.0, 0.25}}) {
         Walk w(4000, 0.0, 1.0, 6);
         for (std::size_t i = 0; i < w.series.size(); ++i) {

@@ -43,14 +43,15 @@ void tst_noiseMean::ofExponentialNoise()
     std::exponential_distribution<double> power(1.0 / mean);
     std::vector<float> values(200 * 100);
     for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = i % 7 == 0 ? std::numeric_limits<float>::quiet_NaN() // not observed
-            : i % 50 == 3      ? 1000.0f * static_cast<float>(mean)      // a signal
-                               : static_cast<float>(power(random));
+        values[i] = i % 7 == 0    ? std::numeric_limits<float>::quiet_NaN() // not observed
+                    : i % 50 == 3 ? 1000.0f * static_cast<float>(mean)      // a signal
+                                  : static_cast<float>(power(random));
     const FrameArray made = frames(200, 100, values);
     QVERIFY2(std::abs(noiseMeanOf(made) / mean - 1.0) < 0.08, qPrintable(QString::number(noiseMeanOf(made))));
     QCOMPARE(!noiseMeanWarning(made).empty(), isTold);
     if (mean == 5.0)
-        QVERIFY(noiseMeanWarning(made).starts_with("the mean of the noise is about 5, not 1") || noiseMeanWarning(made).starts_with("the mean of the noise is about 5."));
+        QVERIFY(noiseMeanWarning(made).starts_with("the mean of the noise is about 5, not 1")
+                || noiseMeanWarning(made).starts_with("the mean of the noise is about 5."));
 }
 
 void tst_noiseMean::ofNothing()

@@ -10,47 +10,52 @@ using namespace faintline;
 
 namespace {
 
-    constexpr Index cells = 240;
-    constexpr Index frames = 300;
+constexpr Index cells = 240;
+constexpr Index frames = 300;
 
-    /// A receiver's floor of 1 everywhere, and a source between two sharp edges that is there at 0, 10, 20 or 30 dB, or not.
-    struct Scene {
-        std::vector<float> power;
-        std::vector<float> y;
+/// A receiver's floor of 1 everywhere, and a source between two sharp edges that is there at 0, 10, 20 or 30 dB, or
+/// not.
+struct Scene {
+    std::vector<float> power;
+    std::vector<float> y;
 
-        explicit Scene(std::uint64_t stream)
-        {
-            Random random(77, stream);
-            for (Index frame = 0; frame < frames; ++frame) {
-                const double level = frame / 20 % 5 == 4 ? 0.0 : std::pow(10.0, static_cast<double>(frame / 20 % 5));
-                for (Index cell = 0; cell < cells; ++cell) {
-                    const double b = 1.0 + (cell >= 60 && cell < 150 ? level : 0.0);
-                    power.push_back(static_cast<float>(b));
-                    y.push_back(static_cast<float>(b * random.exponential()));
-                }
-            }
-        }
-        std::span<const float> frame(Index i) const { return std::span(y).subspan(static_cast<std::size_t>(i * cells), cells); }
-    };
-
-    /// Root mean square of ln(B/power), over all cells but those nearest to the edges, and the largest next to them.
-    std::pair<double, double> errors(const Scene &scene, const NoiseSources &sources)
+    explicit Scene(std::uint64_t stream)
     {
-        std::vector<float> b(cells);
-        double sum = 0.0;
-        double counted = 0.0;
-        double largest = 0.0;
-        for (Index i = 0; i < frames; ++i) {
-            sources.addUp(sources.levelsIn(scene.frame(i)), b);
+        Random random(77, stream);
+        for (Index frame = 0; frame < frames; ++frame) {
+            const double level = frame / 20 % 5 == 4 ? 0.0 : std::pow(10.0, static_cast<double>(frame / 20 % 5));
             for (Index cell = 0; cell < cells; ++cell) {
-                const double error = std::log(static_cast<double>(b[static_cast<std::size_t>(cell)] / scene.power[static_cast<std::size_t>(i * cells + cell)]));
-                largest = std::max(largest, std::abs(error));
-                sum += error * error;
-                counted += 1.0;
+                const double b = 1.0 + (cell >= 60 && cell < 150 ? level : 0.0);
+                power.push_back(static_cast<float>(b));
+                y.push_back(static_cast<float>(b * random.exponential()));
             }
         }
-        return {std::sqrt(sum / counted), largest};
     }
+    std::span<const float> frame(Index i) const
+    {
+        return std::span(y).subspan(static_cast<std::size_t>(i * cells), cells);
+    }
+};
+
+/// Root mean square of ln(B/power), over all cells but those nearest to the edges, and the largest next to them.
+std::pair<double, double> errors(const Scene &scene, const NoiseSources &sources)
+{
+    std::vector<float> b(cells);
+    double sum = 0.0;
+    double counted = 0.0;
+    double largest = 0.0;
+    for (Index i = 0; i < frames; ++i) {
+        sources.addUp(sources.levelsIn(scene.frame(i)), b);
+        for (Index cell = 0; cell < cells; ++cell) {
+            const double error = std::log(static_cast<double>(
+                b[static_cast<std::size_t>(cell)] / scene.power[static_cast<std::size_t>(i * cells + cell)]));
+            largest = std::max(largest, std::abs(error));
+            sum += error * error;
+            counted += 1.0;
+        }
+    }
+    return {std::sqrt(sum / counted), largest};
+}
 
 } // namespace
 
@@ -96,7 +101,8 @@ void tst_noiseSources::aLineIsNoColour()
 
 void tst_noiseSources::silence()
 {
-    QCOMPARE(fitSources(std::vector<float>(static_cast<std::size_t>(10 * cells), 0.0f), cells, 2, 20).count(), Index(0));
+    QCOMPARE(fitSources(std::vector<float>(static_cast<std::size_t>(10 * cells), 0.0f), cells, 2, 20).count(),
+             Index(0));
     Scene scene(3);
     std::fill(scene.y.begin(), scene.y.begin() + 50 * cells, 0.0f);
     const NoiseSources sources = fitSources(scene.y, cells, 2, 20);

@@ -14,7 +14,8 @@ Grid grid()
 
 std::shared_ptr<const PeakPyramid> pings(std::size_t budget = std::size_t(1) << 20)
 {
-    auto picture = std::make_shared<PeakPyramid>(Axis{"time", "s", 0.0, 40.0, 2, false}, 6, ByteScale(ByteScale::Kind::ScoreNats), budget);
+    auto picture = std::make_shared<PeakPyramid>(Axis{"time", "s", 0.0, 40.0, 2, false}, 6,
+                                                 ByteScale(ByteScale::Kind::ScoreNats), budget);
     picture->append(std::vector<float>{1, 2, 3, 4, 5, 6, 10, 9, 8, 7, 6, 5});
     picture->finish();
     return picture;
@@ -59,7 +60,8 @@ private slots:
 
     void mergedFramesAreShownAsTheirMaximum()
     {
-        auto picture = std::make_shared<PeakPyramid>(Axis{"time", "s", 0.0, 1.0, 16, false}, 6, ByteScale(ByteScale::Kind::ScoreNats), 40);
+        auto picture = std::make_shared<PeakPyramid>(Axis{"time", "s", 0.0, 1.0, 16, false}, 6,
+                                                     ByteScale(ByteScale::Kind::ScoreNats), 40);
         for (int frame = 0; frame < 16; ++frame)
             picture->append(std::vector<float>(6, static_cast<float>(frame)));
         picture->finish();

@@ -11,7 +11,8 @@
 
 namespace faintline::test {
 
-/// The transition law straight from its definition, for one axis: P(p', r' | p, r) in step number `step`. Shares no code with the recursion.
+/// The transition law straight from its definition, for one axis: P(p', r' | p, r) in step number `step`. Shares no
+/// code with the recursion.
 inline double axisProbability(const KinematicAxis &axis, Index p, int rateIndex, Index pNext, int rateIndexNext,
                               Index step = 0)
 {
@@ -55,7 +56,8 @@ inline double transitionProbability(const StateSpace &space, Index from, Index t
 }
 
 /// Calls visit(path) for every sequence of states of the given length that ends in `last`, whatever its probability.
-inline void forEachPath(Index stateCount, Index length, Index last, const std::function<void(const std::vector<Index> &)> &visit)
+inline void forEachPath(Index stateCount, Index length, Index last,
+                        const std::function<void(const std::vector<Index> &)> &visit)
 {
     std::vector<Index> path(static_cast<std::size_t>(length), 0);
     path.back() = last;

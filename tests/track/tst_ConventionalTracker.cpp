@@ -17,7 +17,8 @@ ConventionalSettings threeOfFive(double speed)
 }
 
 /// Frames of a line as strings: a digit is ten times itself, anything else is 1.
-std::vector<Track> run(const std::vector<std::string> &frames, const ConventionalSettings &settings, const Grid *grid = nullptr)
+std::vector<Track> run(const std::vector<std::string> &frames, const ConventionalSettings &settings,
+                       const Grid *grid = nullptr)
 {
     ConventionalTracker tracker(grid ? *grid : line(static_cast<Index>(frames.front().size())), settings);
     Index frame = 0;
@@ -55,7 +56,8 @@ private slots:
         QCOMPARE(run(frames, threeOfFive(2.0)).size(), std::size_t(1));
         QVERIFY(run(frames, threeOfFive(1.9)).empty());
         // Two frames on, it is twice as wide.
-        QCOMPARE(run({"2.........", "..........", "....2.....", "....2....."}, threeOfFive(2.0)).size(), std::size_t(1));
+        QCOMPARE(run({"2.........", "..........", "....2.....", "....2....."}, threeOfFive(2.0)).size(),
+                 std::size_t(1));
     }
 
     void whatTakesTooLongIsNone()

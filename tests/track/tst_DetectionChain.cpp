@@ -16,8 +16,14 @@ const Grid line64{{{"frequency", "Hz", 0.0, 1.0, 64, false}}};
 
 MarkovModel model(Index cells, int slopes = 5)
 {
-    return {StateSpace({{"f", cells, false, -(slopes / 2), slopes, slopes > 1 ? std::vector<double>{1.0 / 3.0, 1.0 / 3.0} : std::vector<double>{1.0},
-                         {}, Rounding::HalfDown}}),
+    return {StateSpace({{"f",
+                         cells,
+                         false,
+                         -(slopes / 2),
+                         slopes,
+                         slopes > 1 ? std::vector<double>{1.0 / 3.0, 1.0 / 3.0} : std::vector<double>{1.0},
+                         {},
+                         Rounding::HalfDown}}),
             Likelihood(LikelihoodKind::Rice, 0.5), 1.0};
 }
 
@@ -50,7 +56,8 @@ struct Scene {
     }
 };
 
-std::vector<Track> run(const Scene &scene, const ChainSettings &chainSettings, const Grid &grid, std::vector<std::vector<float>> *shown = nullptr)
+std::vector<Track> run(const Scene &scene, const ChainSettings &chainSettings, const Grid &grid,
+                       std::vector<std::vector<float>> *shown = nullptr)
 {
     const MarkovModel m = model(scene.cells);
     DetectionChain chain(m, grid, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, 0.69}), chainSettings);
@@ -197,7 +204,8 @@ void tst_DetectionChain::noTrackWithoutFeedback()
 void tst_DetectionChain::statisticIsAboveThresholdWhileTracked()
 {
     std::vector<std::vector<float>> shown;
-    const auto tracks = run({64, 200, {[](Index t) { return t < 120 ? Index(20) : Index(-1); }}}, settings(line64, 15.0), line64, &shown);
+    const auto tracks = run({64, 200, {[](Index t) { return t < 120 ? Index(20) : Index(-1); }}},
+                            settings(line64, 15.0), line64, &shown);
     QCOMPARE(tracks.size(), std::size_t(1));
     for (const TrackPoint &point : tracks[0].points)
         if (point.frame > tracks[0].detectFrame + 1)
@@ -208,7 +216,8 @@ void tst_DetectionChain::statisticIsAboveThresholdWhileTracked()
 
 void tst_DetectionChain::lineOffTheGridEnds()
 {
-    const auto tracks = run({64, 200, {[](Index t) { return t < 63 ? Index(t) : Index(-1); }}}, settings(line64, 15.0), line64);
+    const auto tracks =
+        run({64, 200, {[](Index t) { return t < 63 ? Index(t) : Index(-1); }}}, settings(line64, 15.0), line64);
     QCOMPARE(tracks.size(), std::size_t(1));
     QVERIFY(tracks[0].endFrame >= 58 && tracks[0].endFrame <= 70);
     for (const TrackPoint &point : tracks[0].points)
@@ -226,7 +235,8 @@ void tst_DetectionChain::aStateDoesNotGrowWithATracksAge()
     const Scene scene{64, 6000, {[](Index) { return Index(30); }}};
     const MarkovModel m = model(scene.cells);
     const auto fresh = [&] {
-        return std::make_unique<DetectionChain>(m, line64, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, 0.69}), settings(line64, 14.0));
+        return std::make_unique<DetectionChain>(m, line64, std::make_unique<Smd>(m, ResetRule{ResetLaw::Fixed, 0.69}),
+                                                settings(line64, 14.0));
     };
     const auto chain = fresh();
     Random random(11, 1);

@@ -20,7 +20,8 @@ const Axis shortCells = axis("frequency", "Hz", 0.5, 1000);
 const Axis longCells = axis("frequency", "Hz", 0.125, 4000);
 
 /// A track along hz(t) whose level is r(t).
-Track track(const Axis &time, const Axis &cells, double from, double to, const std::function<double(double)> &hz, double level, double statistic = 50.0)
+Track track(const Axis &time, const Axis &cells, double from, double to, const std::function<double(double)> &hz,
+            double level, double statistic = 50.0)
 {
     Track result;
     result.peakStatistic = statistic;
@@ -57,13 +58,17 @@ void tst_energyKept::steadyLineIsKept()
 {
     const auto line = [](double) { return 100.0; };
     // Four times the power in a fourth of the frames.
-    QVERIFY(std::abs(kept({track(shortTime, shortCells, 10.0, 90.0, line, 2.0)}, {track(longTime, longCells, 10.0, 90.0, line, 8.0)}) - 1.0) < 1e-6);
+    QVERIFY(std::abs(kept({track(shortTime, shortCells, 10.0, 90.0, line, 2.0)},
+                          {track(longTime, longCells, 10.0, 90.0, line, 8.0)})
+                     - 1.0)
+            < 1e-6);
 }
 
 void tst_energyKept::whatMovesIsNot()
 {
     const auto sweep = [](double t) { return 50.0 + 2.0 * t; };
-    const double share = kept({track(shortTime, shortCells, 10.0, 90.0, sweep, 8.0)}, {track(longTime, longCells, 10.0, 90.0, sweep, 2.0)});
+    const double share = kept({track(shortTime, shortCells, 10.0, 90.0, sweep, 8.0)},
+                              {track(longTime, longCells, 10.0, 90.0, sweep, 2.0)});
     QVERIFY(std::abs(share - 1.0 / 16.0) < 0.01);
 }
 
@@ -71,7 +76,8 @@ void tst_energyKept::severalTracksAddUp()
 {
     const auto line = [](double) { return 100.0; };
     const auto beside = [](double) { return 100.5; };
-    const std::vector<Track> halves{track(longTime, longCells, 10.0, 50.0, line, 4.0), track(longTime, longCells, 50.0, 90.0, line, 4.0),
+    const std::vector<Track> halves{track(longTime, longCells, 10.0, 50.0, line, 4.0),
+                                    track(longTime, longCells, 50.0, 90.0, line, 4.0),
                                     track(longTime, longCells, 10.0, 90.0, beside, 4.0)};
     QVERIFY(std::abs(kept({track(shortTime, shortCells, 10.0, 90.0, line, 2.0)}, halves) - 1.0) < 0.02);
 }
@@ -80,7 +86,8 @@ void tst_energyKept::otherPlacesAndTimesDoNotCount()
 {
     const auto line = [](double) { return 100.0; };
     const auto other = [](double) { return 110.0; };
-    const std::vector<Track> found{track(longTime, longCells, 10.0, 90.0, line, 4.0), track(longTime, longCells, 10.0, 90.0, other, 40.0),
+    const std::vector<Track> found{track(longTime, longCells, 10.0, 90.0, line, 4.0),
+                                   track(longTime, longCells, 10.0, 90.0, other, 40.0),
                                    track(longTime, longCells, 100.0, 180.0, line, 40.0)};
     QVERIFY(std::abs(kept({track(shortTime, shortCells, 10.0, 90.0, line, 2.0)}, found) - 0.5) < 0.02);
 }
@@ -90,9 +97,11 @@ void tst_energyKept::medianIsWeightedByDuration()
     const auto a = [](double) { return 100.0; };
     const auto b = [](double) { return 200.0; };
     const auto c = [](double) { return 300.0; };
-    const std::vector<Track> ofShort{track(shortTime, shortCells, 0.0, 180.0, a, 1.0), track(shortTime, shortCells, 0.0, 20.0, b, 1.0),
+    const std::vector<Track> ofShort{track(shortTime, shortCells, 0.0, 180.0, a, 1.0),
+                                     track(shortTime, shortCells, 0.0, 20.0, b, 1.0),
                                      track(shortTime, shortCells, 0.0, 20.0, c, 1.0)};
-    const std::vector<Track> ofLong{track(longTime, longCells, 0.0, 180.0, a, 1.0), track(longTime, longCells, 0.0, 20.0, b, 4.0),
+    const std::vector<Track> ofLong{track(longTime, longCells, 0.0, 180.0, a, 1.0),
+                                    track(longTime, longCells, 0.0, 20.0, b, 4.0),
                                     track(longTime, longCells, 0.0, 20.0, c, 4.0)};
     QVERIFY(std::abs(kept(ofShort, ofLong) - 0.25) < 0.01);
 }
@@ -103,7 +112,8 @@ void tst_energyKept::nothingToCompare()
     const auto other = [](double) { return 200.0; };
     const std::vector<Track> one{track(shortTime, shortCells, 10.0, 90.0, line, 2.0)};
     QVERIFY(std::isnan(kept({}, {})));
-    QVERIFY(std::isnan(kept(one, {track(longTime, longCells, 10.0, 90.0, other, 8.0)}))); // never seen by the longer window
+    QVERIFY(
+        std::isnan(kept(one, {track(longTime, longCells, 10.0, 90.0, other, 8.0)}))); // never seen by the longer window
     QVERIFY(std::isnan(kept(one, {track(longTime, longCells, 10.0, 90.0, line, 8.0)}, 51.0))); // not sure enough
 }
 

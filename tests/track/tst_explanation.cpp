@@ -36,7 +36,8 @@ void tst_explanation::floorIsTheProductOfAll()
     explanations.read(13, 39, floor);
     for (Index i = 0; i < 5; ++i) {
         const double cell = 39.0 + static_cast<double>(i);
-        const double expected = (1.0 + 2.0 * 50.0 * tenths(std::abs(cell - 40.0))) * (1.0 + 2.0 * 8.0 * tenths(std::abs(cell - 42.5)));
+        const double expected =
+            (1.0 + 2.0 * 50.0 * tenths(std::abs(cell - 40.0))) * (1.0 + 2.0 * 8.0 * tenths(std::abs(cell - 42.5)));
         QVERIFY(std::abs(static_cast<double>(floor[static_cast<std::size_t>(i)]) - expected) < 0.03 * expected);
     }
     explanations.read(311, 0, floor); // far off, at the second one's last frame

@@ -83,7 +83,8 @@ void tst_joinTracks::runUpOverTheEarlierTrackGoes()
     QCOMPARE(joined.size(), std::size_t(1));
     // Frame 62 is the first at which its cell, 49, could have been reached from 40 at frame 59: 9 ≤ 3 + 3·2.
     const std::vector<Index> path = cellsOf(joined.front());
-    QCOMPARE(std::vector<Index>(path.begin() + 59, path.begin() + 66), (std::vector<Index>{40, 43, 46, 49, 46, 43, 40}));
+    QCOMPARE(std::vector<Index>(path.begin() + 59, path.begin() + 66),
+             (std::vector<Index>{40, 43, 46, 49, 46, 43, 40}));
     QCOMPARE(std::ssize(path), Index(95));
 }
 
@@ -108,7 +109,8 @@ void tst_joinTracks::signalsApartStayApart()
     QFETCH(Index, cell);
     QFETCH(double, growth);
     QFETCH(bool, isJoined);
-    const auto joined = joinTracks({track(0, steady(40, 60), 3.0), track(onset, steady(cell, 60), growth)}, line100, rule);
+    const auto joined =
+        joinTracks({track(0, steady(40, 60), 3.0), track(onset, steady(cell, 60), growth)}, line100, rule);
     QCOMPARE(joined.size(), isJoined ? std::size_t(1) : std::size_t(2));
     for (std::size_t i = 0; i < joined.size(); ++i)
         QCOMPARE(joined[i].id, static_cast<int>(i) + 1);
@@ -116,7 +118,8 @@ void tst_joinTracks::signalsApartStayApart()
 
 void tst_joinTracks::threePiecesAreOneTrack()
 {
-    const auto joined = joinTracks({track(0, steady(40, 30)), track(35, steady(42, 30)), track(80, steady(41, 30))}, line100, rule);
+    const auto joined =
+        joinTracks({track(0, steady(40, 30)), track(35, steady(42, 30)), track(80, steady(41, 30))}, line100, rule);
     QCOMPARE(joined.size(), std::size_t(1));
     QCOMPARE(std::ssize(joined.front().points), Index(110));
 }
@@ -124,7 +127,8 @@ void tst_joinTracks::threePiecesAreOneTrack()
 void tst_joinTracks::theNearestGoesOn()
 {
     // Both ended at frame 59; the later one is nearer to the second.
-    const auto joined = joinTracks({track(0, steady(40, 60)), track(0, steady(50, 60)), track(64, steady(46, 30))}, line100, rule);
+    const auto joined =
+        joinTracks({track(0, steady(40, 60)), track(0, steady(50, 60)), track(64, steady(46, 30))}, line100, rule);
     QCOMPARE(joined.size(), std::size_t(2));
     QCOMPARE(joined[0].endFrame, Index(59));
     QCOMPARE(joined[1].endFrame, Index(93));

@@ -62,13 +62,14 @@ std::unique_ptr<DetectionChain> run(const SimulatedPings &pings, const ChainSett
     const MarkovModel steady = sonarModel(pings.grid(), slow(nonManoeuvring()));
     std::unique_ptr<DetectionChain> chain;
     if (bank)
-        chain = std::make_unique<DetectionChain>(
-            std::vector{steady, turning}, pings.grid(),
-            std::make_unique<ModelBank>(std::vector<ModelBank::Member>{{steady, {ResetLaw::Mean}, 8.0}, {turning, {ResetLaw::Mean}, 0.0}}),
-            chainSettings);
+        chain =
+            std::make_unique<DetectionChain>(std::vector{steady, turning}, pings.grid(),
+                                             std::make_unique<ModelBank>(std::vector<ModelBank::Member>{
+                                                 {steady, {ResetLaw::Mean}, 8.0}, {turning, {ResetLaw::Mean}, 0.0}}),
+                                             chainSettings);
     else
-        chain = std::make_unique<DetectionChain>(turning, pings.grid(), std::make_unique<Smd>(turning, ResetRule{ResetLaw::Mean}),
-                                                 chainSettings);
+        chain = std::make_unique<DetectionChain>(
+            turning, pings.grid(), std::make_unique<Smd>(turning, ResetRule{ResetLaw::Mean}), chainSettings);
     std::vector<float> y(static_cast<std::size_t>(pings.grid().size()));
     std::vector<float> statistic(y.size());
     for (Index ping = 0; ping < pings.time().count; ++ping) {
@@ -129,7 +130,8 @@ void tst_pingChain::aTargetOffTheRangeEdgeEnds()
     const SimulatedPings pings(scene({target(110, 4, 3, 0)}));
     const auto chain = run(pings, settings());
     chain->finish();
-    const auto owner = std::find_if(chain->tracks().begin(), chain->tracks().end(), [](const Track &t) { return t.isConfirmed; });
+    const auto owner =
+        std::find_if(chain->tracks().begin(), chain->tracks().end(), [](const Track &t) { return t.isConfirmed; });
     QVERIFY(owner != chain->tracks().end());
     QVERIFY(!owner->isOpen);
     QVERIFY2(owner->endFrame <= 24, qPrintable(QString::number(owner->endFrame))); // it is gone from ping 22 on
@@ -192,10 +194,11 @@ void tst_pingChain::pathTermsAddUp()
                 if (scores[static_cast<std::size_t>(state)] > scores[static_cast<std::size_t>(best)])
                     best = state;
             const std::vector<PathStep> path = chain->detectorPathInto(best, model);
-            QVERIFY2(
-                std::abs(path.back().score - static_cast<double>(scores[static_cast<std::size_t>(best)])) < 1e-3,
-                qPrintable(
-                    QString("cell %1: %2, detector %3").arg(cell).arg(path.back().score).arg(scores[static_cast<std::size_t>(best)])));
+            QVERIFY2(std::abs(path.back().score - static_cast<double>(scores[static_cast<std::size_t>(best)])) < 1e-3,
+                     qPrintable(QString("cell %1: %2, detector %3")
+                                    .arg(cell)
+                                    .arg(path.back().score)
+                                    .arg(scores[static_cast<std::size_t>(best)])));
         }
     }
 }

@@ -40,15 +40,16 @@ struct State {
     Index cell = 0;
 };
 
-double transition(const KinematicAxis &axis, const Corridor &corridor, Index frame, const State &from, const State &to, double change, Index firstStep)
+double transition(const KinematicAxis &axis, const Corridor &corridor, Index frame, const State &from, const State &to,
+                  double change, Index firstStep)
 {
     const double states = static_cast<double>(axis.rateCount) * static_cast<double>(corridor.width);
     if (from.rate < 0)
         return to.rate < 0 ? 1.0 - change : change / states;
     if (to.rate < 0)
         return change;
-    const Index moved = corridor.firstCells[static_cast<std::size_t>(frame)] + to.cell - corridor.firstCells[static_cast<std::size_t>(frame - 1)]
-        - from.cell;
+    const Index moved = corridor.firstCells[static_cast<std::size_t>(frame)] + to.cell
+                        - corridor.firstCells[static_cast<std::size_t>(frame - 1)] - from.cell;
     double p = 0.0;
     for (const KinematicAxis::Move &move : axis.moves(firstStep + frame))
         if (move.fromRate == from.rate && move.toRate == to.rate && move.cells == moved)
@@ -78,7 +79,8 @@ void enumerate(const KinematicAxis &axis, const Corridor &corridor, double chang
             else
                 w *= transition(axis, corridor, frame, sequence.back(), state, change, firstStep);
             if (state.rate >= 0)
-                w *= std::exp(static_cast<double>(corridor.lambda[static_cast<std::size_t>(frame * corridor.width + state.cell)]));
+                w *= std::exp(static_cast<double>(
+                    corridor.lambda[static_cast<std::size_t>(frame * corridor.width + state.cell)]));
             if (w == 0.0)
                 continue;
             sequence.push_back(state);
@@ -91,7 +93,8 @@ void enumerate(const KinematicAxis &axis, const Corridor &corridor, double chang
 
 } // namespace
 
-/// The posterior of presence and place, and the strongest path, against all sequences of states and a line of known place.
+/// The posterior of presence and place, and the strongest path, against all sequences of states and a line of known
+/// place.
 class tst_presence : public QObject
 {
     Q_OBJECT
@@ -123,10 +126,11 @@ void tst_presence::isTheSumOverAllSequences()
     for (Index frame = 0; frame < corridor.frameCount(); ++frame) {
         std::vector<double> cells(static_cast<std::size_t>(corridor.width));
         double off = 0.0;
-        enumerate(axis, corridor, std::exp(lnChange), firstStep, [&](const std::vector<State> &sequence, double weight) {
-            const State &state = sequence[static_cast<std::size_t>(frame)];
-            (state.rate < 0 ? off : cells[static_cast<std::size_t>(state.cell)]) += weight;
-        });
+        enumerate(axis, corridor, std::exp(lnChange), firstStep,
+                  [&](const std::vector<State> &sequence, double weight) {
+                      const State &state = sequence[static_cast<std::size_t>(frame)];
+                      (state.rate < 0 ? off : cells[static_cast<std::size_t>(state.cell)]) += weight;
+                  });
         const double on = cells[0] + cells[1] + cells[2];
         const auto at = static_cast<std::size_t>(frame);
         const auto first = static_cast<double>(corridor.firstCells[at]);
@@ -178,19 +182,22 @@ void tst_presence::strongestPathIsTheBestOfAll()
                     if (const double p = transition(axis, corridor, frame + 1, state, next, 0.1, 5); p > 0.0)
                         self(self, frame + 1, next,
                              score + std::log(p) + lnK[static_cast<std::size_t>(frame + 1)]
-                                 + static_cast<double>(corridor.lambda[static_cast<std::size_t>((frame + 1) * corridor.width + cell)]));
+                                 + static_cast<double>(
+                                     corridor.lambda[static_cast<std::size_t>((frame + 1) * corridor.width + cell)]));
                 }
         };
         for (Index frame = 0; frame < corridor.frameCount(); ++frame)
             for (int rate = 0; rate < axis.rateCount; ++rate)
                 for (Index cell = 0; cell < corridor.width; ++cell)
-                    descend(descend, frame, {rate, cell}, static_cast<double>(corridor.lambda[static_cast<std::size_t>(frame * corridor.width + cell)]));
+                    descend(
+                        descend, frame, {rate, cell},
+                        static_cast<double>(corridor.lambda[static_cast<std::size_t>(frame * corridor.width + cell)]));
         QVERIFY(std::abs(strongestPath(corridor, axis, lnK, 5) - best) < 1e-6);
     }
 }
 
-// The first frames do not know how many follow by the chunks they are computed in: with nothing but noise's evidence behind them, a longer
-// corridor tells the same of them.
+// The first frames do not know how many follow by the chunks they are computed in: with nothing but noise's evidence
+// behind them, a longer corridor tells the same of them.
 void tst_presence::chunksChangeNothing()
 {
     const KinematicAxis axis = halfBins(400);

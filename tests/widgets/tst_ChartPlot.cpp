@@ -190,7 +190,12 @@ void tst_ChartPlot::emptySaysWhatToDo()
 /// Fewer ticks have narrower labels, which leave room for more ticks, which …
 void tst_ChartPlot::anyWidthSettles()
 {
-    m_view->setChart({"Where both disagree", "x", "y", false, false, {{"one", Curve::Kind::Measured, {{-99, 0.2, {}}, {99, 13, {}}}}}});
+    m_view->setChart({"Where both disagree",
+                      "x",
+                      "y",
+                      false,
+                      false,
+                      {{"one", Curve::Kind::Measured, {{-99, 0.2, {}}, {99, 13, {}}}}}});
     for (int width = 300; width < 360; ++width) {
         m_view->resize(width, 300);
         QCoreApplication::processEvents();

@@ -1,10 +1,10 @@
 #include "widgets/events/EventTable.h"
 
 #include "pictures.h"
-#include "widgets/events/EventFilter.h"
-#include "widgets/events/EventModel.h"
 #include "widgets/base/ReadOut.h"
 #include "widgets/base/Theme.h"
+#include "widgets/events/EventFilter.h"
+#include "widgets/events/EventModel.h"
 
 #include <QHeaderView>
 #include <QLineEdit>
@@ -76,13 +76,15 @@ void tst_EventTable::aNarrowPanelShowsWhereAndHowSure()
 
 void tst_EventTable::numbersAreNotCutShort()
 {
-    m_table->setEvents({test::event(1, 5.0, 20.0, 20150.25, 31.0), test::event(2, 40000.0, 90000.0, -23999.5, 123456.7)});
+    m_table->setEvents(
+        {test::event(1, 5.0, 20.0, 20150.25, 31.0), test::event(2, 40000.0, 90000.0, -23999.5, 123456.7)});
     const QTableView &table = *m_table->table();
     for (int row = 0; row < 2; ++row)
         for (int column = 0; column <= EventModel::Drift; ++column) {
             const QModelIndex index = table.model()->index(row, column);
             if (!table.isColumnHidden(column))
-                QVERIFY2(table.fontMetrics().horizontalAdvance(index.data().toString()) + 6 <= table.columnWidth(column),
+                QVERIFY2(table.fontMetrics().horizontalAdvance(index.data().toString()) + 6
+                             <= table.columnWidth(column),
                          qPrintable(index.data().toString()));
         }
 }
@@ -142,7 +144,8 @@ void tst_EventTable::selectingFromOutsideIsSilent()
 void tst_EventTable::clickAndEnterActivate()
 {
     const QTableView *table = m_table->table();
-    QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, table->visualRect(table->model()->index(1, EventModel::Onset)).center());
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                      table->visualRect(table->model()->index(1, EventModel::Onset)).center());
     QCOMPARE(m_activated, (std::vector<int>{3}));
     QTest::keyClick(m_table->table(), Qt::Key_Return);
     QCOMPARE(m_activated, (std::vector<int>{3, 3}));

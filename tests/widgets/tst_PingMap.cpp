@@ -3,11 +3,11 @@
 #include "widgets/pings/PingMap.h"
 
 #include "spectrum/pictureCuts.h"
+#include "widgets/base/Theme.h"
 #include "widgets/pings/PingOverlayItem.h"
 #include "widgets/pings/PingViewports.h"
 #include "widgets/pings/PolarItem.h"
 #include "widgets/pings/PolarView.h"
-#include "widgets/base/Theme.h"
 
 #include <qwt_plot_canvas.h>
 #include <qwt_text.h>
@@ -62,7 +62,8 @@ Track track(int id, std::vector<std::pair<Index, Index>> cells, Index first = 0)
 Analysis sixPings()
 {
     Analysis analysis;
-    analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 40.0, 6, false}, grid(), std::vector<float>(6 * ranges * beams));
+    analysis.frames = std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 40.0, 6, false}, grid(),
+                                                   std::vector<float>(6 * ranges * beams));
     analysis.inhibitions.resize(6);
     return analysis;
 }
@@ -250,7 +251,8 @@ private slots:
         QVERIFY(std::abs(viewport.cursor()->hz - 225.0) < 2.0);
         // As high as wide, to a pixel.
         const QPointF origin = polar.positionOf({0.0, 0.0});
-        const QPointF north = polar.positionOf({1000.0, 0.0}) - origin, east = polar.positionOf({1000.0, 90.0}) - origin;
+        const QPointF north = polar.positionOf({1000.0, 0.0}) - origin,
+                      east = polar.positionOf({1000.0, 90.0}) - origin;
         QVERIFY(std::abs(std::hypot(north.x(), north.y()) - std::hypot(east.x(), east.y())) < 1.0);
         QVERIFY(north.y() < 0.0 && east.x() > 0.0);
         // A click in the hole changes nothing.
@@ -283,7 +285,8 @@ private slots:
         std::vector<float> louder(static_cast<std::size_t>(ranges * beams));
         for (std::size_t i = 0; i < louder.size(); ++i)
             louder[i] = 40.0f + static_cast<float>(i % 40);
-        map.setPicture(pictureOf(grid().axes[0], grid().axes[1], louder, ByteScale(ByteScale::Kind::ScoreNats)), grid().axes[1]);
+        map.setPicture(pictureOf(grid().axes[0], grid().axes[1], louder, ByteScale(ByteScale::Kind::ScoreNats)),
+                       grid().axes[1]);
         QCOMPARE(map.plane()->range(), range);
         QVERIFY(map.plane()->isRangeAutomatic());
         map.plane()->setAutomaticRange();

@@ -115,10 +115,12 @@ void tst_RasterItem::sameTwice()
     QCOMPARE(draw(true), draw(false));
 }
 
-/// A walk over a picture whose pixels are no whole number of frames or cells: what was moved and what was added fit together.
+/// A walk over a picture whose pixels are no whole number of frames or cells: what was moved and what was added fit
+/// together.
 void tst_RasterItem::scrolledIsAsDrawnAnew()
 {
-    const auto picture = test::picture(700, 300, [](Index f, Index c) { return float((f * 131 + c * 17 + f * c % 11) % 45); });
+    const auto picture =
+        test::picture(700, 300, [](Index f, Index c) { return float((f * 131 + c * 17 + f * c % 11) % 45); });
     const auto itemOf = [&](bool isTimeVertical) {
         auto item = std::make_unique<RasterItem>();
         item->setPicture(picture, test::hzAxis(300));
@@ -130,8 +132,8 @@ void tst_RasterItem::scrolledIsAsDrawnAnew()
         for (const double seconds : {40.0, 333.3, 611.0}) {
             const auto walker = itemOf(isTimeVertical);
             double low = 11.0, hz = 150.0;
-            for (const QPointF &step : {QPointF(0, 0), QPointF(3, 0), QPointF(0, 7), QPointF(-5, 9), QPointF(11, -20), QPointF(-2, -3.3),
-                                        QPointF(200, 0)}) {
+            for (const QPointF &step : {QPointF(0, 0), QPointF(3, 0), QPointF(0, 7), QPointF(-5, 9), QPointF(11, -20),
+                                        QPointF(-2, -3.3), QPointF(200, 0)}) {
                 low += step.x();
                 hz += step.y();
                 const Span time{low, low + seconds}, band{hz, hz + 171.0};

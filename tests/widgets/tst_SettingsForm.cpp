@@ -1,8 +1,8 @@
 #include "widgets/forms/SettingsForm.h"
 
-#include "widgets/forms/SettingRow.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/settingWords.h"
+#include "widgets/forms/SettingRow.h"
 
 #include <QCheckBox>
 #include <QComboBox>

@@ -1,16 +1,16 @@
 #include "widgets/base/Theme.h"
 
 #include "pictures.h"
-#include "widgets/waterfall/ColourBar.h"
-#include "widgets/plot/ColourMap.h"
-#include "widgets/events/EventTable.h"
-#include "widgets/plot/ExceedancePlot.h"
-#include "widgets/waterfall/OverviewStrip.h"
 #include "widgets/base/ReadOut.h"
-#include "widgets/forms/SettingsForm.h"
-#include "widgets/plot/StripPlot.h"
-#include "widgets/waterfall/WaterfallView.h"
 #include "widgets/base/icon.h"
+#include "widgets/events/EventTable.h"
+#include "widgets/forms/SettingsForm.h"
+#include "widgets/plot/ColourMap.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/ColourBar.h"
+#include "widgets/waterfall/OverviewStrip.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QApplication>
 #include <QDirIterator>

@@ -1,8 +1,8 @@
 #include "widgets/plot/WalkPlot.h"
 
+#include "widgets/base/Theme.h"
 #include "widgets/plot/BarPlot.h"
 #include "widgets/plot/CellPicture.h"
-#include "widgets/base/Theme.h"
 
 #include <qwt_scale_div.h>
 #include <qwt_text.h>
@@ -63,7 +63,8 @@ private slots:
 private:
     static std::vector<WalkPlot::Walk> twoWalks()
     {
-        return {{{-2.0, -4.0, -7.5}, SprtDecision::H0, false, false}, {{1.0, 3.0, 5.0, 8.0}, SprtDecision::H1, true, false}};
+        return {{{-2.0, -4.0, -7.5}, SprtDecision::H0, false, false},
+                {{1.0, 3.0, 5.0, 8.0}, SprtDecision::H1, true, false}};
     }
     static std::unique_ptr<WalkPlot> plot(std::vector<WalkPlot::Walk> walks = twoWalks())
     {
@@ -224,12 +225,14 @@ void tst_WalkPlot::cellsLieWhereTheirValuesSay()
 {
     CellPicture view;
     // Two columns of three cells; the brightest is the middle cell of the second.
-    view.setPicture({"stage", "", 1.0, 1.0, 2, false}, {"range", "m", 100.0, 10.0, 3, false}, {0, 0, 0, 0, 1, 0}, {0.0, 1.0}, "P");
+    view.setPicture({"stage", "", 1.0, 1.0, 2, false}, {"range", "m", 100.0, 10.0, 3, false}, {0, 0, 0, 0, 1, 0},
+                    {0.0, 1.0}, "P");
     show(view);
     const QImage image = view.canvas()->grab().toImage();
     const auto lightness = [&](double x, double y) { return qGray(image.pixel(view.canvasPosition(x, y).toPoint())); };
     QVERIFY(lightness(2.0, 111.0) > 200);
-    for (const auto &[x, y] : {std::pair(1.0, 111.0), std::pair(2.0, 101.0), std::pair(2.0, 121.0), std::pair(1.0, 101.0)})
+    for (const auto &[x, y] :
+         {std::pair(1.0, 111.0), std::pair(2.0, 101.0), std::pair(2.0, 121.0), std::pair(1.0, 101.0)})
         QVERIFY(lightness(x, y) < 30);
     QCOMPARE(view.axisTitle(QwtAxis::YLeft).text(), QString("range (m)"));
     QSignalSpy places(&view, &MarkedPlot::activated);
@@ -243,7 +246,8 @@ void tst_WalkPlot::oneBrightCellAmongManyIsSeen()
     CellPicture view;
     std::vector<float> values(3000 * 4000, 0.0f);
     values[1500 * 4000 + 2000] = 1.0f;
-    view.setPicture({"stage", "", 1.0, 1.0, 3000, false}, {"cell", "", 0.0, 1.0, 4000, false}, std::move(values), {0.0, 1.0}, "P");
+    view.setPicture({"stage", "", 1.0, 1.0, 3000, false}, {"cell", "", 0.0, 1.0, 4000, false}, std::move(values),
+                    {0.0, 1.0}, "P");
     show(view);
     const QImage image = view.canvas()->grab().toImage();
     int bright = 0;
@@ -256,8 +260,8 @@ void tst_WalkPlot::oneBrightCellAmongManyIsSeen()
 void tst_WalkPlot::pathsAreNamed()
 {
     CellPicture view;
-    view.setPicture({"stage", "", 1.0, 1.0, 4, false}, {"range", "cell", 0.0, 1.0, 8, false}, std::vector<float>(32, 0.0f),
-                    {0.0, 1.0}, "P");
+    view.setPicture({"stage", "", 1.0, 1.0, 4, false}, {"range", "cell", 0.0, 1.0, 8, false},
+                    std::vector<float>(32, 0.0f), {0.0, 1.0}, "P");
     show(view);
     const QColor colour(10, 250, 20);
     QVERIFY(!coloursOf(view).contains(colour.rgb()));

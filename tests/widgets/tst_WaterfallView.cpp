@@ -91,7 +91,8 @@ void tst_WaterfallView::drag(const QPoint &from, const QPoint &to, Qt::KeyboardM
     QTest::mouseRelease(canvas, Qt::LeftButton, modifiers, to);
 }
 
-// A track that was looked at from both ends: the ribbon lies between 5 and 95 % of its position, round the selected one only.
+// A track that was looked at from both ends: the ribbon lies between 5 and 95 % of its position, round the selected one
+// only.
 void tst_WaterfallView::theSelectedTrackShowsItsBand()
 {
     Track track;
@@ -267,7 +268,8 @@ void tst_WaterfallView::theCursorDoesNotCrossOutWhatWasMeasured()
     QTest::keyClick(m_view.get(), Qt::Key_M);
     drag(pixel(60.0, 200.0), pixel(90.0, 300.0));
     const Viewport::Box box = *m_viewport.selection();
-    // Its figures stand below its lower left corner, in time upwards; the cursor's line goes through them, its crossing is elsewhere.
+    // Its figures stand below its lower left corner, in time upwards; the cursor's line goes through them, its crossing
+    // is elsewhere.
     const QPoint corner = pixel(box.time.low, box.frequency.low);
     const QRect figures(m_view->canvas()->mapTo(m_view.get(), corner) + QPoint(6, 10), QSize(40, 8));
     const auto grab = [&] { return m_view->grab().toImage(); };

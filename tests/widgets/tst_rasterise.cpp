@@ -143,7 +143,7 @@ void tst_rasterise::rangeOfABandFullOfLines()
         return automaticRange(picture->scale(), countPixels(*picture, 1.0, 1.0), threshold);
     };
     const Span full = rangeWith(4, 14.0);
-    QVERIFY(rangeWith(4, {}).low > 150.0);           // what the picture alone would say
+    QVERIFY(rangeWith(4, {}).low > 150.0);               // what the picture alone would say
     QVERIFY(full.low <= 7.0 && full.high <= 7.0 + 35.0); // 14 nat is no longer black
     QVERIFY(full.high >= 28.0);
     QCOMPARE(rangeWith(0, 14.0), rangeWith(0, {})); // of noise the range is as before

@@ -1,5 +1,5 @@
-#include "widgets/waterfall/OverviewStrip.h"
 #include "widgets/plot/StripPlot.h"
+#include "widgets/waterfall/OverviewStrip.h"
 
 #include "pictures.h"
 #include "widgets/base/Theme.h"

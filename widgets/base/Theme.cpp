@@ -35,8 +35,8 @@ namespace {
                                   0xa3abb5, 0x2468b2, 0xffffff, 0x1d5fa8, 0xfdfdfe};
         static const Ground dark{0x22262d, 0x191c21, 0x1f2329, 0x2d323a, 0xe2e6eb, 0x98a2af,
                                  0x636c78, 0x2f6fb8, 0xffffff, 0x6fb1f2, 0x2d323a};
-        static const Ground contrast{Qt::black, 0x202020, 0x2a2a2a, 0x383838, 0xffffff, 0xe0e0e0,
-                                     0x9a9a9a, 0xffd800, Qt::black, 0x7fd4ff, Qt::black};
+        static const Ground contrast{Qt::black, 0x202020, 0x2a2a2a,  0x383838, 0xffffff, 0xe0e0e0,
+                                     0x9a9a9a,  0xffd800, Qt::black, 0x7fd4ff, Qt::black};
         switch (kind) {
         case Theme::Kind::Light:
             return light;
@@ -308,7 +308,8 @@ void Theme::setPlotScale(double scale)
         return;
     QEvent change(QEvent::StyleChange);
     for (QWidget *widget : QApplication::allWidgets())
-        if (widget->inherits("QwtPlot") || widget->inherits("faintline::ChartPlot") || widget->inherits("faintline::ColourBar"))
+        if (widget->inherits("QwtPlot") || widget->inherits("faintline::ChartPlot")
+            || widget->inherits("faintline::ColourBar"))
             QApplication::sendEvent(widget, &change);
 }
 

@@ -6,8 +6,8 @@
 
 namespace faintline {
 
-/// A plot that looks as the theme says and takes the keyboard's focus, which its frame shows. What a plot of one's own adds is said in
-/// two functions: one for other colours or words, one for a canvas of another size.
+/// A plot that looks as the theme says and takes the keyboard's focus, which its frame shows. What a plot of one's own
+/// adds is said in two functions: one for other colours or words, one for a canvas of another size.
 class ThemedPlot : public QwtPlot
 {
     Q_OBJECT

@@ -29,7 +29,8 @@ QString labelText(const std::string &text, int mostLetters)
     if (line.size() <= mostLetters)
         return line;
     const int rest = mostLetters - 1;
-    return wholeCharacters(line.left(rest - rest / 2)) + QStringLiteral("…") + wholeCharactersAtStart(line.right(rest / 2));
+    return wholeCharacters(line.left(rest - rest / 2)) + QStringLiteral("…")
+           + wholeCharactersAtStart(line.right(rest / 2));
 }
 
 QString labelText(const QString &text, int mostLetters)

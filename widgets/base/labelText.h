@@ -10,8 +10,8 @@ class QLabel;
 
 namespace faintline {
 
-/// How text from files is shown. Names, units, notes and messages may hold anything: control characters, marks that turn the direction of text,
-/// tags, a megabyte. A label gets one line of plain text of a known length.
+/// How text from files is shown. Names, units, notes and messages may hold anything: control characters, marks that
+/// turn the direction of text, tags, a megabyte. A label gets one line of plain text of a known length.
 
 /// As many letters of a file's name as a label shows.
 constexpr int mostLabelLetters = 40;
@@ -21,7 +21,8 @@ constexpr int mostUnitLetters = 24;
 constexpr int longestPath = 1000;
 constexpr int longestNote = 400;
 
-/// On one line, without control characters and those of bidirectional text; of more than `mostLetters` the middle is left out, "…".
+/// On one line, without control characters and those of bidirectional text; of more than `mostLetters` the middle is
+/// left out, "…".
 QString labelText(const QString &text, int mostLetters = mostLabelLetters);
 QString labelText(const std::string &text, int mostLetters = mostLabelLetters);
 
@@ -34,7 +35,8 @@ QString paragraphs(const std::string &text);
 /// The same as a label for menus and buttons, where "&" makes the next letter a key.
 QString buttonText(const QString &text, int mostLetters = mostLabelLetters);
 
-/// Plain text for tool tips and message boxes, which take a text with tags for HTML: it is shown letter by letter, and broken into lines.
+/// Plain text for tool tips and message boxes, which take a text with tags for HTML: it is shown letter by letter, and
+/// broken into lines.
 QString asHtml(const QString &text);
 
 /// A label that shows its text letter by letter, whatever tags are in it.

@@ -60,14 +60,15 @@ namespace {
         return high;
     }
 
-    /// The highest of each pixel's cells, of which all have as many: maxima over 2, 4, 8 … cells of the whole line, then of the largest
-    /// such stretches at either end of the pixel.
+    /// The highest of each pixel's cells, of which all have as many: maxima over 2, 4, 8 … cells of the whole line,
+    /// then of the largest such stretches at either end of the pixel.
     class LineMaxima
     {
     public:
         explicit LineMaxima(std::size_t width) : m_one(width), m_other(width) {}
 
-        void draw(const std::uint8_t *values, std::size_t lowest, const std::vector<Range> &cellsOfPixel, std::uint8_t *line)
+        void draw(const std::uint8_t *values, std::size_t lowest, const std::vector<Range> &cellsOfPixel,
+                  std::uint8_t *line)
         {
             const auto cells = static_cast<std::size_t>(cellsOfPixel.front().end - cellsOfPixel.front().begin);
             std::size_t stretch = 1;
@@ -130,8 +131,8 @@ void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow 
     rasterise(picture, levelToRead(picture, time, cells), time, cells, out);
 }
 
-void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out,
-               const FramesWithin &frames)
+void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells,
+               std::span<std::uint8_t> out, const FramesWithin &frames)
 {
     const Index rowCount = picture.rowCount(level);
     if (rowCount == 0 || picture.cells() == 0) {
@@ -141,7 +142,8 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
     // Of a picture that is still being made, rows to come are empty.
     const Index perRow = picture.framesPerRow(level);
     const Index firstRow = frames.first / perRow;
-    const Index wholeCount = std::max(firstRow + rowCount, (std::max(frames.all, picture.time().count) + perRow - 1) / perRow);
+    const Index wholeCount =
+        std::max(firstRow + rowCount, (std::max(frames.all, picture.time().count) + perRow - 1) / perRow);
     auto rowsOfPixel = itemsOfPixels(time, static_cast<double>(perRow), wholeCount);
     for (Range &rows : rowsOfPixel)
         rows = {rows.end > firstRow ? std::max<Index>(rows.begin - firstRow, 0) : -1, rows.end - firstRow};
@@ -177,7 +179,8 @@ void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, cons
     };
 
     constexpr double bytesWorthAThread = 2e6;
-    const double bytes = std::max(time.step / static_cast<double>(perRow), 1.0) * time.count * static_cast<double>(width);
+    const double bytes =
+        std::max(time.step / static_cast<double>(perRow), 1.0) * time.count * static_cast<double>(width);
     RunContext context;
     const auto processors = static_cast<double>(std::thread::hardware_concurrency());
     context.threads = static_cast<int>(std::min({bytes / bytesWorthAThread, processors, 8.0}));
@@ -250,7 +253,8 @@ Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, s
     const double height = std::clamp(25.0 * tail, 10.0, 200.0);
     if (!threshold || *threshold <= 0.0)
         return {middle, middle + height};
-    constexpr double mostThresholds = 5.0; // above the black level: what just exceeds the threshold has a fifth of the colours below it
+    constexpr double mostThresholds =
+        5.0; // above the black level: what just exceeds the threshold has a fifth of the colours below it
     const double low = std::min(middle, 0.5 * *threshold);
     return {low, std::max(std::min(middle + height, low + mostThresholds * (*threshold - low)), low + 10.0)};
 }

@@ -26,9 +26,9 @@ struct PixelRow {
 ///
 /// so that every pixel is the maximum of as many cells, which gives noise an even grain, and no maximum is lost, though
 /// one near a pixel's edge may show in two. Zoomed in, every cell is a plain rectangle. In time the cells are rows of
-/// the coarsest level that has at least one row, and where that is fast enough two, per pixel.
-/// Where `first` is a whole number of steps, a pixel depends on that number, the step and the level alone, so that a part of a picture
-/// can be drawn by itself. Large pictures are shared among threads; the bytes do not depend on that.
+/// the coarsest level that has at least one row, and where that is fast enough two, per pixel. Where `first` is a whole
+/// number of steps, a pixel depends on that number, the step and the level alone, so that a part of a picture can be
+/// drawn by itself. Large pictures are shared among threads; the bytes do not depend on that.
 void rasterise(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out);
 
 /// Where a picture's frames lie among those that the pixels are laid over; `first` is that of a row.
@@ -38,8 +38,8 @@ struct FramesWithin {
 };
 
 /// The same from rows of that level …
-void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells, std::span<std::uint8_t> out,
-               const FramesWithin &frames = {});
+void rasterise(const PeakPyramid &picture, int level, const PixelRow &time, const PixelRow &cells,
+               std::span<std::uint8_t> out, const FramesWithin &frames = {});
 /// … which is this one for a whole picture.
 int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow &cells);
 
@@ -48,8 +48,9 @@ int levelToRead(const PeakPyramid &picture, const PixelRow &time, const PixelRow
 std::vector<double> countPixels(const PeakPyramid &picture, double framesPerPixel, double cellsPerPixel);
 
 /// Black and white level suggested by such counts: dB from somewhat under the noise's middle to 10 … 16 dB above it;
-/// nats from the noise's middle to where only a detection gets; differences as far to either side of zero. Where lines fill a band its
-/// middle is no longer the noise's: with a threshold given, what barely exceeds it keeps a colour of its own.
+/// nats from the noise's middle to where only a detection gets; differences as far to either side of zero. Where lines
+/// fill a band its middle is no longer the noise's: with a threshold given, what barely exceeds it keeps a colour of
+/// its own.
 Span automaticRange(const ByteScale &scale, const std::vector<double> &counts, std::optional<double> threshold = {});
 
 /// What a box of whole cells holds.

@@ -97,11 +97,16 @@ QString settingLabel(const QString &name)
 QString stageLabel(const QString &prefix)
 {
     static const QHash<QString, QString> labels{
-        {"selection", "Selection"},    {"spectrogram", "Spectrogram"},
-        {"noise", "Noise background"}, {"model", "Signal model"},
-        {"detector", "Detector"},      {"decide", "Threshold"},
-        {"smd", "Sequential Markov"},  {"pOfN", "P out of N"},
-        {"integrator", "Integrator"},  {"blockViterbi", "Fixed-window Viterbi"},
+        {"selection", "Selection"},
+        {"spectrogram", "Spectrogram"},
+        {"noise", "Noise background"},
+        {"model", "Signal model"},
+        {"detector", "Detector"},
+        {"decide", "Threshold"},
+        {"smd", "Sequential Markov"},
+        {"pOfN", "P out of N"},
+        {"integrator", "Integrator"},
+        {"blockViterbi", "Fixed-window Viterbi"},
         {"shiryaevRoberts", "Shiryaev–Roberts"},
         {"track", "Tracks"},
         {"sprt", "Error probabilities"},
@@ -151,15 +156,33 @@ QString choiceLabel(const QString &choice)
 
 bool isSeldomUsed(const QString &name)
 {
-    static const QSet<QString> names{"model.rangeRateChange",  "model.bearingRateChange",
-                                     "noise.blockWindows",     "noise.followLevel",   "model.slopeChange",
-                                     "model.rounding",         "model.likelihood",    "smd.lnK",
-                                     "decide.linkCells",       "decide.inhibitCells", "track.windowCells",
-                                     "track.decayNats",        "track.ceilingNats",   "track.smoothingFrames", "track.bothWays",
-                                     "spectrogram.binsPerCell", "model.motion",        "decide.forgetCells",
-                                     "decide.resets",         "decide.inhibits",     "pOfN.r2",
-                                     "pOfN.widthCells",        "scene.azimuthCells",  "scene.elevationCells",
-                                     "scene.moves",            "scene.moveCells",     "scene.seed"};
+    static const QSet<QString> names{"model.rangeRateChange",
+                                     "model.bearingRateChange",
+                                     "noise.blockWindows",
+                                     "noise.followLevel",
+                                     "model.slopeChange",
+                                     "model.rounding",
+                                     "model.likelihood",
+                                     "smd.lnK",
+                                     "decide.linkCells",
+                                     "decide.inhibitCells",
+                                     "track.windowCells",
+                                     "track.decayNats",
+                                     "track.ceilingNats",
+                                     "track.smoothingFrames",
+                                     "track.bothWays",
+                                     "spectrogram.binsPerCell",
+                                     "model.motion",
+                                     "decide.forgetCells",
+                                     "decide.resets",
+                                     "decide.inhibits",
+                                     "pOfN.r2",
+                                     "pOfN.widthCells",
+                                     "scene.azimuthCells",
+                                     "scene.elevationCells",
+                                     "scene.moves",
+                                     "scene.moveCells",
+                                     "scene.seed"};
     return names.contains(name);
 }
 

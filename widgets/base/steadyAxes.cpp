@@ -26,7 +26,8 @@ void steadyAxes(QwtPlot &plot, const QString &left, const QString &bottom)
     }
     if (!hasChanged)
         return;
-    // Titles stand beside the numbers: the widgets must lay them out again, which they do by themselves only for other ticks.
+    // Titles stand beside the numbers: the widgets must lay them out again, which they do by themselves only for other
+    // ticks.
     for (const QwtAxisId axis : {QwtAxis::YLeft, QwtAxis::YRight, QwtAxis::XBottom})
         plot.axisWidget(axis)->setLabelRotation(plot.axisScaleDraw(axis)->labelRotation());
     plot.updateLayout();

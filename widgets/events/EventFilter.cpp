@@ -68,9 +68,12 @@ namespace {
             {QStringLiteral("open"), [](const Event &e, const EventReview &) { return e.isOpen; }},
             {QStringLiteral("confirmed"), [](const Event &e, const EventReview &) { return e.isConfirmed; }},
             {QStringLiteral("tentative"), [](const Event &e, const EventReview &) { return !e.isConfirmed; }},
-            {QStringLiteral("accepted"), [](const Event &, const EventReview &r) { return r.verdict == Verdict::Accepted; }},
-            {QStringLiteral("rejected"), [](const Event &, const EventReview &r) { return r.verdict == Verdict::Rejected; }},
-            {QStringLiteral("unreviewed"), [](const Event &, const EventReview &r) { return r.verdict == Verdict::None; }},
+            {QStringLiteral("accepted"),
+             [](const Event &, const EventReview &r) { return r.verdict == Verdict::Accepted; }},
+            {QStringLiteral("rejected"),
+             [](const Event &, const EventReview &r) { return r.verdict == Verdict::Rejected; }},
+            {QStringLiteral("unreviewed"),
+             [](const Event &, const EventReview &r) { return r.verdict == Verdict::None; }},
             {QStringLiteral("merged"), [](const Event &, const EventReview &r) { return r.signal != r.event; }},
             {QStringLiteral("noted"), [](const Event &, const EventReview &r) { return !r.note.empty(); }},
         };
@@ -99,7 +102,8 @@ EventFilter::EventFilter(const QString &text)
 
 bool EventFilter::accepts(const Event &event, const EventReview &review) const
 {
-    return std::all_of(m_terms.begin(), m_terms.end(), [&](const Condition &condition) { return condition(event, review); });
+    return std::all_of(m_terms.begin(), m_terms.end(),
+                       [&](const Condition &condition) { return condition(event, review); });
 }
 
 } // namespace faintline

@@ -15,7 +15,10 @@ namespace {
     Qt::Alignment alignmentOf(int column)
     {
         const bool isWord = column == EventModel::State || column == EventModel::Judged;
-        return (isWord ? Qt::AlignHCenter : column == EventModel::Note ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
+        return (isWord                       ? Qt::AlignHCenter
+                : column == EventModel::Note ? Qt::AlignLeft
+                                             : Qt::AlignRight)
+               | Qt::AlignVCenter;
     }
 
 } // namespace
@@ -112,7 +115,9 @@ QString EventModel::text(const Event &event, int column) const
     switch (column) {
     case Id: { // in sight however narrow the panel, unlike the review's own column
         const Verdict verdict = review(event).verdict;
-        const QString mark = verdict == Verdict::Accepted ? QStringLiteral("✓ ") : verdict == Verdict::Rejected ? QStringLiteral("× ") : QString();
+        const QString mark = verdict == Verdict::Accepted   ? QStringLiteral("✓ ")
+                             : verdict == Verdict::Rejected ? QStringLiteral("× ")
+                                                            : QString();
         return mark + QString::number(event.id);
     }
     case Onset:
@@ -151,14 +156,16 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
     case Qt::DisplayRole:
         return text(event, index.column());
     case Qt::ForegroundRole:
-        return review(event).verdict == Verdict::Rejected ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText)) : QVariant();
+        return review(event).verdict == Verdict::Rejected
+                   ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText))
+                   : QVariant();
     case Qt::ToolTipRole:
-        return index.column() == Note && !text(event, Note).isEmpty() ? QVariant(asHtml(text(event, Note))) : QVariant();
+        return index.column() == Note && !text(event, Note).isEmpty() ? QVariant(asHtml(text(event, Note)))
+                                                                      : QVariant();
     case SortRole:
         return sortValue(event, index.column());
     case Qt::TextAlignmentRole:
-        return QVariant::fromValue(
-            alignmentOf(index.column()));
+        return QVariant::fromValue(alignmentOf(index.column()));
     case Qt::AccessibleTextRole:
         return tr("%1: %2").arg(headerData(index.column(), Qt::Horizontal).toString(), text(event, index.column()));
     default:

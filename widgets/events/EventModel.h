@@ -17,7 +17,21 @@ class EventModel : public QAbstractTableModel
 
 public:
     /// In a narrow panel only the first ones are in sight: where, since when, how sure.
-    enum Column { Id, Frequency, Bearing, Onset, Statistic, Snr, Detection, End, Drift, State, Judged, Note, ColumnCount };
+    enum Column {
+        Id,
+        Frequency,
+        Bearing,
+        Onset,
+        Statistic,
+        Snr,
+        Detection,
+        End,
+        Drift,
+        State,
+        Judged,
+        Note,
+        ColumnCount
+    };
     static constexpr int SortRole = Qt::UserRole;
 
     using QAbstractTableModel::QAbstractTableModel;
@@ -27,7 +41,8 @@ public:
     void setReviews(const std::vector<EventReview> &reviews);
     EventReview review(const Event &event) const;
     void setStatisticUnit(const QString &unit);
-    /// The axes of the events' positions; of two, the first one takes the frequency's place, the second one is the bearing.
+    /// The axes of the events' positions; of two, the first one takes the frequency's place, the second one is the
+    /// bearing.
     void setAxes(const std::vector<Axis> &axes);
     bool hasBearing() const { return m_axes.size() > 1; }
     const std::vector<Event> &events() const { return m_events; }

@@ -111,7 +111,8 @@ void EventTable::widenColumns()
             most = value(row) > value(most) ? row : most;
         }
         for (const int row : {least, most}) {
-            const int width = m_table->fontMetrics().horizontalAdvance(m_model->index(row, column).data().toString()) + room;
+            const int width =
+                m_table->fontMetrics().horizontalAdvance(m_model->index(row, column).data().toString()) + room;
             if (!m_table->isColumnHidden(column) && width > m_table->columnWidth(column))
                 m_table->setColumnWidth(column, width);
         }

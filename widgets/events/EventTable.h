@@ -34,9 +34,9 @@ public:
     void setAxes(const std::vector<Axis> &axes); ///< of the events' positions
     void setEmptySentence(const QString &sentence);
 
-    int selectedEvent() const;         ///< 0: none
+    int selectedEvent() const;               ///< 0: none
     std::vector<int> selectedEvents() const; ///< several, chosen with Shift or Ctrl
-    std::vector<int> shownIds() const; ///< in the order shown
+    std::vector<int> shownIds() const;       ///< in the order shown
     QTableView *table() const { return m_table; }
     QLineEdit *filter() const { return m_filter; }
 

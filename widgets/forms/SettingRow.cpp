@@ -82,7 +82,8 @@ namespace {
 SettingRow::SettingRow(const FieldInfo &info, const QString &label, const FieldValue &defaultValue, double stepsInOne,
                        QWidget *parent)
     : QWidget(parent), m_info(info), m_default(defaultValue), m_value(defaultValue), m_stepsInOne(stepsInOne),
-      m_label(new QLabel(label)), m_unit(new QLabel(QString::fromStdString(info.unit))), m_reset(new QToolButton), m_message(plainLabel())
+      m_label(new QLabel(label)), m_unit(new QLabel(QString::fromStdString(info.unit))), m_reset(new QToolButton),
+      m_message(plainLabel())
 {
     makeEditor();
     const QString toolTip = toolTipOf(info, defaultValue);

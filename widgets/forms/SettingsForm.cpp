@@ -1,10 +1,10 @@
 #include "widgets/forms/SettingsForm.h"
 
-#include "widgets/forms/FormSection.h"
-#include "widgets/forms/SettingRow.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/settingWords.h"
+#include "widgets/forms/FormSection.h"
+#include "widgets/forms/SettingRow.h"
 
 #include "analysis/slopeUnit.h"
 
@@ -139,14 +139,16 @@ void SettingsForm::showSlope(const QString &name, double slope)
     const bool isHertz = m_settings.model.slopeUnit == SlopeUnit::HzPerSecond;
     const bool isKnown = m_hzPerSecond > 0.0;
     constexpr double mostBins = 100.0;
-    row.setUnit(isHertz ? tr("Hz/s") : tr("bins/frame"), isHertz ? (isKnown ? mostBins * m_hzPerSecond : row.info().maximum) : mostBins);
+    row.setUnit(isHertz ? tr("Hz/s") : tr("bins/frame"),
+                isHertz ? (isKnown ? mostBins * m_hzPerSecond : row.info().maximum) : mostBins);
     row.setStepsInOne(m_settings.model.slopesPerBin / (isHertz && isKnown ? m_hzPerSecond : 1.0));
     if (!isKnown)
         return row.setNote(QString());
     const ModelSettings &model = m_settings.model;
     const ModelSettings inBins = withSlopesIn(SlopeUnit::BinsPerFrame, model, m_hzPerSecond);
     const double bins = name == QLatin1String("model.lowestSlope") ? inBins.lowestSlope : inBins.highestSlope;
-    row.setNote(isHertz ? tr("%1 bins/frame here").arg(numberOf(bins)) : tr("%1 Hz/s here").arg(numberOf(slope * m_hzPerSecond)));
+    row.setNote(isHertz ? tr("%1 bins/frame here").arg(numberOf(bins))
+                        : tr("%1 Hz/s here").arg(numberOf(slope * m_hzPerSecond)));
 }
 
 void SettingsForm::setError(const QString &name, const QString &sentence)

@@ -1,8 +1,8 @@
 #include "widgets/pings/PingMap.h"
 
-#include "widgets/waterfall/ColourBar.h"
 #include "widgets/pings/PingOverlayItem.h"
 #include "widgets/pings/PolarView.h"
+#include "widgets/waterfall/ColourBar.h"
 
 #include <qwt_scale_map.h>
 
@@ -14,11 +14,12 @@
 namespace faintline {
 
 PingMap::PingMap(const QString &heading, Viewport &viewport, QWidget *parent)
-    : QWidget(parent), m_viewport(viewport), m_pages(new QStackedWidget), m_bar(new ColourBar), m_plane(new WaterfallView(heading)),
+    : QWidget(parent), m_viewport(viewport), m_pages(new QStackedWidget), m_bar(new ColourBar),
+      m_plane(new WaterfallView(heading)),
       m_overlay(new PingOverlayItem([this](const PingMarks::Place &place, const QwtScaleMap &x, const QwtScaleMap &y) {
           return m_plane->orientation() == WaterfallView::Orientation::LeftToRight
-              ? QPointF(x.transform(place.range), y.transform(place.bearing))
-              : QPointF(x.transform(place.bearing), y.transform(place.range));
+                     ? QPointF(x.transform(place.range), y.transform(place.bearing))
+                     : QPointF(x.transform(place.bearing), y.transform(place.range));
       }))
 {
     m_plane->setViewport(&viewport);
@@ -37,7 +38,8 @@ PingMap::PingMap(const QString &heading, Viewport &viewport, QWidget *parent)
     layout->addWidget(m_bar);
     connect(m_plane, &WaterfallView::layersChanged, this, &PingMap::follow);
     connect(&viewport, &Viewport::cursorChanged, this, &PingMap::follow);
-    connect(m_plane, &WaterfallView::hovered, this, [this](double range, double bearing) { emit hovered(range, bearing); });
+    connect(m_plane, &WaterfallView::hovered, this,
+            [this](double range, double bearing) { emit hovered(range, bearing); });
     connect(m_polar, &PolarView::hovered, this, &PingMap::hovered);
     connect(m_plane, &WaterfallView::hoverEnded, this, &PingMap::hoverEnded);
     connect(m_polar, &PolarView::hoverEnded, this, &PingMap::hoverEnded);
@@ -142,8 +144,8 @@ void PingMap::follow()
     // The plane has its own cross hairs.
     const auto &cursor = m_viewport.cursor();
     m_polar->overlay().cursor = cursor && layers.testFlag(WaterfallView::CursorLayer)
-        ? std::optional(PingMarks::Place{cursor->seconds, cursor->hz})
-        : std::nullopt;
+                                    ? std::optional(PingMarks::Place{cursor->seconds, cursor->hz})
+                                    : std::nullopt;
     m_overlay->colours = m_polar->overlay().colours = Theme::colours(*this);
     m_plane->replot();
     m_polar->replot();

@@ -10,7 +10,8 @@ namespace {
     PingMarks::Place placeOf(const Grid &grid, Index cell)
     {
         const Index beams = grid.axes[1].count;
-        return {grid.axes[0].value(static_cast<double>(cell / beams)), grid.axes[1].value(static_cast<double>(cell % beams))};
+        return {grid.axes[0].value(static_cast<double>(cell / beams)),
+                grid.axes[1].value(static_cast<double>(cell % beams))};
     }
 
     /// The spans that cells centre ± half fill on an axis: two where they go over the end of a cyclic one.
@@ -35,7 +36,8 @@ namespace {
     int pingsInhibited(const Analysis &analysis, int track, Index ping)
     {
         const auto isIn = [track](const auto &inhibitions) {
-            return std::any_of(inhibitions.begin(), inhibitions.end(), [track](const auto &one) { return one.track == track; });
+            return std::any_of(inhibitions.begin(), inhibitions.end(),
+                               [track](const auto &one) { return one.track == track; });
         };
         int count = 0;
         while (ping >= count && isIn(analysis.inhibitions[static_cast<std::size_t>(ping - count)]))
@@ -56,7 +58,8 @@ namespace {
 
     std::optional<PingMarks::Trail> trailOf(const Track &track, const Grid &grid, Index ping, Index tailPings)
     {
-        PingMarks::Trail trail{track.id, {}, ping >= track.detectFrame, track.isConfirmed && ping >= track.confirmFrame};
+        PingMarks::Trail trail{
+            track.id, {}, ping >= track.detectFrame, track.isConfirmed && ping >= track.confirmFrame};
         if (ping < track.onsetFrame || ping > std::max(track.endFrame, track.detectFrame))
             return {};
         for (const TrackPoint &point : track.points)
@@ -87,12 +90,14 @@ namespace {
 
 const PingMarks::Box *PingMarks::boxAt(const Place &place) const
 {
-    const auto found = std::find_if(boxes.begin(), boxes.end(),
-                                    [&](const Box &box) { return box.range.contains(place.range) && box.bearing.contains(place.bearing); });
+    const auto found = std::find_if(boxes.begin(), boxes.end(), [&](const Box &box) {
+        return box.range.contains(place.range) && box.bearing.contains(place.bearing);
+    });
     return found == boxes.end() ? nullptr : &*found;
 }
 
-PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, const PingTruth &truth, Index ping, Index tailPings)
+PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, const PingTruth &truth, Index ping,
+                    Index tailPings)
 {
     PingMarks marks;
     const Grid &grid = analysis.grid();

@@ -47,10 +47,11 @@ struct PingMarks {
 };
 
 /// The marks of one ping of an analysis on two axes: of these tracks, and of the known targets.
-PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, const PingTruth &truth, Index ping, Index tailPings = 12);
+PingMarks pingMarks(const Analysis &analysis, const std::vector<Track> &tracks, const PingTruth &truth, Index ping,
+                    Index tailPings = 12);
 
-/// One axis's view of tracks on two axes: the same tracks on a grid of that axis alone. Where a path goes over the end of a cyclic axis,
-/// it is cut: the pieces are tracks of the same number.
+/// One axis's view of tracks on two axes: the same tracks on a grid of that axis alone. Where a path goes over the end
+/// of a cyclic axis, it is cut: the pieces are tracks of the same number.
 std::vector<Track> tracksAlong(const std::vector<Track> &tracks, const Grid &grid, std::size_t axis);
 
 /// The same for events …

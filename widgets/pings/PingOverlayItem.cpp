@@ -52,12 +52,14 @@ struct PingOverlayItem::Canvas {
     }
 };
 
-PingOverlayItem::PingOverlayItem(PlaceOnCanvas place) : colours(Theme::colours(Theme::Kind::Light)), m_place(std::move(place))
+PingOverlayItem::PingOverlayItem(PlaceOnCanvas place)
+    : colours(Theme::colours(Theme::Kind::Light)), m_place(std::move(place))
 {
     setZ(12.0);
 }
 
-void PingOverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const
+void PingOverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                           const QRectF &canvasRect) const
 {
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
@@ -106,7 +108,8 @@ void PingOverlayItem::drawBoxes(const Canvas &canvas) const
     canvas.painter.setBrush(Qt::NoBrush);
 }
 
-void PingOverlayItem::drawTrail(const Canvas &canvas, const PingMarks::Trail &trail, const QColor &colour, Head head) const
+void PingOverlayItem::drawTrail(const Canvas &canvas, const PingMarks::Trail &trail, const QColor &colour,
+                                Head head) const
 {
     QPolygonF line;
     const auto draw = [&] {

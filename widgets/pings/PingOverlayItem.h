@@ -1,7 +1,7 @@
 #pragma once
 
-#include "widgets/pings/PingMarks.h"
 #include "widgets/base/Theme.h"
+#include "widgets/pings/PingMarks.h"
 
 #include <qwt_plot_item.h>
 
@@ -9,29 +9,33 @@
 
 namespace faintline {
 
-/// Draws the marks of a ping over its map: truth, tracks with their tails, detections, boxes kept from the detector, the cursor. Where a
-/// place lies on the canvas is the map's affair, so that one item serves the plane and the polar one.
+/// Draws the marks of a ping over its map: truth, tracks with their tails, detections, boxes kept from the detector,
+/// the cursor. Where a place lies on the canvas is the map's affair, so that one item serves the plane and the polar
+/// one.
 class PingOverlayItem : public QwtPlotItem
 {
 public:
     /// Pixel of a place (range, bearing).
-    using PlaceOnCanvas = std::function<QPointF(const PingMarks::Place &place, const QwtScaleMap &x, const QwtScaleMap &y)>;
+    using PlaceOnCanvas =
+        std::function<QPointF(const PingMarks::Place &place, const QwtScaleMap &x, const QwtScaleMap &y)>;
 
     explicit PingOverlayItem(PlaceOnCanvas place);
 
     PingMarks marks;
     Theme::Colours colours;
-    double turn = 0.0; ///< of the bearing axis where its ends lie apart on the canvas: lines over them are cut; 0: they do not
+    double turn =
+        0.0; ///< of the bearing axis where its ends lie apart on the canvas: lines over them are cut; 0: they do not
     bool hasTracks = true;
     bool hasTruth = true;
     bool hasBoxes = true;
     bool hasConventional = false;
     bool hasEvents = true;
     int selectedTrack = 0;
-    std::vector<int> faintTracks; ///< rejected ones: there, but not in the way
+    std::vector<int> faintTracks;           ///< rejected ones: there, but not in the way
     std::optional<PingMarks::Place> cursor; ///< drawn as a small cross
 
-    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const override;
+    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+              const QRectF &canvasRect) const override;
 
 private:
     struct Canvas;

@@ -6,8 +6,9 @@
 
 namespace faintline {
 
-/// The three ways to look at a sonar's pings, on one range, one bearing and one time: whoever zooms or moves the cursor in one of them
-/// does so in all. In each `Viewport` the first axis stands in the place of time, the second one in that of frequency.
+/// The three ways to look at a sonar's pings, on one range, one bearing and one time: whoever zooms or moves the cursor
+/// in one of them does so in all. In each `Viewport` the first axis stands in the place of time, the second one in that
+/// of frequency.
 class PingViewports : public QObject
 {
     Q_OBJECT

@@ -66,12 +66,14 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
 
     std::array<QRgb, 256> table;
     for (int byte = 0; byte < 256; ++byte)
-        table[static_cast<std::size_t>(byte)] = m_map->at((m_picture->scale().value(byte) - m_range.low) / m_range.width());
+        table[static_cast<std::size_t>(byte)] =
+            m_map->at((m_picture->scale().value(byte) - m_range.low) / m_range.width());
     const int contourByte = m_contour ? m_picture->scale().byte(*m_contour) : 256;
     QImage image(size, QImage::Format_RGB32);
     const auto at = [&](int row, int column) {
         const int r = std::clamp(row, 0, size.height() - 1), c = std::clamp(column, 0, size.width() - 1);
-        return values[static_cast<std::size_t>(r) * static_cast<std::size_t>(size.width()) + static_cast<std::size_t>(c)];
+        return values[static_cast<std::size_t>(r) * static_cast<std::size_t>(size.width())
+                      + static_cast<std::size_t>(c)];
     };
     for (int row = 0; row < size.height(); ++row) {
         auto *line = reinterpret_cast<QRgb *>(image.scanLine(row));
@@ -79,14 +81,16 @@ QImage PolarItem::image(const Span &x, const Span &y, const QSize &size) const
             const int here = at(row, column);
             line[column] = here == nothing ? m_ground.rgb() : table[static_cast<std::size_t>(here)];
             if (here != nothing && here < contourByte && contourByte < 256
-                && std::max({at(row - 1, column), at(row + 1, column), at(row, column - 1), at(row, column + 1)}) >= contourByte)
+                && std::max({at(row - 1, column), at(row + 1, column), at(row, column - 1), at(row, column + 1)})
+                       >= contourByte)
                 line[column] = m_contourColour;
         }
     }
     return image;
 }
 
-void PolarItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const
+void PolarItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                     const QRectF &canvasRect) const
 {
     const DeviceRect place = deviceRect(*painter, canvasRect);
     const QRectF &rect = place.rect;

@@ -2,8 +2,8 @@
 
 #include "base/Axis.h"
 #include "spectrum/PeakPyramid.h"
-#include "widgets/plot/ColourMap.h"
 #include "widgets/base/Span.h"
+#include "widgets/plot/ColourMap.h"
 
 #include <qwt_plot_item.h>
 
@@ -14,10 +14,11 @@
 
 namespace faintline {
 
-/// A picture of range × bearing as seen from above: north up, bearings clockwise, x = r sin b, y = r cos b, in the units of the range.
+/// A picture of range × bearing as seen from above: north up, bearings clockwise, x = r sin b, y = r cos b, in the
+/// units of the range.
 ///
-/// Along a bearing every pixel holds the maximum of its ranges (`rasterise`), so no cell is lost. Cost: one look-up a pixel, some 10 ms
-/// for a million.
+/// Along a bearing every pixel holds the maximum of its ranges (`rasterise`), so no cell is lost. Cost: one look-up a
+/// pixel, some 10 ms for a million.
 class PolarItem : public QwtPlotItem
 {
 public:
@@ -30,7 +31,8 @@ public:
     void setContour(std::optional<double> value, QRgb colour);
     void setGround(const QColor &ground) { m_ground = ground; } ///< where there are no cells
 
-    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const override;
+    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+              const QRectF &canvasRect) const override;
 
     QImage image(const Span &x, const Span &y, const QSize &size) const;
 

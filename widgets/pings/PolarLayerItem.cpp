@@ -16,13 +16,15 @@ PolarLayerItem::PolarLayerItem(const LayerItem &layer) : m_layer(layer)
     setZ(layer.z());
 }
 
-void PolarLayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const
+void PolarLayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                          const QRectF &canvasRect) const
 {
     if (!m_layer.isShown())
         return;
     const double ratio = painter->device()->devicePixelRatioF();
     const QRect rect = canvasRect.toAlignedRect();
-    const QSize size(static_cast<int>(std::lround(rect.width() * ratio)), static_cast<int>(std::lround(rect.height() * ratio)));
+    const QSize size(static_cast<int>(std::lround(rect.width() * ratio)),
+                     static_cast<int>(std::lround(rect.height() * ratio)));
     const Span x{xMap.invTransform(rect.left()), xMap.invTransform(rect.right() + 1.0)};
     const Span y{yMap.invTransform(rect.bottom() + 1.0), yMap.invTransform(rect.top())};
     QImage image(size, QImage::Format_ARGB32_Premultiplied);

@@ -13,7 +13,8 @@ public:
     /// `layer` must outlive this item.
     explicit PolarLayerItem(const LayerItem &layer);
 
-    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const override;
+    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+              const QRectF &canvasRect) const override;
 
 private:
     const LayerItem &m_layer;

@@ -1,11 +1,11 @@
 #include "widgets/pings/PolarView.h"
 
-#include "widgets/pings/PingOverlayItem.h"
-#include "widgets/pings/PolarItem.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/scaleTicks.h"
+#include "widgets/pings/PingOverlayItem.h"
+#include "widgets/pings/PolarItem.h"
 #include "widgets/waterfall/waterfallCommands.h"
 
 #include <qwt_plot_canvas.h>

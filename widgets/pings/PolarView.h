@@ -1,7 +1,7 @@
 #pragma once
 
-#include "widgets/pings/PingMarks.h"
 #include "widgets/base/ThemedPlot.h"
+#include "widgets/pings/PingMarks.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 namespace faintline {
@@ -9,10 +9,11 @@ namespace faintline {
 class PingOverlayItem;
 class PolarItem;
 
-/// A map of range × bearing from above, north up: another look at what a WaterfallView of the same picture shows. It follows that view's
-/// viewport, colours, contour and layers, and hands its own keys on to it.
+/// A map of range × bearing from above, north up: another look at what a WaterfallView of the same picture shows. It
+/// follows that view's viewport, colours, contour and layers, and hands its own keys on to it.
 ///
-/// Mouse: Ctrl+wheel zooms about the pointer, click places the cursor. A sector wider than half a turn is shown all round.
+/// Mouse: Ctrl+wheel zooms about the pointer, click places the cursor. A sector wider than half a turn is shown all
+/// round.
 class PolarView : public ThemedPlot
 {
     Q_OBJECT

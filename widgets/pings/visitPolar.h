@@ -11,8 +11,9 @@
 
 namespace faintline {
 
-/// Goes through the pixels of a canvas seen from above that lie beyond the near side of a range axis and on its bearings (degrees):
-/// visit(pixel, distance from the near side in the range's unit, beam). `x` points east, `y` north; rows of pixels go southward.
+/// Goes through the pixels of a canvas seen from above that lie beyond the near side of a range axis and on its
+/// bearings (degrees): visit(pixel, distance from the near side in the range's unit, beam). `x` points east, `y` north;
+/// rows of pixels go southward.
 template <class Visit>
 void visitPolar(const Span &x, const Span &y, const QSize &size, const Axis &range, const Axis &bearing, Visit visit)
 {
@@ -30,7 +31,8 @@ void visitPolar(const Span &x, const Span &y, const QSize &size, const Axis &ran
             double angle = std::atan2(east, north) * 180.0 / std::numbers::pi;
             angle -= 360.0 * std::floor((angle - low) / 360.0);
             if (angle - low < turn)
-                visit(pixel, distance, std::min<Index>(static_cast<Index>((angle - low) / bearing.step), bearing.count - 1));
+                visit(pixel, distance,
+                      std::min<Index>(static_cast<Index>((angle - low) / bearing.step), bearing.count - 1));
         }
     }
 }

@@ -1,7 +1,7 @@
 #include "widgets/plot/BarPlot.h"
 
-#include "widgets/plot/CurveKey.h"
 #include "widgets/base/Theme.h"
+#include "widgets/plot/CurveKey.h"
 
 #include <qwt_plot_item.h>
 #include <qwt_scale_map.h>
@@ -30,7 +30,8 @@ public:
                 if (!(series.values[i] > 0.0))
                     continue;
                 const int place = m_owner.first() + static_cast<int>(i);
-                const double left = place - 0.5 * width + (m_owner.m_isWide ? 0.0 : width * share * static_cast<double>(s));
+                const double left =
+                    place - 0.5 * width + (m_owner.m_isWide ? 0.0 : width * share * static_cast<double>(s));
                 QColor colour = colours.curves[series.colour];
                 if (m_owner.m_selected >= m_owner.first() && place != m_owner.m_selected)
                     colour.setAlpha(170);
@@ -45,7 +46,8 @@ private:
     const BarPlot &m_owner;
 };
 
-BarPlot::BarPlot(QWidget *parent) : MarkedPlot(parent), m_item(new BarItem(*this)), m_key(new CurveKey(Qt::AlignTop | Qt::AlignRight))
+BarPlot::BarPlot(QWidget *parent)
+    : MarkedPlot(parent), m_item(new BarItem(*this)), m_key(new CurveKey(Qt::AlignTop | Qt::AlignRight))
 {
     m_item->attach(this);
     m_key->attach(this);

@@ -1,12 +1,12 @@
 #include "widgets/plot/CellPicture.h"
 
-#include "widgets/plot/ColourMap.h"
-#include "widgets/plot/CurveKey.h"
-#include "widgets/plot/NumberScaleDraw.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/deviceRect.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/scaleTicks.h"
+#include "widgets/plot/ColourMap.h"
+#include "widgets/plot/CurveKey.h"
+#include "widgets/plot/NumberScaleDraw.h"
 
 #include <qwt_color_map.h>
 #include <qwt_interval.h>
@@ -144,7 +144,8 @@ CellPicture::CellPicture(QWidget *parent)
     CellPicture::restyle();
 }
 
-void CellPicture::setPicture(const Axis &x, const Axis &y, std::vector<float> values, const Span &range, const QString &title)
+void CellPicture::setPicture(const Axis &x, const Axis &y, std::vector<float> values, const Span &range,
+                             const QString &title)
 {
     m_xAxis = x;
     m_yAxis = y;
@@ -199,8 +200,9 @@ void CellPicture::restyle()
     m_key->plate = QColor(0, 0, 0, 150);
     for (const Path &path : m_paths)
         if (!path.points.empty())
-            m_key->entries.push_back({path.name, QPen(path.colour, 2.0, path.kind == Path::Kind::Dashes ? Qt::DashLine : Qt::SolidLine),
-                                      path.kind == Path::Kind::Rings || path.kind == Path::Kind::Crosses});
+            m_key->entries.push_back(
+                {path.name, QPen(path.colour, 2.0, path.kind == Path::Kind::Dashes ? Qt::DashLine : Qt::SolidLine),
+                 path.kind == Path::Kind::Rings || path.kind == Path::Kind::Crosses});
     m_key->setVisible(hasPicture && !isBare() && !m_key->entries.empty());
     replot();
 }

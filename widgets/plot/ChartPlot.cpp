@@ -1,12 +1,12 @@
 #include "widgets/plot/ChartPlot.h"
 
 #include "widgets/base/CanvasSentence.h"
-#include "widgets/plot/NumberScaleDraw.h"
-#include "widgets/plot/PowerScaleDraw.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/scaleTicks.h"
+#include "widgets/plot/NumberScaleDraw.h"
+#include "widgets/plot/PowerScaleDraw.h"
 
 #include <qwt_interval_symbol.h>
 #include <qwt_plot.h>
@@ -383,10 +383,11 @@ QPixmap ChartPlot::sample(std::size_t index) const
 void ChartPlot::rebuildKey()
 {
     // While a curve grows, its box stays the same: whoever is about to press it must not lose it.
-    const bool isSame =
-        m_boxes.size() == m_chart.curves.size()
-        && std::equal(m_boxes.begin(), m_boxes.end(), m_chart.curves.begin(),
-                      [](const QCheckBox *box, const Curve &curve) { return box->text() == buttonText(words(curve.name)); });
+    const bool isSame = m_boxes.size() == m_chart.curves.size()
+                        && std::equal(m_boxes.begin(), m_boxes.end(), m_chart.curves.begin(),
+                                      [](const QCheckBox *box, const Curve &curve) {
+                                          return box->text() == buttonText(words(curve.name));
+                                      });
     if (!isSame) {
         while (QLayoutItem *item = m_keyLayout->takeAt(0)) {
             delete item->widget();
@@ -552,7 +553,8 @@ bool ChartPlot::eventFilter(QObject *watched, QEvent *event)
 {
     if (watched != m_plot->canvas())
         return QWidget::eventFilter(watched, event);
-    // Labels take room by the ticks there are, and there are ticks for the room: where the two never agree, the third try stands.
+    // Labels take room by the ticks there are, and there are ticks for the room: where the two never agree, the third
+    // try stands.
     constexpr int mostTries = 3;
     if (event->type() == QEvent::Resize && m_resizing < mostTries) {
         const QScopedValueRollback nested(m_resizing, m_resizing + 1);

@@ -23,11 +23,12 @@ namespace faintline {
 
 class CanvasSentence;
 
-/// A core `Chart` to look into: measured curves with their intervals as bars, or as a band where points stand close; theory dashed;
-/// publications' points hollow. Beside it the key, whose boxes show and hide curves; below it the value under the mouse in words.
+/// A core `Chart` to look into: measured curves with their intervals as bars, or as a band where points stand close;
+/// theory dashed; publications' points hollow. Beside it the key, whose boxes show and hide curves; below it the value
+/// under the mouse in words.
 ///
-/// A theory curve or a publication's points take the colour of the measured curve whose name theirs begins with. Click on a measured
-/// point, or arrow keys and Enter, emit `pointActivated`.
+/// A theory curve or a publication's points take the colour of the measured curve whose name theirs begins with. Click
+/// on a measured point, or arrow keys and Enter, emit `pointActivated`.
 class ChartPlot : public QWidget
 {
     Q_OBJECT
@@ -42,7 +43,8 @@ public:
 
     /// While there are no curves: what to do to get some.
     void setEmptySentence(const QString &sentence);
-    /// What a click on a point does, behind its value: "click to open one of its trials". Empty: points cannot be clicked.
+    /// What a click on a point does, behind its value: "click to open one of its trials". Empty: points cannot be
+    /// clicked.
     void setInvitation(const QString &invitation);
 
     bool isShown(std::size_t curve) const;

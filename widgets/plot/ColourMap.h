@@ -13,8 +13,8 @@ namespace faintline {
 class ColourMap
 {
 public:
-    /// "inferno", "magma", "viridis", "cividis", "grey", "paper" (grey reversed), "blue-red" and "ice-fire" (diverging around a
-    /// light and a dark middle).
+    /// "inferno", "magma", "viridis", "cividis", "grey", "paper" (grey reversed), "blue-red" and "ice-fire" (diverging
+    /// around a light and a dark middle).
     static const QStringList &names();
     static const QString &defaultName();
 

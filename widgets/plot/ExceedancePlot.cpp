@@ -1,14 +1,14 @@
 #include "widgets/plot/ExceedancePlot.h"
 
 #include "widgets/base/CanvasSentence.h"
-#include "widgets/plot/CurveKey.h"
-#include "widgets/plot/LineLabel.h"
-#include "widgets/plot/NumberScaleDraw.h"
-#include "widgets/plot/PowerScaleDraw.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/scaleTicks.h"
 #include "widgets/base/steadyAxes.h"
+#include "widgets/plot/CurveKey.h"
+#include "widgets/plot/LineLabel.h"
+#include "widgets/plot/NumberScaleDraw.h"
+#include "widgets/plot/PowerScaleDraw.h"
 
 #include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
@@ -63,11 +63,10 @@ namespace {
 } // namespace
 
 ExceedancePlot::ExceedancePlot(QWidget *parent)
-    : ThemedPlot(parent), m_grid(new QwtPlotGrid), m_histogram(new QwtPlotHistogram), m_simulated(makeCurve(this, 20.0)),
-      m_tail(makeCurve(this, 19.0)), m_closedForm(makeCurve(this, 21.0)), m_measured(makeCurve(this, 18.0)),
-      m_selection(makeCurve(this, 18.5)),
-      m_line(new QwtPlotMarker), m_label(new LineLabel), m_sentence(new CanvasSentence),
-      m_key(new CurveKey(Qt::AlignRight | Qt::AlignTop))
+    : ThemedPlot(parent), m_grid(new QwtPlotGrid), m_histogram(new QwtPlotHistogram),
+      m_simulated(makeCurve(this, 20.0)), m_tail(makeCurve(this, 19.0)), m_closedForm(makeCurve(this, 21.0)),
+      m_measured(makeCurve(this, 18.0)), m_selection(makeCurve(this, 18.5)), m_line(new QwtPlotMarker),
+      m_label(new LineLabel), m_sentence(new CanvasSentence), m_key(new CurveKey(Qt::AlignRight | Qt::AlignTop))
 {
     m_grid->attach(this);
     m_histogram->setYAxis(QwtAxis::YRight);
@@ -187,7 +186,8 @@ Span ExceedancePlot::natSpan() const
             --last;
         high = std::max({m_calibration->levels[last], m_calibration->anchorNats, low + 5.0});
         high += 8.0 / std::max(m_calibration->tailSlope, 0.05);
-        // Signals lie beyond: the threshold can be dragged among the faint ones, and the noise's curve keeps half of the width.
+        // Signals lie beyond: the threshold can be dragged among the faint ones, and the noise's curve keeps half of
+        // the width.
         const auto highest = std::find_if(m_counts.rbegin(), m_counts.rend(), [](double count) { return count > 0.0; });
         const double recorded = lowestNats + quarterNat * static_cast<double>(m_counts.rend() - highest);
         high = std::clamp(recorded, high, low + 2.0 * (high - low));
@@ -383,9 +383,10 @@ void ExceedancePlot::contextMenuEvent(QContextMenuEvent *event)
 {
     QMenu menu(this);
     auto *group = new QActionGroup(&menu);
-    const std::pair<Unit, QString> rows[] = {{Unit::FalseAlarmsPerHour, tr("False alarms per hour")},
-                                             {Unit::PfaPerCell, tr("False-alarm probability per cell")},
-                                             {Unit::Nats, m_statisticUnit == QLatin1String("nat") ? tr("Nats") : tr("Statistic, %1").arg(m_statisticUnit)}};
+    const std::pair<Unit, QString> rows[] = {
+        {Unit::FalseAlarmsPerHour, tr("False alarms per hour")},
+        {Unit::PfaPerCell, tr("False-alarm probability per cell")},
+        {Unit::Nats, m_statisticUnit == QLatin1String("nat") ? tr("Nats") : tr("Statistic, %1").arg(m_statisticUnit)}};
     for (const auto &[unit, text] : rows) {
         QAction *action = group->addAction(menu.addAction(text));
         action->setCheckable(true);

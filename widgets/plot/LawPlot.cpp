@@ -54,15 +54,17 @@ public:
                 colour.setAlpha(130);
             painter->fillRect(bar, colour);
             if (m_owner.isEditable())
-                painter->fillRect(QRectF(bar.left(), bar.top() - 1.0, bar.width(), 3.0), isChosen ? colours.text : colour);
+                painter->fillRect(QRectF(bar.left(), bar.top() - 1.0, bar.width(), 3.0),
+                                  isChosen ? colours.text : colour);
             constexpr double gap = 5.0;
             const auto fits = [&](const QString &words) { return metrics.horizontalAdvance(words) + gap <= place; };
             const QString words = fits(numberText(h, 3)) ? numberText(h, 3) : numberText(h, 2);
             if (!fits(words))
                 continue;
             painter->setPen(colours.text);
-            painter->drawText(QRectF(bar.center().x() - 0.5 * place, bar.top() - metrics.height() - 2.0, place, metrics.height()),
-                              Qt::AlignCenter, words);
+            painter->drawText(
+                QRectF(bar.center().x() - 0.5 * place, bar.top() - metrics.height() - 2.0, place, metrics.height()),
+                Qt::AlignCenter, words);
         }
         painter->restore();
     }
@@ -144,10 +146,13 @@ void LawPlot::keyPressEvent(QKeyEvent *event)
     if (!m_isEditable)
         return MarkedPlot::keyPressEvent(event);
     const auto step = [&](double sign) {
-        const double size = event->modifiers() & Qt::ShiftModifier ? 0.1 : event->modifiers() & Qt::ControlModifier ? 0.001 : 0.01;
+        const double size = event->modifiers() & Qt::ShiftModifier     ? 0.1
+                            : event->modifiers() & Qt::ControlModifier ? 0.001
+                                                                       : 0.01;
         const double before = heightOf(m_law, m_selected);
         // To whole steps, so that up and down again is where one was.
-        const double after = std::clamp(std::round((before + sign * size) / size) * size, 0.0, m_selected == 0 ? 1.0 : 0.5);
+        const double after =
+            std::clamp(std::round((before + sign * size) / size) * size, 0.0, m_selected == 0 ? 1.0 : 0.5);
         m_shown = withProbability(m_law, static_cast<std::size_t>(m_selected), after);
         drop(true);
     };

@@ -9,9 +9,10 @@ namespace faintline {
 
 /// The law of a rate's change from frame to frame as bars, h(|δ|) over δ = -n … n, which can be dragged.
 ///
-/// A bar and its mirror image move together and the others give way in proportion, so that it stays a law (withProbability); one more bar
-/// than the law has stands ready at either end, at 0. Mouse: drag a bar up or down, Escape lets it be. Keys: Left and Right choose a
-/// bar, Up and Down change it by 0.01, with Shift by 0.1, with Ctrl by 0.001.
+/// A bar and its mirror image move together and the others give way in proportion, so that it stays a law
+/// (withProbability); one more bar than the law has stands ready at either end, at 0. Mouse: drag a bar up or down,
+/// Escape lets it be. Keys: Left and Right choose a bar, Up and Down change it by 0.01, with Shift by 0.1, with Ctrl by
+/// 0.001.
 class LawPlot : public MarkedPlot
 {
     Q_OBJECT

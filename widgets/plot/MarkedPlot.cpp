@@ -1,9 +1,9 @@
 #include "widgets/plot/MarkedPlot.h"
 
 #include "widgets/base/CanvasSentence.h"
-#include "widgets/plot/NumberScaleDraw.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/scaleTicks.h"
+#include "widgets/plot/NumberScaleDraw.h"
 
 #include <qwt_plot_grid.h>
 #include <qwt_plot_item.h>
@@ -28,9 +28,11 @@ public:
         const Theme::Colours &colours = Theme::colours(m_owner);
         painter->save();
         painter->setFont(Theme::plotTitleFont());
-        double row = canvas.top() + m_owner.marksTop(); // words of upright lines, each a row lower, so that near ones do not meet
+        double row = canvas.top()
+                     + m_owner.marksTop(); // words of upright lines, each a row lower, so that near ones do not meet
         for (const Mark &mark : m_owner.marks()) {
-            painter->setPen(QPen(mark.isUpright ? colours.text : colours.threshold, 1.2, mark.isUpright ? Qt::DashLine : Qt::SolidLine));
+            painter->setPen(QPen(mark.isUpright ? colours.text : colours.threshold, 1.2,
+                                 mark.isUpright ? Qt::DashLine : Qt::SolidLine));
             const QSizeF size = QFontMetricsF(painter->font()).size(0, mark.words) + QSizeF(8.0, 2.0);
             QRectF box(QPointF(), size);
             if (mark.isUpright) {
@@ -42,7 +44,8 @@ public:
             } else {
                 const double y = yMap.transform(mark.at);
                 painter->drawLine(QPointF(canvas.left(), y), QPointF(canvas.right(), y));
-                box.moveTopLeft({canvas.right() - size.width() - 3.0, mark.isAbove ? y - size.height() - 1.0 : y + 1.0});
+                box.moveTopLeft(
+                    {canvas.right() - size.width() - 3.0, mark.isAbove ? y - size.height() - 1.0 : y + 1.0});
             }
             if (mark.words.isEmpty())
                 continue;

@@ -12,8 +12,8 @@ namespace faintline {
 
 class CanvasSentence;
 
-/// What plots of a sequential test have in common: an abscissa of whole numbers, titles and spans, lines with words on them, a cursor
-/// that a click asks for, and a sentence while there is nothing to see. Follows the palette.
+/// What plots of a sequential test have in common: an abscissa of whole numbers, titles and spans, lines with words on
+/// them, a cursor that a click asks for, and a sentence while there is nothing to see. Follows the palette.
 class MarkedPlot : public ThemedPlot
 {
     Q_OBJECT

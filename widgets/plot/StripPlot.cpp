@@ -1,12 +1,12 @@
 #include "widgets/plot/StripPlot.h"
 
 #include "widgets/base/CanvasSentence.h"
-#include "widgets/plot/CurveKey.h"
-#include "widgets/plot/NumberScaleDraw.h"
 #include "widgets/base/Theme.h"
-#include "widgets/plot/TimeScaleDraw.h"
 #include "widgets/base/scaleTicks.h"
 #include "widgets/base/steadyAxes.h"
+#include "widgets/plot/CurveKey.h"
+#include "widgets/plot/NumberScaleDraw.h"
+#include "widgets/plot/TimeScaleDraw.h"
 
 #include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
@@ -100,8 +100,8 @@ private:
 
 StripPlot::StripPlot(const QString &ordinate, QWidget *parent)
     : ThemedPlot(parent), m_levelValue(std::numeric_limits<double>::quiet_NaN()), m_grid(new QwtPlotGrid),
-      m_cursorLine(new QwtPlotMarker), m_level(new QwtPlotMarker), m_bandItem(new QwtPlotZoneItem), m_sentence(new CanvasSentence),
-      m_key(new CurveKey(Qt::AlignRight | Qt::AlignTop))
+      m_cursorLine(new QwtPlotMarker), m_level(new QwtPlotMarker), m_bandItem(new QwtPlotZoneItem),
+      m_sentence(new CanvasSentence), m_key(new CurveKey(Qt::AlignRight | Qt::AlignTop))
 {
     m_sentence->text = tr("No data yet.");
     setAxisTitle(QwtAxis::YLeft, ordinate);
@@ -361,7 +361,8 @@ void StripPlot::updateOrdinate(Side side)
         span = {span.low - room, span.high + room};
     }
     if (side == Side::Left) // its name has room on one side of it
-        m_level->setLabelAlignment(Qt::AlignLeft | (m_levelValue > span.low + 0.7 * span.width() ? Qt::AlignBottom : Qt::AlignTop));
+        m_level->setLabelAlignment(Qt::AlignLeft
+                                   | (m_levelValue > span.low + 0.7 * span.width() ? Qt::AlignBottom : Qt::AlignTop));
     setAxisScaleDiv(axisOf(side), linearScaleDiv(span, std::clamp(canvas()->contentsRect().height() / 26, 2, 8)));
 }
 

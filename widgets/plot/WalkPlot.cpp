@@ -1,8 +1,8 @@
 #include "widgets/plot/WalkPlot.h"
 
-#include "widgets/plot/CurveKey.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
+#include "widgets/plot/CurveKey.h"
 
 #include <qwt_plot_item.h>
 #include <qwt_scale_map.h>
@@ -17,13 +17,14 @@ namespace faintline {
 
 namespace {
 
-    constexpr double belowKey = 42.0;  ///< px
-    constexpr double reach = 24.0;     ///< px from the mouse to a walk
+    constexpr double belowKey = 42.0;        ///< px
+    constexpr double reach = 24.0;           ///< px from the mouse to a walk
     constexpr std::size_t mostPoints = 4000; ///< of a walk that are drawn
 
     bool isWrong(const WalkPlot::Walk &walk)
     {
-        return walk.hasTarget && walk.decision != SprtDecision::Undecided && (walk.decision == SprtDecision::H1) != *walk.hasTarget;
+        return walk.hasTarget && walk.decision != SprtDecision::Undecided
+               && (walk.decision == SprtDecision::H1) != *walk.hasTarget;
     }
 
     QColor colourOf(const WalkPlot::Walk &walk, const Theme::Colours &colours)
@@ -32,7 +33,8 @@ namespace {
     }
 
     /// H1 points up, H0 down; at the cut-off a square.
-    void drawDecision(QPainter &painter, const QPointF &at, const WalkPlot::Walk &walk, const QColor &colour, double radius)
+    void drawDecision(QPainter &painter, const QPointF &at, const WalkPlot::Walk &walk, const QColor &colour,
+                      double radius)
     {
         if (walk.decision == SprtDecision::Undecided)
             return;
@@ -42,7 +44,8 @@ namespace {
         if (walk.isForced)
             painter.drawRect(QRectF(at.x() - 0.8 * radius, at.y() - 0.8 * radius, 1.6 * radius, 1.6 * radius));
         else
-            painter.drawPolygon(QPolygonF{{at.x(), at.y() + up}, {at.x() - radius, at.y() - up}, {at.x() + radius, at.y() - up}});
+            painter.drawPolygon(
+                QPolygonF{{at.x(), at.y() + up}, {at.x() - radius, at.y() - up}, {at.x() + radius, at.y() - up}});
     }
 
 } // namespace
@@ -66,8 +69,8 @@ public:
     }
 
 private:
-    void drawWalk(QPainter &painter, const Walk &walk, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvas,
-                  bool isSelected) const
+    void drawWalk(QPainter &painter, const Walk &walk, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                  const QRectF &canvas, bool isSelected) const
     {
         const Theme::Colours &colours = Theme::colours(m_owner);
         QColor line = colourOf(walk, colours);
@@ -76,7 +79,8 @@ private:
         for (std::size_t i = 0; i < walk.lnLambda.size(); ++i)
             if (i % every == 0 || i + 1 == walk.lnLambda.size()) {
                 const double y = yMap.transform(walk.lnLambda[i]);
-                points << QPointF(xMap.transform(static_cast<double>(i + 1)), std::clamp(y, canvas.top() - 1e4, canvas.bottom() + 1e4));
+                points << QPointF(xMap.transform(static_cast<double>(i + 1)),
+                                  std::clamp(y, canvas.top() - 1e4, canvas.bottom() + 1e4));
             }
         if (!isSelected && m_owner.walks().size() > 1)
             line.setAlpha(m_owner.walks().size() > 40 ? 62 : 110);
@@ -105,7 +109,8 @@ private:
     const WalkPlot &m_owner;
 };
 
-WalkPlot::WalkPlot(QWidget *parent) : MarkedPlot(parent), m_item(new WalkItem(*this)), m_key(new CurveKey(Qt::AlignTop | Qt::AlignRight))
+WalkPlot::WalkPlot(QWidget *parent)
+    : MarkedPlot(parent), m_item(new WalkItem(*this)), m_key(new CurveKey(Qt::AlignTop | Qt::AlignRight))
 {
     m_item->attach(this);
     m_key->attach(this);
@@ -143,7 +148,8 @@ void WalkPlot::layOut()
     const double height = at.lnUpper - at.lnLower;
     constexpr int leastStages = 4;
     constexpr int mostStages = 1000; // a later cut-off would leave the walks no room
-    auto longest = static_cast<std::size_t>(std::max(leastStages, m_settings.cutOffStage <= mostStages ? m_settings.cutOffStage : 0));
+    auto longest = static_cast<std::size_t>(
+        std::max(leastStages, m_settings.cutOffStage <= mostStages ? m_settings.cutOffStage : 0));
     for (const Walk &walk : m_walks)
         longest = std::max(longest, walk.lnLambda.size());
     if (m_fixedSize)
@@ -155,7 +161,8 @@ void WalkPlot::layOut()
     if (m_fixedSize)
         marks.push_back({static_cast<double>(*m_fixedSize), true, tr("fixed size: about %1").arg(*m_fixedSize)});
     if (m_settings.cutOffStage > 0 && static_cast<std::size_t>(m_settings.cutOffStage) <= longest)
-        marks.push_back({static_cast<double>(m_settings.cutOffStage), true, tr("cut-off: %1").arg(m_settings.cutOffStage)});
+        marks.push_back(
+            {static_cast<double>(m_settings.cutOffStage), true, tr("cut-off: %1").arg(m_settings.cutOffStage)});
     setMarks(std::move(marks));
     setEmpty(m_walks.empty());
     m_key->setVisible(!m_walks.empty());
@@ -181,7 +188,8 @@ void WalkPlot::restyle()
 
 QPointF WalkPlot::position(int walk, Index stage) const
 {
-    const double value = stage == 0 ? 0.0 : m_walks[static_cast<std::size_t>(walk)].lnLambda[static_cast<std::size_t>(stage - 1)];
+    const double value =
+        stage == 0 ? 0.0 : m_walks[static_cast<std::size_t>(walk)].lnLambda[static_cast<std::size_t>(stage - 1)];
     QPointF at = canvasPosition(static_cast<double>(stage), value);
     at.setY(std::clamp(at.y(), 0.0, static_cast<double>(canvas()->height())));
     return at;

@@ -10,8 +10,8 @@ namespace faintline {
 
 class CurveKey;
 
-/// ln Λ of sequential tests walking from 0 to one of their two boundaries: many runs faint, one of them bright, each hypothesis in a colour
-/// of its own, every decision marked, wrong ones ringed.
+/// ln Λ of sequential tests walking from 0 to one of their two boundaries: many runs faint, one of them bright, each
+/// hypothesis in a colour of its own, every decision marked, wrong ones ringed.
 ///
 /// A click on a walk or Up and Down ask for another run.
 class WalkPlot : public MarkedPlot

@@ -1,9 +1,9 @@
 #include "widgets/waterfall/ColourBar.h"
 
 #include "widgets/base/Theme.h"
-#include "widgets/waterfall/WaterfallView.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/scaleTicks.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QFontMetricsF>
 #include <QKeyEvent>
@@ -34,8 +34,8 @@ ColourBar::ColourBar(QWidget *parent) : QWidget(parent), m_map(&ColourMap::named
     setMouseTracking(true);
     setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
     setAccessibleName(tr("Colour range"));
-    setToolTip(tr(
-        "Drag an end to set the black or white level, or the middle to move both. Double-click for the automatic range."));
+    setToolTip(tr("Drag an end to set the black or white level, or the middle to move both. Double-click for the "
+                  "automatic range."));
     chooseScale();
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "spectrum/PeakPyramid.h"
-#include "widgets/plot/ColourMap.h"
 #include "widgets/base/Span.h"
+#include "widgets/plot/ColourMap.h"
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QPointer>

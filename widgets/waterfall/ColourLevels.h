@@ -9,10 +9,12 @@
 
 namespace faintline {
 
-/// Which values a picture's first and last colours stand for, dB or nat: set by hand, or as the pixels on the screen suggest.
+/// Which values a picture's first and last colours stand for, dB or nat: set by hand, or as the pixels on the screen
+/// suggest.
 ///
-/// The pixels are counted for the whole picture at the zoom it is seen at, and zooms are told apart by powers of two in frequency and
-/// of four in time: while one zooms, colours change now and then, not all along; while one scrolls, not at all.
+/// The pixels are counted for the whole picture at the zoom it is seen at, and zooms are told apart by powers of two in
+/// frequency and of four in time: while one zooms, colours change now and then, not all along; while one scrolls, not
+/// at all.
 class ColourLevels
 {
 public:
@@ -30,8 +32,8 @@ public:
 
     /// `automaticRange` of the pixels counted; the range as it is where none were.
     Span suggested(const ByteScale &scale, std::optional<double> threshold) const;
-    /// Levels moved by hand: at least ½ apart. Of differences zero stays in the middle of the colours; the end that was moved takes the
-    /// other one along.
+    /// Levels moved by hand: at least ½ apart. Of differences zero stays in the middle of the colours; the end that was
+    /// moved takes the other one along.
     Span byHand(double low, double high, const ByteScale *scale) const;
 
 private:

@@ -10,8 +10,8 @@ namespace faintline {
 
 /// A line drawn by hand over a waterfall: vertices in ascending time, straight between them.
 ///
-/// While it is active, a press beside it makes a vertex and a press on a vertex takes hold of it; both follow the mouse until let go.
-/// A right click on a vertex takes it away. Wheel and keys still go to the view.
+/// While it is active, a press beside it makes a vertex and a press on a vertex takes hold of it; both follow the mouse
+/// until let go. A right click on a vertex takes it away. Wheel and keys still go to the view.
 class HandLine : public QObject
 {
     Q_OBJECT

@@ -1,8 +1,8 @@
 #include "widgets/waterfall/LayerItem.h"
 
-#include "widgets/plot/ColourMap.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
+#include "widgets/plot/ColourMap.h"
 
 #include <qwt_scale_map.h>
 
@@ -70,10 +70,12 @@ QRgb LayerItem::colourOf(std::size_t pixel) const
 {
     const auto value = static_cast<double>(m_picture->values(m_layer)[pixel]);
     const auto clear = [](QRgb colour, double opacity) {
-        return qPremultiply(qRgba(qRed(colour), qGreen(colour), qBlue(colour), static_cast<int>(std::lround(255.0 * opacity))));
+        return qPremultiply(
+            qRgba(qRed(colour), qGreen(colour), qBlue(colour), static_cast<int>(std::lround(255.0 * opacity))));
     };
     if (m_layer == OutputLayer::Inhibited)
-        return value > 0.0 ? clear(inhibitedColour, m_isOverlay ? 0.55 : 1.0) : clear(qRgb(0, 0, 0), m_isOverlay ? 0.0 : 1.0);
+        return value > 0.0 ? clear(inhibitedColour, m_isOverlay ? 0.55 : 1.0)
+                           : clear(qRgb(0, 0, 0), m_isOverlay ? 0.0 : 1.0);
     if (isRate(m_layer) && m_picture->resetFraction[pixel] >= 1.0f) // all states begin anew here: none has won
         return clear(noSlope, m_isOverlay ? 0.0 : 1.0);
     const QRgb colour = mapOf(m_layer).at((value - m_range.low) / m_range.width());
@@ -88,7 +90,8 @@ const QImage &LayerItem::image() const
 {
     if (!m_image.isNull())
         return m_image;
-    m_image = QImage(static_cast<int>(m_picture->columns), static_cast<int>(m_picture->rows), QImage::Format_ARGB32_Premultiplied);
+    m_image = QImage(static_cast<int>(m_picture->columns), static_cast<int>(m_picture->rows),
+                     QImage::Format_ARGB32_Premultiplied);
     std::size_t pixel = 0;
     for (int row = 0; row < m_image.height(); ++row) {
         auto *to = reinterpret_cast<QRgb *>(m_image.scanLine(row));
@@ -98,7 +101,8 @@ const QImage &LayerItem::image() const
     return m_image;
 }
 
-void LayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const
+void LayerItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+                     const QRectF &canvasRect) const
 {
     if (!isShown())
         return;
@@ -157,11 +161,13 @@ void LayerItem::drawKey(QPainter *painter, const QRectF &canvas) const
     const QRectF inner = plate.adjusted(8.0, 4.0, -8.0, -4.0);
     painter->drawText(QRectF(inner.left(), inner.top(), inner.width(), metrics.height()), Qt::AlignCenter, m_title);
     if (isFlag) {
-        painter->fillRect(QRectF(plate.left() + 3.0, inner.top() + 3.0, 8.0, metrics.height() - 6.0), QColor(inhibitedColour));
+        painter->fillRect(QRectF(plate.left() + 3.0, inner.top() + 3.0, 8.0, metrics.height() - 6.0),
+                          QColor(inhibitedColour));
     } else {
         const QRectF strip(inner.left(), inner.top() + metrics.height() + 2.0, inner.width(), 9.0);
         for (int x = 0; x < static_cast<int>(strip.width()); ++x)
-            painter->fillRect(QRectF(strip.left() + x, strip.top(), 1.0, strip.height()), QColor(mapOf(m_layer).at(x / strip.width())));
+            painter->fillRect(QRectF(strip.left() + x, strip.top(), 1.0, strip.height()),
+                              QColor(mapOf(m_layer).at(x / strip.width())));
         const QRectF numbers(inner.left(), strip.bottom() + 1.0, inner.width(), metrics.height());
         painter->drawText(numbers, Qt::AlignLeft, powerText(m_range.low / m_divisor, 3));
         painter->drawText(numbers, Qt::AlignHCenter, powerText(m_range.middle() / m_divisor, 3));

@@ -14,20 +14,25 @@ class QPainter;
 
 namespace faintline {
 
-/// Draws a layer of the detector's output on a waterfall or the map of a ping, instead of the statistic or over it, and its key in a corner.
+/// Draws a layer of the detector's output on a waterfall or the map of a ping, instead of the statistic or over it, and
+/// its key in a corner.
 ///
-/// Rates have a diverging map about 0, grey where every state was reset and none has won; ages and reset fractions one that grows,
-/// inhibited cells a colour of their own. Over the statistic a layer is as opaque as the statistic stands out of the noise, so that what
-/// is seen is where there is something to say.
+/// Rates have a diverging map about 0, grey where every state was reset and none has won; ages and reset fractions one
+/// that grows, inhibited cells a colour of their own. Over the statistic a layer is as opaque as the statistic stands
+/// out of the noise, so that what is seen is where there is something to say.
 class LayerItem : public QwtPlotItem
 {
 public:
     LayerItem();
 
-    /// `rows` and `columns`: the analysis's own axes, time and frequency or a ping's range and bearing. Null: nothing is drawn.
+    /// `rows` and `columns`: the analysis's own axes, time and frequency or a ping's range and bearing. Null: nothing
+    /// is drawn.
     void setPicture(std::shared_ptr<const LayerPicture> picture, const Axis &rows, const Axis &columns);
     const std::shared_ptr<const LayerPicture> &picture() const { return m_picture; }
-    bool isShown() const { return m_picture && m_layer != OutputLayer::Statistic && m_picture->rows > 0 && m_picture->columns > 0; }
+    bool isShown() const
+    {
+        return m_picture && m_layer != OutputLayer::Statistic && m_picture->rows > 0 && m_picture->columns > 0;
+    }
     const Axis &rows() const { return m_rows; }
     const Axis &columns() const { return m_columns; }
     const QImage &image() const; ///< columns × rows of the picture, premultiplied
@@ -48,7 +53,8 @@ public:
     /// The key, an item of its own that is drawn over all that is marked; it must not outlive this one.
     std::unique_ptr<QwtPlotItem> makeKey() const;
 
-    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap, const QRectF &canvasRect) const override;
+    void draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScaleMap &yMap,
+              const QRectF &canvasRect) const override;
 
 private:
     class Key;

@@ -1,9 +1,9 @@
 #include "widgets/waterfall/MarkedWaterfall.h"
 
-#include "widgets/waterfall/OverlayItem.h"
-#include "widgets/waterfall/RasterItem.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
+#include "widgets/waterfall/OverlayItem.h"
+#include "widgets/waterfall/RasterItem.h"
 #include "widgets/waterfall/waterfallWords.h"
 
 #include <qwt_plot_grid.h>
@@ -95,8 +95,10 @@ void MarkedWaterfall::setAnnotations(const std::vector<Annotation> &boxes)
     m_overlay->boxes.clear();
     constexpr double anyHz = 1e12;
     for (const Annotation &box : boxes)
-        m_overlay->boxes.push_back({{{box.startSeconds, box.endSeconds}, {box.lowHz.value_or(-anyHz), box.highHz.value_or(anyHz)}},
-                                    labelText(box.label, 40), box.verdict == Verdict::Rejected});
+        m_overlay->boxes.push_back(
+            {{{box.startSeconds, box.endSeconds}, {box.lowHz.value_or(-anyHz), box.highHz.value_or(anyHz)}},
+             labelText(box.label, 40),
+             box.verdict == Verdict::Rejected});
     replot();
 }
 

@@ -12,8 +12,9 @@ namespace faintline {
 
 class OverlayItem;
 
-/// A picture with what is marked on it: events, tracks, truth, the threshold's contour, annotations, the cursor with its harmonics and
-/// sidebands, the measured box. What is said about a place is waterfallWords', what is drawn OverlayItem's.
+/// A picture with what is marked on it: events, tracks, truth, the threshold's contour, annotations, the cursor with
+/// its harmonics and sidebands, the measured box. What is said about a place is waterfallWords', what is drawn
+/// OverlayItem's.
 class MarkedWaterfall : public WaterfallPicture
 {
     Q_OBJECT
@@ -53,14 +54,14 @@ public slots:
     /// `time`: of the frames the tracks were made from.
     void setTracks(const std::vector<faintline::Track> &tracks, const faintline::Axis &time);
     void setTruth(const std::vector<faintline::TruthLine> &lines);
-    void setSelectedEvent(int id); ///< 0: none
+    void setSelectedEvent(int id);                    ///< 0: none
     void setFaintEvents(const std::vector<int> &ids); ///< rejected ones
     void setAnnotations(const std::vector<faintline::Annotation> &boxes);
     void setLayer(faintline::MarkedWaterfall::Layer layer, bool isOn);
     void setMeasuring(bool isOn);
-    void setHarmonics(bool isOn); ///< lines at the multiples of the cursor's frequency
+    void setHarmonics(bool isOn);       ///< lines at the multiples of the cursor's frequency
     void setSidebandSpacing(double hz); ///< lines beside the cursor's frequency; 0: none
-    void setSidebands(bool isOn);       ///< with a spacing that suits what is visible; a cursor is placed where there is none
+    void setSidebands(bool isOn); ///< with a spacing that suits what is visible; a cursor is placed where there is none
     void setSelectionNote(const QString &note); ///< what else is known of the measured box; until it changes
     void moveCursorToPeak();                    ///< to the strongest cell nearby
     void setRubber(const std::optional<faintline::Viewport::Box> &box); ///< shown while a box is dragged

@@ -1,6 +1,5 @@
 #include "widgets/waterfall/OverlayItem.h"
 
-
 #include <qwt_scale_map.h>
 
 #include <QFontMetricsF>
@@ -87,7 +86,8 @@ struct OverlayItem::Canvas {
         double width = 0.0;
         for (const QString &line : lines)
             width = std::max(width, metrics.horizontalAdvance(line));
-        QRectF box(corner, QSizeF(std::ceil(width) + 8.0, static_cast<double>(lines.size()) * std::ceil(metrics.height()) + 1.0));
+        QRectF box(corner, QSizeF(std::ceil(width) + 8.0,
+                                  static_cast<double>(lines.size()) * std::ceil(metrics.height()) + 1.0));
         box.moveLeft(std::clamp(box.left(), rect.left(), std::max(rect.right() - box.width(), rect.left())));
         box.moveTop(std::clamp(box.top(), rect.top(), std::max(rect.bottom() - box.height(), rect.top())));
         painter.setPen(Qt::NoPen);
@@ -98,8 +98,8 @@ struct OverlayItem::Canvas {
         if (lines.size() == 1)
             painter.drawText(box, Qt::AlignCenter, text);
         for (qsizetype i = 0; lines.size() > 1 && i < lines.size(); ++i)
-            painter.drawText(QRectF(box.left() + 4.0, box.top() + static_cast<double>(i) * std::ceil(metrics.height()), box.width(),
-                                    std::ceil(metrics.height())),
+            painter.drawText(QRectF(box.left() + 4.0, box.top() + static_cast<double>(i) * std::ceil(metrics.height()),
+                                    box.width(), std::ceil(metrics.height())),
                              Qt::AlignLeft | Qt::AlignVCenter, lines[i]);
     }
 };
@@ -250,12 +250,14 @@ void OverlayItem::drawLines(const Canvas &canvas, const std::vector<Line> &lines
 
 void OverlayItem::drawSelectedBand(const Canvas &canvas) const
 {
-    const auto line = std::find_if(tracks.begin(), tracks.end(), [&](const Line &one) { return one.id == selectedEvent; });
+    const auto line =
+        std::find_if(tracks.begin(), tracks.end(), [&](const Line &one) { return one.id == selectedEvent; });
     if (selectedEvent == 0 || line == tracks.end() || line->band.isEmpty())
         return;
     QPolygonF ribbon;
     for (const QPointF &point : line->band)
-        if (const QPointF position = canvas.point(point.x(), point.y()); ribbon.isEmpty() || (position - ribbon.back()).manhattanLength() >= 1.0)
+        if (const QPointF position = canvas.point(point.x(), point.y());
+            ribbon.isEmpty() || (position - ribbon.back()).manhattanLength() >= 1.0)
             ribbon << position;
     QColor colour = colours.selectedEvent;
     colour.setAlpha(90);
@@ -267,13 +269,15 @@ void OverlayItem::drawSelectedBand(const Canvas &canvas) const
 
 bool OverlayItem::isFaint(int event) const
 {
-    return event != 0 && event != selectedEvent && std::find(faintEvents.begin(), faintEvents.end(), event) != faintEvents.end();
+    return event != 0 && event != selectedEvent
+           && std::find(faintEvents.begin(), faintEvents.end(), event) != faintEvents.end();
 }
 
 void OverlayItem::drawBoxes(const Canvas &canvas) const
 {
     for (const Box &box : boxes) {
-        const QRectF rect = rectOf(box.box, canvas.x, canvas.y, isTimeVertical).intersected(canvas.rect.adjusted(-9, -9, 9, 9));
+        const QRectF rect =
+            rectOf(box.box, canvas.x, canvas.y, isTimeVertical).intersected(canvas.rect.adjusted(-9, -9, 9, 9));
         if (!rect.isValid())
             continue;
         canvas.painter.setOpacity(box.isFaint ? faintOpacity : 1.0);

@@ -2,9 +2,9 @@
 
 #include "analysis/analyse.h"
 #include "recording/Truth.h"
-#include "widgets/waterfall/Sidebands.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/Viewport.h"
+#include "widgets/waterfall/Sidebands.h"
 
 #include <qwt_plot_item.h>
 

@@ -1,11 +1,11 @@
 #include "widgets/waterfall/OverviewStrip.h"
 
-#include "widgets/waterfall/RasterItem.h"
 #include "widgets/base/Theme.h"
-#include "widgets/waterfall/WaterfallView.h"
 #include "widgets/base/quantities.h"
 #include "widgets/base/rasterise.h"
 #include "widgets/base/scaleTicks.h"
+#include "widgets/waterfall/RasterItem.h"
+#include "widgets/waterfall/WaterfallView.h"
 
 #include <QFontMetricsF>
 #include <QKeyEvent>

@@ -3,8 +3,8 @@
 #include "analysis/analyse.h"
 #include "base/Axis.h"
 #include "spectrum/PeakPyramid.h"
-#include "widgets/plot/ColourMap.h"
 #include "widgets/base/Viewport.h"
+#include "widgets/plot/ColourMap.h"
 
 #include <QImage>
 #include <QPointer>

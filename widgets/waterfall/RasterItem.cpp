@@ -150,13 +150,15 @@ void RasterItem::scroll(const PixelRow &time, const PixelRow &cells, int down, i
     const int width = cells.count - std::abs(right);
     for (int i = firstKept; i < endKept; ++i) {
         const int row = down >= 0 ? i : firstKept + endKept - 1 - i; // what is still to be moved is not written over
-        std::memmove(line(row) + std::max(-right, 0), line(row + down) + std::max(right, 0), static_cast<std::size_t>(width));
+        std::memmove(line(row) + std::max(-right, 0), line(row + down) + std::max(right, 0),
+                     static_cast<std::size_t>(width));
     }
     if (down != 0) {
         const int first = down > 0 ? endKept : 0;
         draw(part(time, first, std::abs(down)), cells, level,
              std::span(m_bytes).subspan(static_cast<std::size_t>(first) * static_cast<std::size_t>(cells.count),
-                                        static_cast<std::size_t>(std::abs(down)) * static_cast<std::size_t>(cells.count)));
+                                        static_cast<std::size_t>(std::abs(down))
+                                            * static_cast<std::size_t>(cells.count)));
     }
     if (right != 0) {
         const int first = right > 0 ? width : 0;
@@ -164,7 +166,8 @@ void RasterItem::scroll(const PixelRow &time, const PixelRow &cells, int down, i
         std::vector<std::uint8_t> side(static_cast<std::size_t>(rows) * static_cast<std::size_t>(std::abs(right)));
         draw(part(time, firstKept, rows), part(cells, first, std::abs(right)), level, side);
         for (int i = 0; i < rows; ++i)
-            std::copy_n(side.data() + static_cast<std::ptrdiff_t>(i) * std::abs(right), std::abs(right), line(firstKept + i) + first);
+            std::copy_n(side.data() + static_cast<std::ptrdiff_t>(i) * std::abs(right), std::abs(right),
+                        line(firstKept + i) + first);
     }
 }
 

@@ -2,9 +2,9 @@
 
 #include "base/Axis.h"
 #include "spectrum/PeakPyramid.h"
-#include "widgets/plot/ColourMap.h"
 #include "widgets/base/Span.h"
 #include "widgets/base/rasterise.h"
+#include "widgets/plot/ColourMap.h"
 
 #include <qwt_plot_item.h>
 
@@ -21,8 +21,8 @@ namespace faintline {
 ///
 /// Two caches, each kept as long as its key holds: the bytes of the pixels (picture, axes, size) and the image made
 /// from them (colours, range, threshold). Dragging a range or a threshold so costs a table look-up per pixel. Pixels
-/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker, and only what comes into sight is
-/// drawn; it is placed to the nearest half pixel.
+/// lie on a grid that is fixed in time and frequency, so a picture that scrolls does not flicker, and only what comes
+/// into sight is drawn; it is placed to the nearest half pixel.
 class RasterItem : public QwtPlotItem
 {
 public:

@@ -15,7 +15,8 @@ namespace {
     std::vector<QwtPlotCurve *> makeMarks(WaterfallView &view, QwtSymbol::Style style, int size)
     {
         std::vector<QwtPlotCurve *> marks;
-        for (const auto &[colour, width] : {std::pair(QColor(0, 0, 0, 170), seam), std::pair(QColor(255, 255, 255), line)}) {
+        for (const auto &[colour, width] :
+             {std::pair(QColor(0, 0, 0, 170), seam), std::pair(QColor(255, 255, 255), line)}) {
             auto *curve = new QwtPlotCurve;
             curve->setStyle(QwtPlotCurve::NoCurve);
             curve->setSymbol(new QwtSymbol(style, Qt::NoBrush, QPen(colour, width), {size, size}));

@@ -39,7 +39,7 @@ private:
     WaterfallView &m_view;
     std::optional<Best> m_best;
     std::vector<Viewport::Point> m_paths; ///< rows in the place of seconds
-    std::vector<QwtPlotCurve *> m_rings; ///< a dark seam, and the ring itself; the view's own
+    std::vector<QwtPlotCurve *> m_rings;  ///< a dark seam, and the ring itself; the view's own
     std::vector<QwtPlotCurve *> m_diamonds;
 };
 

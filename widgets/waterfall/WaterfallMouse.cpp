@@ -145,7 +145,8 @@ void WaterfallMouse::pan(const QPointF &position)
 
 void WaterfallMouse::dragSideband(const QMouseEvent &event)
 {
-    m_view.setSidebandSpacing(std::max(m_view.sidebands()->spacingFor(m_order, pointOf(event).hz), m_view.frequencyAxis().step));
+    m_view.setSidebandSpacing(
+        std::max(m_view.sidebands()->spacingFor(m_order, pointOf(event).hz), m_view.frequencyAxis().step));
 }
 
 /// The sideband whose line is under the pointer; 0 where there is none, or the carrier.
@@ -156,7 +157,9 @@ int WaterfallMouse::sidebandAt(const QPointF &position) const
         return 0;
     const int order = lines->nearestOrder(m_view.pointAt(position).hz);
     const QPointF line = m_view.positionOf({m_view.viewport()->cursor()->seconds, lines->hz(order)});
-    return std::abs(m_view.isTimeVertical() ? line.x() - position.x() : line.y() - position.y()) <= sidebandReach ? order : 0;
+    return std::abs(m_view.isTimeVertical() ? line.x() - position.x() : line.y() - position.y()) <= sidebandReach
+               ? order
+               : 0;
 }
 
 /// Where the pointer is; with Ctrl the strongest cell near it.

@@ -20,8 +20,8 @@ class MarkedWaterfall;
 ///     left, measuring     the measured box
 ///     left                a click that places the cursor or, once it has wandered, a pan
 ///
-/// A double click activates an event. The wheel scrolls time, with Shift frequency; with Ctrl it zooms about the pointer, over an
-/// axis along that axis. With Ctrl every point goes to the strongest cell nearby.
+/// A double click activates an event. The wheel scrolls time, with Shift frequency; with Ctrl it zooms about the
+/// pointer, over an axis along that axis. With Ctrl every point goes to the strongest cell nearby.
 class WaterfallMouse : public QObject
 {
     Q_OBJECT

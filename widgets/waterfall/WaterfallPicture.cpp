@@ -1,14 +1,14 @@
 #include "widgets/waterfall/WaterfallPicture.h"
 
 #include "widgets/base/CanvasSentence.h"
-#include "widgets/plot/NumberScaleDraw.h"
-#include "widgets/waterfall/RasterItem.h"
 #include "widgets/base/Theme.h"
-#include "widgets/plot/TimeScaleDraw.h"
 #include "widgets/base/axisWords.h"
-#include "widgets/waterfall/peakNear.h"
 #include "widgets/base/scaleTicks.h"
 #include "widgets/base/steadyAxes.h"
+#include "widgets/plot/NumberScaleDraw.h"
+#include "widgets/plot/TimeScaleDraw.h"
+#include "widgets/waterfall/RasterItem.h"
+#include "widgets/waterfall/peakNear.h"
 
 #include <qwt_scale_map.h>
 #include <qwt_text.h>
@@ -59,7 +59,8 @@ void WaterfallPicture::setViewport(Viewport *viewport)
 void WaterfallPicture::setPicture(std::shared_ptr<const PeakPyramid> picture, const Axis &frequency)
 {
     const bool isOtherKind = picture && m_picture && picture->scale().kind() != m_picture->scale().kind();
-    const bool hasSameAxes = picture && m_picture && frequency == m_frequency && picture->time().name == m_picture->time().name
+    const bool hasSameAxes = picture && m_picture && frequency == m_frequency
+                             && picture->time().name == m_picture->time().name
                              && picture->time().unit == m_picture->time().unit;
     if (picture != m_picture)
         m_closeup.reset();
@@ -101,7 +102,9 @@ void WaterfallPicture::setCloseup(std::shared_ptr<const PeakPyramid> closeup)
 double WaterfallPicture::framesPerPixel() const
 {
     const QSize size = canvas()->contentsRect().size();
-    return m_picture ? visible().time.width() / m_picture->time().step / std::max(isTimeVertical() ? size.height() : size.width(), 1) : 1.0;
+    return m_picture ? visible().time.width() / m_picture->time().step
+                           / std::max(isTimeVertical() ? size.height() : size.width(), 1)
+                     : 1.0;
 }
 
 void WaterfallPicture::choosePicture()
@@ -109,8 +112,8 @@ void WaterfallPicture::choosePicture()
     const auto shows = [this](const PeakPyramid &closeup) {
         const Span time = extents(closeup.time(), m_frequency).time;
         const double slack = 1e-6 * closeup.time().step;
-        return framesPerPixel() < static_cast<double>(m_picture->framesPerRow(0)) && visible().time.low > time.low - slack
-               && visible().time.high < time.high + slack;
+        return framesPerPixel() < static_cast<double>(m_picture->framesPerRow(0))
+               && visible().time.low > time.low - slack && visible().time.high < time.high + slack;
     };
     const auto &shown = m_picture && m_closeup && shows(*m_closeup) ? m_closeup : m_picture;
     if (shown == m_shown)
@@ -173,7 +176,8 @@ std::optional<double> WaterfallPicture::valueAt(double seconds, double hz) const
     const double frame = std::floor(picture.time().position(seconds) + 0.5);
     if (frame > static_cast<double>(picture.frameCount()))
         return {}; // still to come
-    const Index row = std::clamp<Index>(static_cast<Index>(frame) / picture.framesPerRow(0), 0, picture.rowCount(0) - 1);
+    const Index row =
+        std::clamp<Index>(static_cast<Index>(frame) / picture.framesPerRow(0), 0, picture.rowCount(0) - 1);
     return picture.scale().value(picture.row(0, row)[static_cast<std::size_t>(m_frequency.nearest(hz))]);
 }
 
@@ -185,8 +189,9 @@ std::optional<Viewport::Point> WaterfallPicture::peakAround(const Viewport::Poin
         return Span{std::min({p, q, middle - step}), std::max({p, q, middle + step})};
     };
     const double row = m_picture->time().step * static_cast<double>(m_picture->framesPerRow(0));
-    return faintline::peakNear(*m_picture, m_frequency,
-                               {around(a.seconds, b.seconds, point.seconds, row), around(a.hz, b.hz, point.hz, m_frequency.step)});
+    return faintline::peakNear(
+        *m_picture, m_frequency,
+        {around(a.seconds, b.seconds, point.seconds, row), around(a.hz, b.hz, point.hz, m_frequency.step)});
 }
 
 Viewport::Box WaterfallPicture::full() const
@@ -311,7 +316,8 @@ void WaterfallPicture::countHistogram()
     const QSize size = canvas()->contentsRect().size();
     if (!m_picture || size.isEmpty() || m_frequency.count == 0)
         return;
-    const double cells = visible().frequency.width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
+    const double cells =
+        visible().frequency.width() / m_frequency.step / (isTimeVertical() ? size.width() : size.height());
     if (!m_levels.count(*m_shown, framesPerPixel(), cells))
         return;
     emit histogramChanged();

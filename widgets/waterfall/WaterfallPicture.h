@@ -2,10 +2,10 @@
 
 #include "base/Axis.h"
 #include "spectrum/PeakPyramid.h"
-#include "widgets/waterfall/ColourLevels.h"
-#include "widgets/plot/ColourMap.h"
 #include "widgets/base/ThemedPlot.h"
 #include "widgets/base/Viewport.h"
+#include "widgets/plot/ColourMap.h"
+#include "widgets/waterfall/ColourLevels.h"
 
 #include <QPointer>
 
@@ -18,12 +18,12 @@ namespace faintline {
 class CanvasSentence;
 class RasterItem;
 
-/// A spectrogram, or a detector's statistic, over time and frequency; or over any two axes, such as a sonar's range and bearing:
-/// where the picture's own axis is no time, it is labelled as what it is.
+/// A spectrogram, or a detector's statistic, over time and frequency; or over any two axes, such as a sonar's range and
+/// bearing: where the picture's own axis is no time, it is labelled as what it is.
 ///
 /// The picture is a PeakPyramid and keeps its maxima in time and frequency however far one zooms out; zoomed in, every
-/// cell is a plain rectangle. This class draws it in its colours along its axes; MarkedWaterfall adds what is marked on it, and
-/// WaterfallView what mouse and keyboard do.
+/// cell is a plain rectangle. This class draws it in its colours along its axes; MarkedWaterfall adds what is marked on
+/// it, and WaterfallView what mouse and keyboard do.
 class WaterfallPicture : public ThemedPlot
 {
     Q_OBJECT
@@ -46,8 +46,8 @@ public:
     const std::shared_ptr<const PeakPyramid> &picture() const { return m_picture; }
     const Axis &frequencyAxis() const { return m_frequency; }
 
-    /// A stretch of the picture in rows of fewer frames: shown in its place wherever it holds all that can be seen and pixels are
-    /// smaller than the picture's own rows. Another picture drops it.
+    /// A stretch of the picture in rows of fewer frames: shown in its place wherever it holds all that can be seen and
+    /// pixels are smaller than the picture's own rows. Another picture drops it.
     void setCloseup(std::shared_ptr<const PeakPyramid> closeup);
     /// The picture, or its close-up where that is what can be seen.
     const std::shared_ptr<const PeakPyramid> &shownPicture() const { return m_shown; }

@@ -10,8 +10,9 @@ namespace faintline {
 
 class WaterfallMouse;
 
-/// A marked picture that answers mouse and keyboard. Looking (zooming, colours, orientation) is the view's own affair and is told by
-/// signals that say `…Changed`; what touches the document is only asked for by signals that say `…Requested`.
+/// A marked picture that answers mouse and keyboard. Looking (zooming, colours, orientation) is the view's own affair
+/// and is told by signals that say `…Changed`; what touches the document is only asked for by signals that say
+/// `…Requested`.
 ///
 /// What a button does is WaterfallMouse's, what a key or the context menu does waterfallCommands'.
 class WaterfallView : public MarkedWaterfall

@@ -20,7 +20,8 @@ namespace {
     void moveCursor(MarkedWaterfall &view, int right, int up, int cells)
     {
         Viewport &viewport = *view.viewport();
-        Viewport::Point point = viewport.cursor().value_or(Viewport::Point{viewport.time().middle(), viewport.frequency().middle()});
+        Viewport::Point point =
+            viewport.cursor().value_or(Viewport::Point{viewport.time().middle(), viewport.frequency().middle()});
         const bool isNewestOnTop = view.orientation() == MarkedWaterfall::Orientation::NewestOnTop;
         const int timeSteps = view.isTimeVertical() ? (isNewestOnTop ? up : -up) : right;
         const int hzSteps = view.isTimeVertical() ? right : up;
@@ -53,7 +54,8 @@ namespace {
 
     bool act(std::span<const KeyAction> keys, int key)
     {
-        const auto found = std::find_if(keys.begin(), keys.end(), [key](const KeyAction &entry) { return entry.first == key; });
+        const auto found =
+            std::find_if(keys.begin(), keys.end(), [key](const KeyAction &entry) { return entry.first == key; });
         if (found == keys.end())
             return false;
         found->second();
@@ -98,7 +100,8 @@ bool pressKey(MarkedWaterfall &view, const QKeyEvent &event)
     };
     const bool isSpacing = view.sidebands() && event.modifiers().testFlag(Qt::AltModifier);
     const bool isPlain = !(event.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
-    return (isSpacing && act(spacingKeys, event.key())) || act(cursorKeys, event.key()) || (isPlain && act(plainKeys, event.key()));
+    return (isSpacing && act(spacingKeys, event.key())) || act(cursorKeys, event.key())
+           || (isPlain && act(plainKeys, event.key()));
 }
 
 void addCommands(QMenu &menu, MarkedWaterfall &shown)
@@ -133,24 +136,28 @@ void addCommands(QMenu &menu, MarkedWaterfall &shown)
                                                     {Orientation::OldestOnTop, tr("Oldest on top")},
                                                     {Orientation::LeftToRight, tr("Left to right")}};
     for (const auto &[way, text] : ways)
-        orientationGroup->addAction(
-            check(orientations, text, QString(), view->orientation() == way, [view, way = way] { view->setOrientation(way); }));
+        orientationGroup->addAction(check(orientations, text, QString(), view->orientation() == way,
+                                          [view, way = way] { view->setOrientation(way); }));
     QMenu &colours = *menu.addMenu(tr("Colours"));
     auto *colourGroup = new QActionGroup(&colours);
     for (const QString &name : ColourMap::names())
-        colourGroup->addAction(
-            check(colours, name, QString(), name == view->colourMap().name(), [view, name] { view->setColourMap(name); }));
-    check(menu, tr("Automatic range"), QStringLiteral("A"), view->isRangeAutomatic(), [view] { view->setAutomaticRange(); });
+        colourGroup->addAction(check(colours, name, QString(), name == view->colourMap().name(),
+                                     [view, name] { view->setColourMap(name); }));
+    check(menu, tr("Automatic range"), QStringLiteral("A"), view->isRangeAutomatic(),
+          [view] { view->setAutomaticRange(); });
 
     QMenu &layers = *menu.addMenu(tr("Show"));
     using View = MarkedWaterfall;
-    const std::pair<View::Layer, QString> rows[] = {{View::EventLayer, tr("Events")}, {View::TrackLayer, tr("Tracks")},
-                                                    {View::TruthLayer, tr("Truth")},  {View::ThresholdLayer, tr("Threshold contour")},
-                                                    {View::GridLayer, tr("Grid")},    {View::CursorLayer, tr("Cursor")}};
+    const std::pair<View::Layer, QString> rows[] = {
+        {View::EventLayer, tr("Events")}, {View::TrackLayer, tr("Tracks")},
+        {View::TruthLayer, tr("Truth")},  {View::ThresholdLayer, tr("Threshold contour")},
+        {View::GridLayer, tr("Grid")},    {View::CursorLayer, tr("Cursor")}};
     for (const auto &[layer, text] : rows)
-        check(layers, text, QString(), view->layers().testFlag(layer), [view, layer = layer](bool isOn) { view->setLayer(layer, isOn); });
+        check(layers, text, QString(), view->layers().testFlag(layer),
+              [view, layer = layer](bool isOn) { view->setLayer(layer, isOn); });
     menu.addSeparator();
-    check(menu, tr("Measure a box"), QStringLiteral("M"), view->isMeasuring(), [view](bool isOn) { view->setMeasuring(isOn); });
+    check(menu, tr("Measure a box"), QStringLiteral("M"), view->isMeasuring(),
+          [view](bool isOn) { view->setMeasuring(isOn); });
     if (view->frequencyAxis().unit == "Hz") {
         check(menu, tr("Harmonics of the cursor"), QStringLiteral("H"), view->hasHarmonics(),
               [view](bool isOn) { view->setHarmonics(isOn); });

@@ -1,9 +1,9 @@
 #include "widgets/waterfall/waterfallWords.h"
 
-#include "widgets/waterfall/WaterfallPicture.h"
 #include "widgets/base/axisWords.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/rasterise.h"
+#include "widgets/waterfall/WaterfallPicture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +17,10 @@ QString cursorText(const WaterfallPicture &view)
         return WaterfallPicture::tr("Arrow keys move the cursor, Ctrl and wheel zoom, 0 shows all.");
     const Viewport::Point &cursor = *view.viewport()->cursor();
     const Axis &frequency = view.frequencyAxis();
-    QString text =
-        WaterfallPicture::tr("Cursor at %1, %2")
-            .arg(view.hasTime() ? secondsText(cursor.seconds, 0.01) : valueText(view.picture()->time(), cursor.seconds, 0.1),
-                 frequency.unit == "Hz" ? hertzText(cursor.hz, 0.1) : valueText(frequency, cursor.hz, 0.1));
+    QString text = WaterfallPicture::tr("Cursor at %1, %2")
+                       .arg(view.hasTime() ? secondsText(cursor.seconds, 0.01)
+                                           : valueText(view.picture()->time(), cursor.seconds, 0.1),
+                            frequency.unit == "Hz" ? hertzText(cursor.hz, 0.1) : valueText(frequency, cursor.hz, 0.1));
     if (const auto value = view.valueAt(cursor.seconds, cursor.hz))
         text += WaterfallPicture::tr(", %1 %2").arg(numberText(*value, 1), view.valueUnit());
     return text;
@@ -40,8 +40,9 @@ QString boxText(const WaterfallPicture &view, const Viewport::Box &box)
     else
         words << QStringLiteral("Δ ") + valueText(frequency, hz, 0.01 * hz);
     if (seconds > 0.0 && view.hasTime())
-        words << WaterfallPicture::tr("%1 %2/s").arg(powerText(hz / seconds, 3), frequency.unit.empty() ? QStringLiteral("Hz")
-                                                                                                    : labelText(frequency.unit, mostUnitLetters));
+        words << WaterfallPicture::tr("%1 %2/s").arg(
+            powerText(hz / seconds, 3),
+            frequency.unit.empty() ? QStringLiteral("Hz") : labelText(frequency.unit, mostUnitLetters));
     const auto cellsOf = [](const Axis &axis, Index count, const Span &span) {
         const auto clamped = [count](double index) { return std::clamp<Index>(std::lround(index), 0, count - 1); };
         return std::pair(clamped(axis.position(span.low)), clamped(axis.position(span.high)) + 1);
@@ -57,7 +58,8 @@ QString boxText(const WaterfallPicture &view, const Viewport::Box &box)
     }
     constexpr qsizetype perLine = 3; // extents and slope, then the levels
     const QString levels = words.mid(perLine).join(QStringLiteral(" · "));
-    return words.mid(0, perLine).join(QStringLiteral(" · ")) + (levels.isEmpty() ? QString() : QLatin1Char('\n') + levels);
+    return words.mid(0, perLine).join(QStringLiteral(" · "))
+           + (levels.isEmpty() ? QString() : QLatin1Char('\n') + levels);
 }
 
 QString sidebandText(const WaterfallPicture &view, const Sidebands &lines, double seconds)
@@ -67,9 +69,10 @@ QString sidebandText(const WaterfallPicture &view, const Sidebands &lines, doubl
         const auto value = view.valueAt(seconds, lines.hz(order));
         return (value ? numberText(*value, 1) : QStringLiteral("–")).rightJustified(7);
     };
-    QStringList rows{WaterfallPicture::tr("carrier %1 %2 %3").arg(hertzText(lines.carrierHz, bin), level(0), view.valueUnit()),
-                     WaterfallPicture::tr("spacing %1").arg(hertzText(lines.spacingHz, 0.1 * bin)),
-                     WaterfallPicture::tr(" n     −n     +n %1").arg(view.valueUnit())};
+    QStringList rows{
+        WaterfallPicture::tr("carrier %1 %2 %3").arg(hertzText(lines.carrierHz, bin), level(0), view.valueUnit()),
+        WaterfallPicture::tr("spacing %1").arg(hertzText(lines.spacingHz, 0.1 * bin)),
+        WaterfallPicture::tr(" n     −n     +n %1").arg(view.valueUnit())};
     for (int order = 1; order <= Sidebands::orders; ++order)
         rows << QStringLiteral("%1 %2%3").arg(order, 2).arg(level(-order), level(order));
     return rows.join(QLatin1Char('\n'));

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "widgets/waterfall/Sidebands.h"
 #include "widgets/base/Viewport.h"
+#include "widgets/waterfall/Sidebands.h"
 
 #include <QString>
 

@@ -1,10 +1,10 @@
 #include "app/cli/speed/SpeedKernel.h"
 
+#include "app/cli/speed/plainForms.h"
 #include "base/Error.h"
 #include "base/LargeVector.h"
 #include "base/Random.h"
 #include "detect/Smd.h"
-#include "app/cli/speed/plainForms.h"
 #include "model/sonarModels.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/medians.h"
@@ -37,8 +37,8 @@ namespace {
     {
     public:
         Running(D detector, Index cells, Index frames)
-            : m_detector(std::move(detector)), m_cells(static_cast<std::size_t>(cells)), m_frames(static_cast<std::size_t>(frames)),
-              m_y(exponentials(m_cells * m_frames)), m_statistic(m_y.size())
+            : m_detector(std::move(detector)), m_cells(static_cast<std::size_t>(cells)),
+              m_frames(static_cast<std::size_t>(frames)), m_y(exponentials(m_cells * m_frames)), m_statistic(m_y.size())
         {
             oneByOne();
         }
@@ -61,7 +61,8 @@ namespace {
     };
 
     template <class D>
-    SpeedForm running(const std::string &name, D detector, const StateSpace &space, Index frames, bool atOnce = false, int threads = 1)
+    SpeedForm running(const std::string &name, D detector, const StateSpace &space, Index frames, bool atOnce = false,
+                      int threads = 1)
     {
         const auto it = std::make_shared<Running<D>>(std::move(detector), space.cellCount(), frames);
         std::function<void()> run = [it] { it->oneByOne(); };
@@ -102,8 +103,10 @@ namespace {
     std::vector<SpeedForm> slopeForms(int count, Index cells)
     {
         const MarkovModel model = slopes(count, cells);
-        return {smd(ours, model, blockFrames, slopesLnK), running(formula, FormulaRecursion(model.space, slopesLnK), model.space, 1),
-                running(eigen, EigenRecursion(model.space, static_cast<float>(slopesLnK)), model.space, 2), passOver(model.space),
+        return {smd(ours, model, blockFrames, slopesLnK),
+                running(formula, FormulaRecursion(model.space, slopesLnK), model.space, 1),
+                running(eigen, EigenRecursion(model.space, static_cast<float>(slopesLnK)), model.space, 2),
+                passOver(model.space),
                 running("frame by frame", Smd(model, {ResetLaw::Fixed, slopesLnK}), model.space, blockFrames),
                 smd(twoThreads, model, blockFrames, slopesLnK, 2)};
     }
@@ -122,14 +125,16 @@ namespace {
         for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames); ++frame) {
             plain.update(std::span<const float>(y).subspan(frame * cells, cells), expected);
             for (std::size_t cell = 0; cell < cells; ++cell)
-                largest = std::max(largest, static_cast<double>(std::abs(found[frame * cells + cell] - expected[cell])));
+                largest =
+                    std::max(largest, static_cast<double>(std::abs(found[frame * cells + cell] - expected[cell])));
         }
         return largest;
     }
 
     SpeedCheck sameAsFormula(const MarkovModel &small, double lnK)
     {
-        return {"largest difference from the formula over 40 frames, nat", 1e-4, [small, lnK] { return difference(small, lnK, 40); }};
+        return {"largest difference from the formula over 40 frames, nat", 1e-4,
+                [small, lnK] { return difference(small, lnK, 40); }};
     }
 
     // ---- two axes --------------------------------------------------------------------------------------------------
@@ -151,18 +156,18 @@ namespace {
     {
         const MarkovModel model = sonar(motion, 2500);
         const double lnK = sonarLnK(motion);
-        std::vector<SpeedForm> forms{smd(ours, model, sonarFrames, lnK),
-                                     running(eigen, EigenRecursion(model.space, static_cast<float>(lnK)), model.space, 1),
-                                     passOver(model.space),
-                                     running("frame by frame", Smd(model, {ResetLaw::Fixed, lnK}), model.space, sonarFrames),
-                                     smd(twoThreads, model, sonarFrames, lnK, 2)};
+        std::vector<SpeedForm> forms{
+            smd(ours, model, sonarFrames, lnK),
+            running(eigen, EigenRecursion(model.space, static_cast<float>(lnK)), model.space, 1), passOver(model.space),
+            running("frame by frame", Smd(model, {ResetLaw::Fixed, lnK}), model.space, sonarFrames),
+            smd(twoThreads, model, sonarFrames, lnK, 2)};
         if (withFormula)
             forms.push_back(running(formula, FormulaRecursion(model.space, lnK), model.space, 1));
         return forms;
     }
 
-    std::vector<SpeedForm> sizes(const std::string &small, const MarkovModel &few, const std::string &large, const MarkovModel &many,
-                                 Index frames, double lnK)
+    std::vector<SpeedForm> sizes(const std::string &small, const MarkovModel &few, const std::string &large,
+                                 const MarkovModel &many, Index frames, double lnK)
     {
         const Index more = std::max<Index>(1, many.space.stateCount() / few.space.stateCount() / 8);
         return {smd(large, many, frames, lnK), smd(small, few, frames * more, lnK), passOver(many.space)};
@@ -180,7 +185,8 @@ namespace {
             double sum = 0.0;
         };
         const auto work = std::make_shared<Work>();
-        return {{ours, n, 1, [work] { work->rice.apply(work->y, work->out); }}, {"scalar Bessel", n / 64, 1, [work] {
+        return {{ours, n, 1, [work] { work->rice.apply(work->y, work->out); }},
+                {"scalar Bessel", n / 64, 1, [work] {
                      for (std::size_t i = 0; i < n; i += 64)
                          work->sum += work->rice.at(static_cast<double>(work->y[i]));
                  }}};
@@ -239,7 +245,8 @@ namespace {
         const auto recording = std::make_shared<NoiseInMemory>(static_cast<std::size_t>(length) * 80);
         work->spectrogram = std::make_shared<Spectrogram>(recording, settings);
         const NormaliserSettings noise;
-        work->normalised = std::make_shared<NormalisedSpectrogram>(work->spectrogram, estimateBackground(*work->spectrogram, noise), noise);
+        work->normalised = std::make_shared<NormalisedSpectrogram>(
+            work->spectrogram, estimateBackground(*work->spectrogram, noise), noise);
         work->fft = std::make_shared<Fft>(length, Fft::Input::Real);
         work->buffer = work->fft->buffer();
         work->out.resize(static_cast<std::size_t>(frames * work->spectrogram->frequency().count));
@@ -266,7 +273,9 @@ namespace {
         const auto work = std::make_shared<Work>();
         for (float value : exponentials(n))
             work->values.push_back(static_cast<double>(value));
-        const auto over = [work](Index half) { return [work, half] { runningMean(work->values, work->weights, half, work->mean); }; };
+        const auto over = [work](Index half) {
+            return [work, half] { runningMean(work->values, work->weights, half, work->mean); };
+        };
         return {{"257 bins", n, 1, over(128)}, {"33 bins", n, 1, over(16)}};
     }
 
@@ -279,7 +288,8 @@ namespace {
             std::vector<float> out = std::vector<float>(static_cast<std::size_t>(cells));
         };
         const auto work = std::make_shared<Work>();
-        return {{ours, cells, 1, [work] { columnMedians(work->frames, work->out); }}, {"nth_element", cells, 1, [work] {
+        return {{ours, cells, 1, [work] { columnMedians(work->frames, work->out); }},
+                {"nth_element", cells, 1, [work] {
                      std::vector<float> column(rows);
                      for (std::size_t cell = 0; cell < work->out.size(); ++cell) {
                          for (std::size_t row = 0; row < column.size(); ++row)
@@ -297,7 +307,10 @@ namespace {
         };
         const StateSpace space({walk("azimuth", 3), walk("elevation", 3), walk("range", 100)});
         struct Work {
-            explicit Work(const StateSpace &s) : recursion(s), dense(s), weights(static_cast<std::size_t>(s.stateCount()), 1.0) {}
+            explicit Work(const StateSpace &s)
+                : recursion(s), dense(s), weights(static_cast<std::size_t>(s.stateCount()), 1.0)
+            {
+            }
             Recursion<SumProduct> recursion;
             DenseSumProduct dense;
             std::vector<double> weights;
@@ -331,35 +344,72 @@ namespace {
     std::vector<SpeedKernel> makeKernels()
     {
         return {
-            {"recursion-21", "one axis, 21 slopes, 100 000 cells", "state",
+            {"recursion-21",
+             "one axis, 21 slopes, 100 000 cells",
+             "state",
              {{ours, formula, 12.0}, {ours, eigen, 4.0}, {ours, pass, 1.3}, {twoThreads, ours, 1.5}},
-             [] { return slopeForms(21, 100'000); }, {sameAsFormula(slopes(21, 3000), slopesLnK)}},
-            {"recursion-5", "one axis, 5 slopes, 100 000 cells", "state",
+             [] { return slopeForms(21, 100'000); },
+             {sameAsFormula(slopes(21, 3000), slopesLnK)}},
+            {"recursion-5",
+             "one axis, 5 slopes, 100 000 cells",
+             "state",
              {{ours, formula, 10.0}, {ours, eigen, 5.0}, {twoThreads, ours, 1.5}},
-             [] { return slopeForms(5, 100'000); }, {sameAsFormula(slopes(5, 3000), slopesLnK)}},
-            {"recursion-large", "one axis, 21 slopes, 21 million states", "state",
+             [] { return slopeForms(5, 100'000); },
+             {sameAsFormula(slopes(5, 3000), slopesLnK)}},
+            {"recursion-large",
+             "one axis, 21 slopes, 21 million states",
+             "state",
              {{"21 M states", "0.2 M states", 0.75}, {"21 M states", pass, 1.3}},
-             [] { return sizes("0.2 M states", slopes(21, 10'000), "21 M states", slopes(21, 1'000'000), blockFrames, slopesLnK); }},
-            {"sonar-27", "two axes, 27 transitions, 6.15 million states", "state",
+             [] {
+                 return sizes("0.2 M states", slopes(21, 10'000), "21 M states", slopes(21, 1'000'000), blockFrames,
+                              slopesLnK);
+             }},
+            {"sonar-27",
+             "two axes, 27 transitions, 6.15 million states",
+             "state",
              {{ours, formula, 40.0}, {ours, eigen, 4.0}, {ours, pass, 0.25}, {twoThreads, ours, 1.6}},
-             [] { return sonarForms(manoeuvring(), true); }, {sameAsFormula(sonar(manoeuvring(), 150), sonarLnK(manoeuvring()))}},
-            {"sonar-1", "two axes, one-to-one, 6.15 million states", "state",
+             [] { return sonarForms(manoeuvring(), true); },
+             {sameAsFormula(sonar(manoeuvring(), 150), sonarLnK(manoeuvring()))}},
+            {"sonar-1",
+             "two axes, one-to-one, 6.15 million states",
+             "state",
              {{ours, eigen, 2.5}, {ours, pass, 1.0}, {twoThreads, ours, 1.5}},
-             [] { return sonarForms(nonManoeuvring(), false); }, {sameAsFormula(sonar(nonManoeuvring(), 150), sonarLnK(nonManoeuvring()))}},
-            {"sonar-large", "two axes, 27 transitions, 24.6 million states", "state",
+             [] { return sonarForms(nonManoeuvring(), false); },
+             {sameAsFormula(sonar(nonManoeuvring(), 150), sonarLnK(nonManoeuvring()))}},
+            {"sonar-large",
+             "two axes, 27 transitions, 24.6 million states",
+             "state",
              {{"24.6 M states", "3 M states", 0.85}, {"24.6 M states", pass, 0.25}},
              [] {
-                 return sizes("3 M states", sonar(manoeuvring(), 1250), "24.6 M states", sonar(manoeuvring(), 10'000), 2,
-                              sonarLnK(manoeuvring()));
+                 return sizes("3 M states", sonar(manoeuvring(), 1250), "24.6 M states", sonar(manoeuvring(), 10'000),
+                              2, sonarLnK(manoeuvring()));
              }},
-            {"likelihood", "log-likelihood ratio, Rice", "cell", {{ours, "scalar Bessel", 10.0}}, likelihoodForms,
+            {"likelihood",
+             "log-likelihood ratio, Rice",
+             "cell",
+             {{ours, "scalar Bessel", 10.0}},
+             likelihoodForms,
              {{"largest error for y up to 100, nat", 1e-5, riceError}}},
-            {"spectrogram-4096", "half-overlapping windows of 4096 samples", "frame",
-             {{ours, "bare FFTW", 0.6}, {"normalised", ours, 0.5}, {twoThreads, ours, 1.8}}, [] { return spectrogramForms(4096); }},
-            {"spectrogram-16384", "half-overlapping windows of 16384 samples", "frame",
-             {{ours, "bare FFTW", 0.75}, {"normalised", ours, 0.5}, {twoThreads, ours, 1.8}}, [] { return spectrogramForms(16384); }},
-            {"background-mean", "mean over neighbouring bins", "bin", {{"257 bins", "33 bins", 1.0 / 1.3}}, runningMeanForms},
-            {"background-median", "median of each cell over 48 frames", "cell", {{ours, "nth_element", 5.0}}, medianForms},
+            {"spectrogram-4096",
+             "half-overlapping windows of 4096 samples",
+             "frame",
+             {{ours, "bare FFTW", 0.6}, {"normalised", ours, 0.5}, {twoThreads, ours, 1.8}},
+             [] { return spectrogramForms(4096); }},
+            {"spectrogram-16384",
+             "half-overlapping windows of 16384 samples",
+             "frame",
+             {{ours, "bare FFTW", 0.75}, {"normalised", ours, 0.5}, {twoThreads, ours, 1.8}},
+             [] { return spectrogramForms(16384); }},
+            {"background-mean",
+             "mean over neighbouring bins",
+             "bin",
+             {{"257 bins", "33 bins", 1.0 / 1.3}},
+             runningMeanForms},
+            {"background-median",
+             "median of each cell over 48 frames",
+             "cell",
+             {{ours, "nth_element", 5.0}},
+             medianForms},
             {"sum-product", "sum-product, radar of 900 cells", "state", {{ours, "dense", 8.0}}, sumProductForms},
             {"noise", "normal random numbers", "number", {{ours, "std::normal_distribution", 8.0}}, noiseForms},
         };

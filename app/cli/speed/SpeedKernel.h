@@ -28,10 +28,11 @@ struct SpeedCheck {
     std::function<double()> measure;
 };
 
-/// An inner loop of the program and what it is compared with: the plain formula, array expressions, a sweep over the same memory,
-/// a bare library call. The first form is the program's own, through the interface its callers use.
+/// An inner loop of the program and what it is compared with: the plain formula, array expressions, a sweep over the
+/// same memory, a bare library call. The first form is the program's own, through the interface its callers use.
 ///
-/// `make` allocates what the forms work on; they live as long as the answer and take it in turns, each going on where it stopped.
+/// `make` allocates what the forms work on; they live as long as the answer and take it in turns, each going on where
+/// it stopped.
 struct SpeedKernel {
     std::string name;
     std::string title;
@@ -41,10 +42,12 @@ struct SpeedKernel {
     std::vector<SpeedCheck> checks{};
 };
 
-/// All of them, in the order they are printed in. Goals are ratios on one machine in one run, so they say something on any.
+/// All of them, in the order they are printed in. Goals are ratios on one machine in one run, so they say something on
+/// any.
 const std::vector<SpeedKernel> &speedKernels();
 
-/// The kernels of a name, or of all names that begin with it and a hyphen; all for "all". Throws Error naming what there is.
+/// The kernels of a name, or of all names that begin with it and a hyphen; all for "all". Throws Error naming what
+/// there is.
 std::vector<SpeedKernel> speedKernels(const std::string &name);
 
 } // namespace faintline

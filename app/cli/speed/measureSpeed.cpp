@@ -51,7 +51,8 @@ namespace {
 
     std::size_t indexOf(const std::vector<SpeedForm> &forms, const std::string &name)
     {
-        const auto found = std::find_if(forms.begin(), forms.end(), [&](const SpeedForm &form) { return form.name == name; });
+        const auto found =
+            std::find_if(forms.begin(), forms.end(), [&](const SpeedForm &form) { return form.name == name; });
         return static_cast<std::size_t>(found - forms.begin());
     }
 
@@ -121,7 +122,8 @@ std::string speedText(const SpeedResult &result)
     std::string text = result.name + ": " + result.title + "\n";
     char line[256];
     for (const SpeedResult::Rate &rate : result.rates) {
-        std::snprintf(line, sizeof line, "    %-26s %12s%ss/s\n", rate.form.c_str(), rateText(rate.perSecond).c_str(), result.unit.c_str());
+        std::snprintf(line, sizeof line, "    %-26s %12s%ss/s\n", rate.form.c_str(), rateText(rate.perSecond).c_str(),
+                      result.unit.c_str());
         text += line;
     }
     for (const SpeedResult::Ratio &r : result.ratios) {

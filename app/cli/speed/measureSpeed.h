@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/RunContext.h"
 #include "app/cli/speed/SpeedKernel.h"
+#include "base/RunContext.h"
 
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ struct SpeedResult {
     struct Ratio {
         SpeedGoal goal;
         double measured = 0.0;
-        double low = 0.0;  ///< quartiles of the rounds
+        double low = 0.0; ///< quartiles of the rounds
         double high = 0.0;
     };
     std::vector<Ratio> ratios;
@@ -43,9 +43,9 @@ struct SpeedResult {
     bool meetsGoals() const;
 };
 
-/// Runs a kernel's forms in turns, round after round, so that whatever else the machine does meets all of them, and takes medians of the
-/// ratios within rounds. Times are the processor's own for a single thread, so that waiting for it does not count, and the clock's
-/// where two threads are compared with one.
+/// Runs a kernel's forms in turns, round after round, so that whatever else the machine does meets all of them, and
+/// takes medians of the ratios within rounds. Times are the processor's own for a single thread, so that waiting for it
+/// does not count, and the clock's where two threads are compared with one.
 SpeedResult measureSpeed(const SpeedKernel &kernel, const SpeedOptions &options, const RunContext &context = {});
 
 /// The widest vector instructions that this processor has and the program was made for.

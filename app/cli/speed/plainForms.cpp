@@ -54,7 +54,8 @@ double FormulaRecursion::bestOfLine(const std::vector<KinematicAxis::Move> &move
         if (axis.cyclic)
             from = (from + axis.cells) % axis.cells;
         if (from >= 0 && from < axis.cells)
-            best = std::max(best, m_scores[static_cast<std::size_t>(move.fromRate * axis.cells + from)] + move.lnProbability);
+            best = std::max(best,
+                            m_scores[static_cast<std::size_t>(move.fromRate * axis.cells + from)] + move.lnProbability);
     }
     return best;
 }
@@ -94,7 +95,8 @@ void FormulaRecursion::update(std::span<const float> y, std::span<float> statist
                 for (Index column = 0; column < columns; ++column, ++state) {
                     double continued = 0.0;
                     if (m_frames > 0) {
-                        const double best = columns > 1 ? bestOfPlane(alongFirst, alongSecond, row, column) : bestOfLine(alongFirst, row);
+                        const double best = columns > 1 ? bestOfPlane(alongFirst, alongSecond, row, column)
+                                                        : bestOfLine(alongFirst, row);
                         continued = std::max(m_lnK + best, 0.0);
                     }
                     const auto cell = static_cast<std::size_t>(row * columns + column);
@@ -132,7 +134,8 @@ std::vector<EigenRecursion::Step> EigenRecursion::stepsOf(const StateSpace &spac
     std::vector<Step> steps;
     const auto emptyStep = Step(static_cast<std::size_t>(m_rates[0] * m_rates[1]));
     const auto plane = [&](Index a, Index b) { return static_cast<std::size_t>(a * m_rates[1] + b); };
-    if (std::ssize(moves[0]) == m_rates[0] || std::ssize(moves[1]) == m_rates[1]) { // along one of them from one rate: in one expression
+    if (std::ssize(moves[0]) == m_rates[0]
+        || std::ssize(moves[1]) == m_rates[1]) { // along one of them from one rate: in one expression
         steps.push_back(emptyStep);
         for (const KinematicAxis::Move &a : moves[0])
             for (const KinematicAxis::Move &b : moves[1])
@@ -168,7 +171,9 @@ void EigenRecursion::fillMargins(Plane &plane) const
 
 void EigenRecursion::join(const std::vector<Source> &sources, Plane &to)
 {
-    const auto from = [&](std::size_t k) { return inner(m_scores[sources[k].plane], sources[k].shift) + sources[k].weight; };
+    const auto from = [&](std::size_t k) {
+        return inner(m_scores[sources[k].plane], sources[k].shift) + sources[k].weight;
+    };
     auto target = inner(to, {0, 0});
     if (sources.size() == 1)
         target = from(0);

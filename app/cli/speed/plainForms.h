@@ -10,10 +10,11 @@
 
 namespace faintline {
 
-// The recursion u = λ + max(ln K + max_m [ln P(n|m) + u(m)], 0), D = max over rates, written as one first would: what the fast form is
-// timed against and, at the same time, checked against. λ is y itself. For one or two axes with rates.
+// The recursion u = λ + max(ln K + max_m [ln P(n|m) + u(m)], 0), D = max over rates, written as one first would: what
+// the fast form is timed against and, at the same time, checked against. λ is y itself. For one or two axes with rates.
 
-/// In double precision, state by state, predecessor by predecessor. Not for axes with a law that differs from cell to cell.
+/// In double precision, state by state, predecessor by predecessor. Not for axes with a law that differs from cell to
+/// cell.
 class FormulaRecursion
 {
 public:
@@ -24,8 +25,8 @@ public:
 
 private:
     double bestOfLine(const std::vector<KinematicAxis::Move> &moves, Index cell) const;
-    double bestOfPlane(const std::vector<KinematicAxis::Move> &alongFirst, const std::vector<KinematicAxis::Move> &alongSecond, Index row,
-                       Index column) const;
+    double bestOfPlane(const std::vector<KinematicAxis::Move> &alongFirst,
+                       const std::vector<KinematicAxis::Move> &alongSecond, Index row, Index column) const;
 
     StateSpace m_space;
     using Moves = std::array<std::vector<std::vector<KinematicAxis::Move>>, 2>; ///< of each axis, by target rate
@@ -36,8 +37,8 @@ private:
     Index m_frames = 0; ///< taken so far
 };
 
-/// In single precision, as Eigen expressions over whole planes: the maximum of shifted arrays, whose margins hold what is not there
-/// (-∞) or what wraps round.
+/// In single precision, as Eigen expressions over whole planes: the maximum of shifted arrays, whose margins hold what
+/// is not there (-∞) or what wraps round.
 class EigenRecursion
 {
 public:

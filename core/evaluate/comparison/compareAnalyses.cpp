@@ -38,7 +38,8 @@ namespace {
         std::vector<double> at(double seconds) const
         {
             const auto last = static_cast<double>(m_track->points.size() - 1);
-            const double index = std::round(m_time->position(seconds)) - static_cast<double>(m_track->points.front().frame);
+            const double index =
+                std::round(m_time->position(seconds)) - static_cast<double>(m_track->points.front().frame);
             return positionOf(m_track->points[static_cast<std::size_t>(std::clamp(index, 0.0, last))]);
         }
 
@@ -103,7 +104,8 @@ namespace {
         {
             for (std::size_t axis = 0; axis < m_reach.size(); ++axis)
                 if (m_turn[axis] == 0.0
-                    && (a.low()[axis] > b.high()[axis] + m_reach[axis] || b.low()[axis] > a.high()[axis] + m_reach[axis]))
+                    && (a.low()[axis] > b.high()[axis] + m_reach[axis]
+                        || b.low()[axis] > a.high()[axis] + m_reach[axis]))
                     return false;
             return true;
         }
@@ -142,7 +144,8 @@ namespace {
                 if (!ofA[i].isEmpty() && !ofB[j].isEmpty())
                     if (const std::optional<double> shared = gate.sharedSeconds(ofA[i], ofB[j]))
                         pairs.push_back({i, j, *shared});
-        std::stable_sort(pairs.begin(), pairs.end(), [](const Pair &x, const Pair &y) { return x.sharedSeconds > y.sharedSeconds; });
+        std::stable_sort(pairs.begin(), pairs.end(),
+                         [](const Pair &x, const Pair &y) { return x.sharedSeconds > y.sharedSeconds; });
         std::vector<bool> isTakenA(ofA.size()), isTakenB(ofB.size());
         std::erase_if(pairs, [&](const Pair &pair) {
             if (isTakenA[pair.a] || isTakenB[pair.b])
@@ -193,13 +196,15 @@ Comparison compareAnalyses(const Analysis &a, const Analysis &b, const CompareTo
         if (partner == partnerOfA.end())
             comparison.events.push_back({std::move(event), {}, 0.0});
         else
-            comparison.events.push_back({std::move(event), eventsOfB.at(partner->second.first), partner->second.second});
+            comparison.events.push_back(
+                {std::move(event), eventsOfB.at(partner->second.first), partner->second.second});
     }
-    std::stable_sort(comparison.events.begin(), comparison.events.end(), [](const ComparedEvent &x, const ComparedEvent &y) {
-        const Event &p = x.event();
-        const Event &q = y.event();
-        return p.onsetSeconds != q.onsetSeconds ? p.onsetSeconds < q.onsetSeconds : p.position < q.position;
-    });
+    std::stable_sort(
+        comparison.events.begin(), comparison.events.end(), [](const ComparedEvent &x, const ComparedEvent &y) {
+            const Event &p = x.event();
+            const Event &q = y.event();
+            return p.onsetSeconds != q.onsetSeconds ? p.onsetSeconds < q.onsetSeconds : p.position < q.position;
+        });
     return comparison;
 }
 

@@ -36,13 +36,14 @@ struct Comparison {
 
 /// Which events of A and B are the same signal.
 ///
-/// Two tracks are compared at common times: those from the later onset to the earlier end, each extended by the tolerance in frames,
-/// where a track stays at its first or last place. They are one signal if they lie within the tolerance along every axis for at
-/// least half of these times. Pairs are one to one, those that share the longest time first; a line that one detector
-/// breaks into pieces is in both once, and its other pieces are that one's alone. Exchanging A and B exchanges nothing else, but for ties.
+/// Two tracks are compared at common times: those from the later onset to the earlier end, each extended by the
+/// tolerance in frames, where a track stays at its first or last place. They are one signal if they lie within the
+/// tolerance along every axis for at least half of these times. Pairs are one to one, those that share the longest time
+/// first; a line that one detector breaks into pieces is in both once, and its other pieces are that one's alone.
+/// Exchanging A and B exchanges nothing else, but for ties.
 ///
-/// The axes must measure the same quantities; their steps may differ. Tested on tracks made by hand. Cost: pairs of tracks whose
-/// boxes touch × at most 1000 times.
+/// The axes must measure the same quantities; their steps may differ. Tested on tracks made by hand. Cost: pairs of
+/// tracks whose boxes touch × at most 1000 times.
 Comparison compareAnalyses(const Analysis &a, const Analysis &b, const CompareTolerance &tolerance = {});
 
 } // namespace faintline

@@ -20,12 +20,14 @@ namespace {
     /// m(D) of each byte of a statistic's picture.
     std::array<float, 256> margins(const Analysis &analysis, bool isPlain)
     {
-        const auto rarity = [&](double statistic) { return std::min(-std::log(analysis.calibration->exceedanceAt(statistic)), rarest); };
+        const auto rarity = [&](double statistic) {
+            return std::min(-std::log(analysis.calibration->exceedanceAt(statistic)), rarest);
+        };
         std::array<float, 256> result{};
         for (int byte = 0; byte < 256; ++byte) {
             const double statistic = analysis.statistic->scale().value(byte);
-            result[static_cast<std::size_t>(byte)] =
-                static_cast<float>(isPlain ? statistic - analysis.threshold : rarity(statistic) - rarity(analysis.threshold));
+            result[static_cast<std::size_t>(byte)] = static_cast<float>(
+                isPlain ? statistic - analysis.threshold : rarity(statistic) - rarity(analysis.threshold));
         }
         return result;
     }
@@ -86,8 +88,8 @@ std::shared_ptr<const PeakPyramid> differencePicture(const Analysis &a, const An
     const auto cells = cellsWithin(a.grid().axes.front(), b.grid().axes.front());
     const auto rows = cellsWithin(rowsA, rowsB);
 
-    const auto result =
-        std::make_shared<PeakPyramid>(rowsB, b.grid().size(), ByteScale(ByteScale::Kind::DifferenceNats), memoryShares::picture);
+    const auto result = std::make_shared<PeakPyramid>(
+        rowsB, b.grid().size(), ByteScale(ByteScale::Kind::DifferenceNats), memoryShares::picture);
     std::vector<std::uint8_t> highest;
     std::vector<float> difference(static_cast<std::size_t>(b.grid().size()));
     for (Index row = 0; row < rowsB.count; ++row) {

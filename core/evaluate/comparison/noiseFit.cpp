@@ -121,8 +121,8 @@ namespace {
     constexpr double wellCounted = 3e-5;
     constexpr double tailBegin = 1e-3; ///< one decade and a half before
 
-    /// Cells of a law, by its quantiles: a table fine enough for what can be drawn. Beyond what thirty cells vouch for, the law goes
-    /// on as straight as it came.
+    /// Cells of a law, by its quantiles: a table fine enough for what can be drawn. Beyond what thirty cells vouch for,
+    /// the law goes on as straight as it came.
     class Quantiles
     {
     public:
@@ -188,7 +188,8 @@ namespace {
         return {{Axis{"frequency", "Hz", 0.0, 1.0, bins, false}}};
     }
 
-    /// K for cells without correlation: that of the recording's overlapping frames would let the statistic grow without end.
+    /// K for cells without correlation: that of the recording's overlapping frames would let the statistic grow without
+    /// end.
     ResetRule ruleOf(const AnalysisSettings &settings)
     {
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);

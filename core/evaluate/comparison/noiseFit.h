@@ -14,7 +14,8 @@ namespace faintline {
 ///
 ///   P(y > t) = e^{-t},   mean 1
 ///
-/// Values are counted in steps of 2⁻¹⁰ up to 32, so a band of any length costs the same memory and the distance is known to 10⁻³.
+/// Values are counted in steps of 2⁻¹⁰ up to 32, so a band of any length costs the same memory and the distance is
+/// known to 10⁻³.
 class NoiseLaw
 {
 public:
@@ -57,9 +58,9 @@ struct FittedBand {
     bool fits() const { return law.distance() <= NoiseLaw::distanceLimit(independent); }
 };
 
-/// Counts frames' values in `bands` bands of equal width. Looks at no more than about `cells` values, in frames spread evenly.
-/// `geometry`: how far overlap makes neighbours dependent. `leftOut`: cells at either end of the axis that are kept from the detector, too
-/// (where a real recording's spectrum overlaps with its mirror image). Throws Cancelled.
+/// Counts frames' values in `bands` bands of equal width. Looks at no more than about `cells` values, in frames spread
+/// evenly. `geometry`: how far overlap makes neighbours dependent. `leftOut`: cells at either end of the axis that are
+/// kept from the detector, too (where a real recording's spectrum overlaps with its mirror image). Throws Cancelled.
 std::vector<FittedBand> fitNoise(const NormalisedFrames &frames, int bands, const FrameGeometry &geometry = {},
                                  const RunContext &context = {}, std::int64_t cells = 20'000'000, Index leftOut = 0);
 
@@ -71,11 +72,11 @@ struct MisfitPfa {
     double ratio() const { return nominal > 0.0 ? actual / nominal : 1.0; }
 };
 
-/// What the bands' misfits do to a false-alarm probability per cell, band by band: the detector runs on independent cells drawn from
-/// the band's law, and on cells of the exponential law made of the same random numbers; the threshold is the one that gives `pfa` on
-/// the latter, with K found there. Beyond 3·10⁻⁵ the exceedance continues with the slope of its last decade and a half, as the
-/// statistic's exponential tail does. Overlap's correlation is left out of both. Oracle: the energy detector, whose exceedance is the
-/// law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
+/// What the bands' misfits do to a false-alarm probability per cell, band by band: the detector runs on independent
+/// cells drawn from the band's law, and on cells of the exponential law made of the same random numbers; the threshold
+/// is the one that gives `pfa` on the latter, with K found there. Beyond 3·10⁻⁵ the exceedance continues with the slope
+/// of its last decade and a half, as the statistic's exponential tail does. Overlap's correlation is left out of both.
+/// Oracle: the energy detector, whose exceedance is the law's own. Cost: 1.6·10⁶ cells a band. Throws Error, Cancelled.
 std::vector<MisfitPfa> misfitPfa(std::span<const FittedBand> bands, const AnalysisSettings &settings, double pfa,
                                  const RunContext &context = {});
 

@@ -24,7 +24,7 @@ namespace {
     {
         const std::string &held = difference.a.empty() ? difference.b : difference.a;
         return (difference.a.empty() || difference.b.empty())
-            && held == formatFieldValue(defaultValue(settingField(difference.field.name)));
+               && held == formatFieldValue(defaultValue(settingField(difference.field.name)));
     }
 
 } // namespace

@@ -14,8 +14,8 @@ struct SettingDifference {
     std::string b;
 };
 
-/// The settings in which A and B differ, in the order of the table. Of the three by which a threshold can be given only those
-/// that count in A or B; of a detector that only one of them has chosen, only what was changed from its defaults.
+/// The settings in which A and B differ, in the order of the table. Of the three by which a threshold can be given only
+/// those that count in A or B; of a detector that only one of them has chosen, only what was changed from its defaults.
 std::vector<SettingDifference> settingDifferences(const AnalysisSettings &a, const AnalysisSettings &b);
 
 } // namespace faintline

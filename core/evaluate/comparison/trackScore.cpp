@@ -20,7 +20,8 @@ namespace {
     }
 
     /// Offsets of a point from a target along the axes; empty where the point does not lie on it.
-    std::vector<Index> offsetsFrom(const TruthTarget &target, const TrackPoint &point, const Grid &grid, const std::vector<Index> &gate)
+    std::vector<Index> offsetsFrom(const TruthTarget &target, const TrackPoint &point, const Grid &grid,
+                                   const std::vector<Index> &gate)
     {
         const Index cell = target.cellAt(point.frame);
         if (cell < 0)
@@ -67,7 +68,8 @@ namespace {
 
 } // namespace
 
-TrackScore scoreTracks(std::span<const Track> tracks, const PingTruth &truth, const Grid &grid, const std::vector<Index> &gateCells)
+TrackScore scoreTracks(std::span<const Track> tracks, const PingTruth &truth, const Grid &grid,
+                       const std::vector<Index> &gateCells)
 {
     TrackScore score;
     score.targets.resize(truth.targets.size());
@@ -100,7 +102,8 @@ TrackScore scoreTracks(std::span<const Track> tracks, const PingTruth &truth, co
         for (double cell : truth.targets[i].cell)
             own.presentPings += cell >= 0.0 ? 1 : 0;
         for (double sum : squares[i])
-            own.rmsCells.push_back(own.matchedPoints > 0 ? std::sqrt(sum / static_cast<double>(own.matchedPoints)) : 0.0);
+            own.rmsCells.push_back(own.matchedPoints > 0 ? std::sqrt(sum / static_cast<double>(own.matchedPoints))
+                                                         : 0.0);
     }
     return score;
 }

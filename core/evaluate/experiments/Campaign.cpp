@@ -53,7 +53,8 @@ Experiment experimentFromJson(const Json &json, const std::string &where)
         return injectionExperimentFromJson(json, where);
     if (kind == "sweep")
         return sweepExperimentFromJson(json, where);
-    throw Error(jsonName(where, "kind") + (kind.is_string() ? " = " + kind.get<std::string>() : ""), "must be lines, injection or sweep");
+    throw Error(jsonName(where, "kind") + (kind.is_string() ? " = " + kind.get<std::string>() : ""),
+                "must be lines, injection or sweep");
 }
 
 Json toJson(const Experiment &experiment)
@@ -89,7 +90,8 @@ std::vector<DetectorUnderTest> detectorsOf(const Experiment &experiment)
     return std::visit(Overloaded{[](const SweepExperiment &sweep) {
                                      std::vector<DetectorUnderTest> detectors;
                                      for (std::size_t i = 0; i < sweep.values.size(); ++i)
-                                         detectors.push_back({sweep.parameter + " = " + formatNumber(sweep.values[i]), settingsAt(sweep, i)});
+                                         detectors.push_back({sweep.parameter + " = " + formatNumber(sweep.values[i]),
+                                                              settingsAt(sweep, i)});
                                      return detectors;
                                  },
                                  [](const auto &one) { return one.detectors; }},
@@ -118,10 +120,12 @@ void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext
         done.insert(outcome.run);
     std::vector<int> open;
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(open), [&](int run) { return !done.contains(run); });
-    const auto outcomes = std::visit(
-        Overloaded{[&](const LineExperiment &lines) { return runExperiment(lines, open, context, sink); },
-                   [&](const auto &one) { return trialsOf(one, context.part(0.0, 0.1)).run(open, context.part(0.1, 1.0), sink); }},
-        campaign.experiment);
+    const auto outcomes =
+        std::visit(Overloaded{[&](const LineExperiment &lines) { return runExperiment(lines, open, context, sink); },
+                              [&](const auto &one) {
+                                  return trialsOf(one, context.part(0.0, 0.1)).run(open, context.part(0.1, 1.0), sink);
+                              }},
+                   campaign.experiment);
     campaign.outcomes.insert(campaign.outcomes.end(), outcomes.begin(), outcomes.end());
     std::sort(campaign.outcomes.begin(), campaign.outcomes.end(), inRunOrder);
 }
@@ -142,7 +146,8 @@ Campaign merge(std::vector<Campaign> parts)
     Campaign whole = std::move(parts.front());
     for (std::size_t i = 1; i < parts.size(); ++i) {
         if (!(parts[i].experiment == whole.experiment) || parts[i].thresholds != whole.thresholds)
-            throw Error("merge: part " + std::to_string(i + 1), "belongs to a different experiment than the first part");
+            throw Error("merge: part " + std::to_string(i + 1),
+                        "belongs to a different experiment than the first part");
         whole.outcomes.insert(whole.outcomes.end(), parts[i].outcomes.begin(), parts[i].outcomes.end());
     }
     std::stable_sort(whole.outcomes.begin(), whole.outcomes.end(), inRunOrder);
@@ -150,8 +155,10 @@ Campaign merge(std::vector<Campaign> parts)
         if (whole.outcomes[i].run == whole.outcomes[i - 1].run)
             throw Error("merge", "run " + std::to_string(whole.outcomes[i].run) + " is in two parts");
     for (int run = 0; run < runCount(whole.experiment); ++run)
-        if (static_cast<std::size_t>(run) >= whole.outcomes.size() || whole.outcomes[static_cast<std::size_t>(run)].run != run)
-            throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(runCount(whole.experiment)) + " is missing from all parts; add the missing shard");
+        if (static_cast<std::size_t>(run) >= whole.outcomes.size()
+            || whole.outcomes[static_cast<std::size_t>(run)].run != run)
+            throw Error("merge", "run " + std::to_string(run) + " of " + std::to_string(runCount(whole.experiment))
+                                     + " is missing from all parts; add the missing shard");
     return whole;
 }
 

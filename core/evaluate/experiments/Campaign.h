@@ -39,9 +39,10 @@ struct Campaign {
     std::vector<RunOutcome> outcomes; ///< ascending in run
 };
 
-/// Does those of `runs` that `campaign` does not hold yet and adds them; `sink` sees every new one. For a new campaign only the
-/// experiment is set. Results do not depend on how the work is divided. Throws Error, Cancelled.
-void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context = {}, const RunSink &sink = {});
+/// Does those of `runs` that `campaign` does not hold yet and adds them; `sink` sees every new one. For a new campaign
+/// only the experiment is set. Results do not depend on how the work is divided. Throws Error, Cancelled.
+void carryOut(Campaign &campaign, const std::vector<int> &runs, const RunContext &context = {},
+              const RunSink &sink = {});
 
 /// Prepares a campaign: calibrates thresholds where the experiment asks for them.
 Campaign begin(const Experiment &experiment, const RunContext &context = {});

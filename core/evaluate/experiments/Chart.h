@@ -17,7 +17,7 @@ struct Curve {
     struct Point {
         double x = 0.0;
         double y = 0.0;
-        Interval interval; ///< low = high = 0 if there is no interval
+        Interval interval;   ///< low = high = 0 if there is no interval
         std::string label{}; ///< written beside it; empty: nothing
     };
 

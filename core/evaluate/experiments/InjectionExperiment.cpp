@@ -4,8 +4,8 @@
 #include "analysis/chain.h"
 #include "analysis/slopeUnit.h"
 #include "base/Error.h"
-#include "base/parallel.h"
 #include "base/Random.h"
+#include "base/parallel.h"
 #include "evaluate/experiments/SignalMask.h"
 #include "evaluate/experiments/measuredThreshold.h"
 #include "recording/InjectedRecording.h"
@@ -25,7 +25,7 @@ namespace {
     constexpr Index framesBefore = 100; ///< for detectors to settle before the line begins
     constexpr double cellsAside = 24.0; ///< of the band looked at, beyond the line's own travel
     constexpr double cellsOfBlock = 12.0;
-    constexpr double cellsToSignals = 2.0; ///< of a line's path from the nearest one
+    constexpr double cellsToSignals = 2.0;  ///< of a line's path from the nearest one
     constexpr double certainSignals = 1e-3; ///< of the false alarms asked for, where what is found is a signal
     constexpr int attempts = 1000;
     constexpr float lowest = -std::numeric_limits<float>::infinity();
@@ -39,14 +39,17 @@ namespace {
     }
 
     /// Of one detector, slopes in bins a frame.
-    AnalysisSettings settingsOfDetector(const InjectionExperiment &experiment, std::size_t detector, const RecordingInfo &info)
+    AnalysisSettings settingsOfDetector(const InjectionExperiment &experiment, std::size_t detector,
+                                        const RecordingInfo &info)
     {
         return withSlopesInBins(merged(experiment.settings, experiment.detectors[detector].settings), info);
     }
 
-    /// What the frames of a selection hold, its levels as its background has them: clicks are judged by a whole band only.
+    /// What the frames of a selection hold, its levels as its background has them: clicks are judged by a whole band
+    /// only.
     std::shared_ptr<const NormalisedSpectrogram> framesOf(std::shared_ptr<const Spectrogram> spectrogram,
-                                                          std::shared_ptr<const NoiseBackground> background, NormaliserSettings noise)
+                                                          std::shared_ptr<const NoiseBackground> background,
+                                                          NormaliserSettings noise)
     {
         noise.followLevel = false;
         return std::make_shared<NormalisedSpectrogram>(std::move(spectrogram), std::move(background), noise);
@@ -79,13 +82,15 @@ namespace {
             for (const auto &chain : chains) {
                 chain->update(frame, y, statistic);
                 for (const CellBox &box : chain->inhibited())
-                    mask.add(frame, box.centre.front() - box.halfWidth.front(), box.centre.front() + box.halfWidth.front());
+                    mask.add(frame, box.centre.front() - box.halfWidth.front(),
+                             box.centre.front() + box.halfWidth.front());
             }
         });
         for (std::size_t d = 0; d < chains.size(); ++d) {
             chains[d]->finish();
             const SpectrogramSettings &settings = analyses[d].settings.spectrogram;
-            const auto aside = static_cast<Index>(std::ceil(analyses[d].settings.decide.inhibitCells.front() * frameGeometry(settings).binsPerCell));
+            const auto aside = static_cast<Index>(
+                std::ceil(analyses[d].settings.decide.inhibitCells.front() * frameGeometry(settings).binsPerCell));
             for (const Track &track : chains[d]->tracks())
                 for (const TrackPoint &point : track.points)
                     mask.add(point.frame, point.cell - aside, point.cell + aside);
@@ -101,8 +106,8 @@ namespace {
     };
 
     /// The largest statistic of every detector in each block of the recording that is not signals through and through.
-    std::vector<std::vector<float>> blockMaxima(const std::vector<Analysis> &analyses, const SignalMask &mask, Index blockFrames, Index blockBins,
-                                                const RunContext &context)
+    std::vector<std::vector<float>> blockMaxima(const std::vector<Analysis> &analyses, const SignalMask &mask,
+                                                Index blockFrames, Index blockBins, const RunContext &context)
     {
         const NormalisedFrames &frames = *analyses.front().frames;
         const Index bins = frames.grid().size();
@@ -164,7 +169,8 @@ const std::vector<Field<InjectionExperiment>> &InjectionExperiment::fields()
         field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line."),
         field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander."),
         field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e7, "Correlation time of the wander."),
-        field(&S::falseAlarmsPerHour, "falseAlarmsPerHour", "1/h", 1e-9, 1e9, "False alarms per hour of the whole selection."),
+        field(&S::falseAlarmsPerHour, "falseAlarmsPerHour", "1/h", 1e-9, 1e9,
+              "False alarms per hour of the whole selection."),
     };
     return table;
 }
@@ -193,16 +199,19 @@ Json toJson(const InjectionExperiment &experiment)
     return whole;
 }
 
-InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording, const RunContext &context)
+InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, RecordingPointer recording,
+                                 const RunContext &context)
     : m_experiment(experiment)
 {
     auto shared = std::make_unique<Shared>();
     shared->recording = std::move(recording);
-    shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram, experiment.settings.selection);
+    shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram,
+                                                        experiment.settings.selection);
     const Axis &time = shared->spectrogram->time();
     if (experiment.durationSeconds >= static_cast<double>(time.count) * time.step)
         throw fieldError("durationSeconds", formatNumber(experiment.durationSeconds),
-                    "must be shorter than the selection, " + formatNumber(static_cast<double>(time.count) * time.step) + " s");
+                         "must be shorter than the selection, "
+                             + formatNumber(static_cast<double>(time.count) * time.step) + " s");
     shared->background = estimateBackground(*shared->spectrogram, experiment.settings.noise, context.part(0.0, 0.2));
     const double cellFramesPerHour = static_cast<double>(shared->spectrogram->frequency().count) * 3600.0 / time.step;
     const double ordered = experiment.falseAlarmsPerHour / cellFramesPerHour;
@@ -211,8 +220,9 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
     for (std::size_t d = 0; d < experiment.detectors.size(); ++d) {
         const AnalysisSettings settings = settingsOfDetector(experiment, d, shared->spectrogram->recording().info());
         const auto n = static_cast<double>(experiment.detectors.size());
-        const auto calibration =
-            calibrateBand(settings, shared->spectrogram->frequency().count, context.part(0.2 + 0.6 * static_cast<double>(d) / n, 0.2 + 0.6 * static_cast<double>(d + 1) / n));
+        const auto calibration = calibrateBand(
+            settings, shared->spectrogram->frequency().count,
+            context.part(0.2 + 0.6 * static_cast<double>(d) / n, 0.2 + 0.6 * static_cast<double>(d + 1) / n));
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);
         shared->rules.push_back(smd ? resetRule(*smd, calibration->lnK) : ResetRule{});
         Analysis analysis;
@@ -224,11 +234,12 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
         analyses.push_back(std::move(analysis));
     }
     shared->signals = signalsFoundBy(analyses, context.part(0.8, 0.9));
-    const auto blockFrames = std::max<Index>(1, static_cast<Index>(std::lround(experiment.durationSeconds / time.step)));
+    const auto blockFrames =
+        std::max<Index>(1, static_cast<Index>(std::lround(experiment.durationSeconds / time.step)));
     const auto blockBins = static_cast<Index>(std::lround(cellsOfBlock * shared->spectrogram->binsPerCell()));
     const auto maxima = blockMaxima(analyses, *shared->signals, blockFrames, blockBins, context.part(0.9, 1.0));
-    const double falseAlarms =
-        ordered * shared->signals->freeShare() * static_cast<double>(time.count) * static_cast<double>(frames->grid().size());
+    const double falseAlarms = ordered * shared->signals->freeShare() * static_cast<double>(time.count)
+                               * static_cast<double>(frames->grid().size());
     for (std::size_t d = 0; d < analyses.size(); ++d)
         m_thresholds.push_back(measuredThreshold(maxima[d], falseAlarms, *analyses[d].calibration, ordered));
     m_shared = std::move(shared);
@@ -253,7 +264,7 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
     const double high = frequency.last() - margin - std::max(0.0, travel);
     if (!(low < high))
         throw Error("driftHzPerSecond, wanderHz", "a line must stay within the selected band of "
-                        + formatNumber(frequency.last() - frequency.first) + " Hz");
+                                                      + formatNumber(frequency.last() - frequency.first) + " Hz");
     InjectedLine injected;
     LineSettings &line = injected.line;
     line.snrDb = snrDb;
@@ -261,10 +272,12 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
     line.durationSeconds = m_experiment.durationSeconds;
     double offsetHz = 0.0;
     const auto isFree = [&] {
-        const auto aside = static_cast<Index>(std::ceil(cellsToSignals * spectrogram.binsPerCell() + 4.0 * m_experiment.wanderHz / frequency.step));
+        const auto aside = static_cast<Index>(
+            std::ceil(cellsToSignals * spectrogram.binsPerCell() + 4.0 * m_experiment.wanderHz / frequency.step));
         const auto last = static_cast<Index>(std::ceil(time.position(line.startSeconds + line.durationSeconds)));
         for (auto frame = static_cast<Index>(std::floor(time.position(line.startSeconds))); frame <= last; ++frame) {
-            const double elapsed = std::clamp(time.value(static_cast<double>(frame)) - line.startSeconds, 0.0, line.durationSeconds);
+            const double elapsed =
+                std::clamp(time.value(static_cast<double>(frame)) - line.startSeconds, 0.0, line.durationSeconds);
             const Index bin = frequency.nearest(offsetHz + m_experiment.driftHzPerSecond * elapsed);
             if (m_shared->signals->touches(frame, bin - aside, bin + aside))
                 return false;
@@ -278,21 +291,24 @@ InjectionTrials::Made InjectionTrials::remake(int trial, double snrDb) const
     } while (!isFree() && ++attempt < attempts);
     if (attempt == attempts)
         throw fieldError("durationSeconds", formatNumber(m_experiment.durationSeconds),
-                    "must be shorter: no part of the selection is free of signals for that long");
+                         "must be shorter: no part of the selection is free of signals for that long");
     line.frequencyHz = info.centreHz + offsetHz;
     line.driftHzPerSecond = m_experiment.driftHzPerSecond;
     line.wanderHz = m_experiment.wanderHz;
     line.wanderSeconds = m_experiment.wanderSeconds;
     const double middle = line.startSeconds + 0.5 * line.durationSeconds;
     const double noisePower = std::exp(m_shared->background->lnPowerAt(middle, offsetHz + 0.5 * travel));
-    injected.amplitude = toneAmplitude(snrDb, noisePower, static_cast<double>(spectrogram.windowSamples()), info.isComplex);
+    injected.amplitude =
+        toneAmplitude(snrDb, noisePower, static_cast<double>(spectrogram.windowSamples()), info.isComplex);
     // The tone's phase and wander belong to the trial too.
     const std::uint64_t own = seed * 1000003 + static_cast<std::uint64_t>(trial);
-    const auto made = std::make_shared<InjectedRecording>(m_shared->recording, std::vector{injected}, m_experiment.settings.selection.channel, own);
+    const auto made = std::make_shared<InjectedRecording>(m_shared->recording, std::vector{injected},
+                                                          m_experiment.settings.selection.channel, own);
     return {made, made->truth().lines.front()};
 }
 
-std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, const RunContext &context, const RunSink &sink) const
+std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, const RunContext &context,
+                                             const RunSink &sink) const
 {
     const Spectrogram &whole = *m_shared->spectrogram;
     const double centreHz = m_shared->recording->info().centreHz;
@@ -308,9 +324,12 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
         selection.lowHz = std::max(frequency.first, *low - centreHz - cellsAside * cellHz);
         selection.highHz = std::min(frequency.last(), *high - centreHz + cellsAside * cellHz);
         const Axis &time = whole.time();
-        const Index lastNeeded = std::min(time.count - 1, static_cast<Index>(std::ceil(time.position(truth.endSeconds))));
-        const Index firstNeeded = std::max<Index>(0, static_cast<Index>(std::floor(time.position(truth.startSeconds))) - framesBefore);
-        const auto spectrogram = std::make_shared<Spectrogram>(hasLine ? made.recording : m_shared->recording, whole.settings(), selection);
+        const Index lastNeeded =
+            std::min(time.count - 1, static_cast<Index>(std::ceil(time.position(truth.endSeconds))));
+        const Index firstNeeded =
+            std::max<Index>(0, static_cast<Index>(std::floor(time.position(truth.startSeconds))) - framesBefore);
+        const auto spectrogram =
+            std::make_shared<Spectrogram>(hasLine ? made.recording : m_shared->recording, whole.settings(), selection);
         const auto frames = framesOf(spectrogram, m_shared->background, m_experiment.settings.noise);
         const Grid &grid = frames->grid();
         const Index firstBin = frequency.nearest(grid.axes.front().first);
@@ -320,19 +339,25 @@ std::vector<RunOutcome> InjectionTrials::run(const std::vector<int> &trials, con
             const AnalysisSettings settings = settingsOfDetector(m_experiment, d, m_shared->recording->info());
             // Blocks stand where they do in the whole recording, and the one that the line ends in is waited for.
             const Index block = framesPerDecision(settings.detector, frameGeometry(settings.spectrogram));
-            const Index blockEnd = block == 1 ? lastNeeded : std::min(time.count - 1, (lastNeeded / block + 1) * block - 1);
+            const Index blockEnd =
+                block == 1 ? lastNeeded : std::min(time.count - 1, (lastNeeded / block + 1) * block - 1);
             looks.push_back({firstNeeded / block * block, blockEnd, block > 1});
-            detectorsUnderTest.push_back(makeDetector(settings.detector, makeModel(settings.model, grid), grid, frameGeometry(settings.spectrogram),
-                                         m_shared->rules[d]));
+            detectorsUnderTest.push_back(makeDetector(settings.detector, makeModel(settings.model, grid), grid,
+                                                      frameGeometry(settings.spectrogram), m_shared->rules[d]));
         }
         std::vector<float> largest(detectors, lowest);
         std::vector<float> y(static_cast<std::size_t>(grid.size()));
         std::vector<float> statistic(y.size());
         const Axis &axis = grid.axes.front();
         const auto onLine = static_cast<Index>(std::floor(0.5 * whole.binsPerCell()));
-        const auto afterIt = static_cast<Index>(std::ceil(m_experiment.settings.decide.inhibitCells.front() * whole.binsPerCell()));
-        const Index first = std::min_element(looks.begin(), looks.end(), [](const Look &a, const Look &b) { return a.first < b.first; })->first;
-        const Index last = std::max_element(looks.begin(), looks.end(), [](const Look &a, const Look &b) { return a.last < b.last; })->last;
+        const auto afterIt =
+            static_cast<Index>(std::ceil(m_experiment.settings.decide.inhibitCells.front() * whole.binsPerCell()));
+        const Index first = std::min_element(looks.begin(), looks.end(), [](const Look &a, const Look &b) {
+                                return a.first < b.first;
+                            })->first;
+        const Index last = std::max_element(looks.begin(), looks.end(), [](const Look &a, const Look &b) {
+                               return a.last < b.last;
+                           })->last;
         for (Index frame = first; frame <= last; ++frame) {
             frames->read(frame, 1, y);
             m_shared->signals->blank(frame, firstBin, y);

@@ -2,10 +2,10 @@
 
 #include "analysis/Calibration.h"
 #include "base/Error.h"
+#include "base/Random.h"
 #include "base/logmath.h"
 #include "base/multiversion.h"
 #include "base/parallel.h"
-#include "base/Random.h"
 #include "recording/Tone.h"
 #include "spectrum/Fft.h"
 
@@ -44,8 +44,8 @@ namespace {
         info.sampleRateHz = LineExperiment::windowSamples;
         info.isComplex = true;
         info.centreHz = 0.5 * LineExperiment::windowSamples; // frequencies 0 … 250 cells
-        info.sampleCount = static_cast<Index>(LineExperiment::windowSamples) * (experiment.frames + experiment.stepsPerWindow - 1)
-            / experiment.stepsPerWindow;
+        info.sampleCount = static_cast<Index>(LineExperiment::windowSamples)
+                           * (experiment.frames + experiment.stepsPerWindow - 1) / experiment.stepsPerWindow;
         return info;
     }
 
@@ -54,9 +54,9 @@ namespace {
     {
     public:
         explicit Transform(const LineExperiment &experiment)
-            : m_hop(LineExperiment::windowSamples / experiment.stepsPerWindow), m_frames(experiment.frames), m_bins(experiment.bins()),
-              m_window(sampleWindow(experiment.window, LineExperiment::windowSamples)), m_fft(experiment.bins(), Fft::Input::Complex),
-              m_buffer(m_fft.buffer())
+            : m_hop(LineExperiment::windowSamples / experiment.stepsPerWindow), m_frames(experiment.frames),
+              m_bins(experiment.bins()), m_window(sampleWindow(experiment.window, LineExperiment::windowSamples)),
+              m_fft(experiment.bins(), Fft::Input::Complex), m_buffer(m_fft.buffer())
         {
         }
 
@@ -91,7 +91,8 @@ namespace {
     };
 
     /// The bin where a signal is strongest, near where its frequency says.
-    Index strongestBin(const LineExperiment &experiment, const std::vector<Complex> &signal, Index frame, double cells, Index lowest)
+    Index strongestBin(const LineExperiment &experiment, const std::vector<Complex> &signal, Index frame, double cells,
+                       Index lowest)
     {
         const auto expected = static_cast<Index>(std::lround(cells * experiment.binsPerCell));
         const Index reach = 2 * experiment.binsPerCell;
@@ -141,7 +142,7 @@ namespace {
             Place place;
             const Index room = experiment.blockFrames - experiment.signalFrames() + 1;
             place.firstFrame = static_cast<Index>(blockInTime) * experiment.blockFrames
-                + std::min(room - 1, static_cast<Index>(places.uniform() * static_cast<double>(room)));
+                               + std::min(room - 1, static_cast<Index>(places.uniform() * static_cast<double>(room)));
             const double margin = 1.0;
             const double lowest = blockInFrequency * blockCells + margin + std::max(0.0, -travel);
             const double highest = (blockInFrequency + 1) * blockCells - margin - std::max(0.0, travel);
@@ -168,7 +169,8 @@ namespace {
             for (Index k = 0; k < experiment.signalFrames(); ++k) {
                 const Index frame = place.firstFrame + k;
                 const double start = static_cast<double>(frame) / experiment.stepsPerWindow;
-                place.bins.push_back(strongestBin(experiment, field.signal, frame, meanFrequency(truths[i], start), lowest));
+                place.bins.push_back(
+                    strongestBin(experiment, field.signal, frame, meanFrequency(truths[i], start), lowest));
             }
         }
         return field;
@@ -187,7 +189,9 @@ namespace {
 
     void powerOf(const NoisyField &field, Index bins, Index frame, float amplitude, std::span<float> y)
     {
-        const auto row = [&](const std::vector<Complex> &values) { return reinterpret_cast<const float *>(values.data() + frame * bins); };
+        const auto row = [&](const std::vector<Complex> &values) {
+            return reinterpret_cast<const float *>(values.data() + frame * bins);
+        };
         power(row(field.noise), row(field.signal), amplitude, bins, y.data());
     }
 
@@ -216,9 +220,12 @@ namespace {
                 std::vector<float> y(field.noise.size());
                 const Index bins = experiment.bins();
                 for (Index frame = 0; frame < experiment.frames; ++frame)
-                    powerOf(field, bins, frame, 0.0f, std::span(y).subspan(static_cast<std::size_t>(frame * bins), static_cast<std::size_t>(bins)));
+                    powerOf(
+                        field, bins, frame, 0.0f,
+                        std::span(y).subspan(static_cast<std::size_t>(frame * bins), static_cast<std::size_t>(bins)));
                 const Axis time{"time", "windows", 0.0, 1.0 / experiment.stepsPerWindow, experiment.frames, false};
-                noise[static_cast<std::size_t>(i)] = std::make_shared<FrameArray>(time, gridOf(experiment), std::move(y));
+                noise[static_cast<std::size_t>(i)] =
+                    std::make_shared<FrameArray>(time, gridOf(experiment), std::move(y));
             };
         });
         return noise;
@@ -228,7 +235,9 @@ namespace {
     {
         std::vector<Recipe> recipes;
         for (const DetectorUnderTest &detectorUnderTest : experiment.detectors)
-            recipes.push_back({makeModel(detectorUnderTest.settings.model, gridOf(experiment)), detectorUnderTest.settings.detector, {}});
+            recipes.push_back({makeModel(detectorUnderTest.settings.model, gridOf(experiment)),
+                               detectorUnderTest.settings.detector,
+                               {}});
         const auto noise = calibrationNoise(experiment, context);
         parallelFor(std::ssize(recipes), context, "calibrating K on noise", [&] {
             return [&](Index i) {
@@ -245,15 +254,16 @@ namespace {
         return {static_cast<double>(experiment.stepsPerWindow), static_cast<double>(experiment.binsPerCell)};
     }
 
-    /// Lines begin at random in their noise blocks, a detector's own blocks at random in the run: by the golden ratio, so that few runs already
-    /// have all phases.
+    /// Lines begin at random in their noise blocks, a detector's own blocks at random in the run: by the golden ratio,
+    /// so that few runs already have all phases.
     Index blockPhase(int run, Index framesPerBlock)
     {
         const double turns = 0.6180339887498949 * (run + 1);
         return static_cast<Index>((turns - std::floor(turns)) * static_cast<double>(framesPerBlock));
     }
 
-    std::vector<std::unique_ptr<Detector>> detectorsOf(const LineExperiment &experiment, const std::vector<Recipe> &recipes, int run)
+    std::vector<std::unique_ptr<Detector>> detectorsOf(const LineExperiment &experiment,
+                                                       const std::vector<Recipe> &recipes, int run)
     {
         std::vector<std::unique_ptr<Detector>> detectors;
         for (const Recipe &recipe : recipes) {
@@ -268,8 +278,8 @@ namespace {
 
     /// Runs all detectors over the frames of a run's field; look(detector, frame, statistic) sees each.
     template <class Look>
-    void detect(const LineExperiment &experiment, int run, const std::vector<Recipe> &recipes, const NoisyField &field, float amplitude,
-                Index frames, Look look)
+    void detect(const LineExperiment &experiment, int run, const std::vector<Recipe> &recipes, const NoisyField &field,
+                float amplitude, Index frames, Look look)
     {
         const auto detectors = detectorsOf(experiment, recipes, run);
         std::vector<float> y(static_cast<std::size_t>(experiment.bins()));
@@ -283,7 +293,8 @@ namespace {
         }
     }
 
-    RunOutcome doRun(const LineExperiment &experiment, int run, const std::vector<Recipe> &recipes, Transform &transform)
+    RunOutcome doRun(const LineExperiment &experiment, int run, const std::vector<Recipe> &recipes,
+                     Transform &transform)
     {
         const NoisyField field = makeField(experiment, run, transform);
         const auto signals = static_cast<std::size_t>(experiment.signalsPerRun());
@@ -291,22 +302,24 @@ namespace {
         outcome.run = run;
         outcome.noise.assign(recipes.size(), std::vector<float>(signals, lowest));
         const Index frames = static_cast<Index>(experiment.blocksInTime()) * experiment.blockFrames;
-        detect(experiment, run, recipes, field, 0.0f, frames, [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
-            const Index row = frame / experiment.blockFrames * experiment.blocksInFrequency();
-            for (Index column = 0; column < experiment.blocksInFrequency(); ++column) {
-                const auto from = statistic.begin() + column * experiment.blockBins;
-                float &largest = outcome.noise[d][static_cast<std::size_t>(row + column)];
-                largest = std::max(largest, *std::max_element(from, from + experiment.blockBins));
-            }
-        });
-        // A detector that decides at the end of blocks is read at the first one after the line, too, one resolution cell to either side of where
-        // that ended: at the latest, a block after it. In the frames between it says -∞.
+        detect(experiment, run, recipes, field, 0.0f, frames,
+               [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
+                   const Index row = frame / experiment.blockFrames * experiment.blocksInFrequency();
+                   for (Index column = 0; column < experiment.blocksInFrequency(); ++column) {
+                       const auto from = statistic.begin() + column * experiment.blockBins;
+                       float &largest = outcome.noise[d][static_cast<std::size_t>(row + column)];
+                       largest = std::max(largest, *std::max_element(from, from + experiment.blockBins));
+                   }
+               });
+        // A detector that decides at the end of blocks is read at the first one after the line, too, one resolution
+        // cell to either side of where that ended: at the latest, a block after it. In the frames between it says -∞.
         std::vector<Index> waits;
         for (const Recipe &recipe : recipes)
             waits.push_back(framesPerDecision(recipe.detector, geometryOf(experiment)) - 1);
         const Index longestWait = *std::max_element(waits.begin(), waits.end());
         const Index onLine = experiment.binsPerCell;
-        outcome.signal.assign(recipes.size(), std::vector<std::vector<float>>(experiment.snrDb.size(), std::vector<float>(signals, lowest)));
+        outcome.signal.assign(recipes.size(), std::vector<std::vector<float>>(experiment.snrDb.size(),
+                                                                              std::vector<float>(signals, lowest)));
         for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
             const auto amplitude = static_cast<float>(std::sqrt(ratioFromDb(experiment.snrDb[s])));
             const auto see = [&](std::size_t d, Index frame, const std::vector<float> &statistic) {
@@ -317,11 +330,13 @@ namespace {
                         continue;
                     float &largest = outcome.signal[d][s][i];
                     if (k < std::ssize(place.bins)) {
-                        largest = std::max(largest, statistic[static_cast<std::size_t>(place.bins[static_cast<std::size_t>(k)])]);
+                        largest = std::max(
+                            largest, statistic[static_cast<std::size_t>(place.bins[static_cast<std::size_t>(k)])]);
                         continue;
                     }
                     const Index end = place.bins.back();
-                    for (Index bin = std::max<Index>(0, end - onLine); bin <= std::min<Index>(experiment.bins() - 1, end + onLine); ++bin)
+                    for (Index bin = std::max<Index>(0, end - onLine);
+                         bin <= std::min<Index>(experiment.bins() - 1, end + onLine); ++bin)
                         largest = std::max(largest, statistic[static_cast<std::size_t>(bin)]);
                 }
             };
@@ -368,17 +383,18 @@ void checkExperiment(const LineExperiment &experiment)
     if (experiment.snrDb.empty())
         throw Error("snrDb", "must hold at least one value");
     if (LineExperiment::windowSamples % experiment.stepsPerWindow != 0)
-        throw fieldError("stepsPerWindow", std::to_string(experiment.stepsPerWindow), "must divide 250, the samples of a window");
+        throw fieldError("stepsPerWindow", std::to_string(experiment.stepsPerWindow),
+                         "must divide 250, the samples of a window");
     if (experiment.blocksInTime() < 1 || experiment.blocksInFrequency() < 1)
-        throw Error("blockFrames, blockBins", "a block must fit into the field of " + std::to_string(experiment.frames) + " × "
-                        + std::to_string(experiment.bins()) + " cells");
+        throw Error("blockFrames, blockBins", "a block must fit into the field of " + std::to_string(experiment.frames)
+                                                  + " × " + std::to_string(experiment.bins()) + " cells");
     if (experiment.signalFrames() < 1 || experiment.signalFrames() > experiment.blockFrames)
-        throw fieldError("durationWindows", formatNumber(experiment.durationWindows), "a line must last 1 … blockFrames = "
-                        + std::to_string(experiment.blockFrames) + " frames");
+        throw fieldError("durationWindows", formatNumber(experiment.durationWindows),
+                         "a line must last 1 … blockFrames = " + std::to_string(experiment.blockFrames) + " frames");
     const double room = static_cast<double>(experiment.blockBins) / experiment.binsPerCell - 4.0;
     if (std::abs(experiment.driftCellsPerWindow) * experiment.durationWindows + 4.0 * experiment.wanderCells > room)
         throw Error("driftCellsPerWindow, wanderCells", "a line must stay within its block of blockBins = "
-                        + std::to_string(experiment.blockBins) + " bins");
+                                                            + std::to_string(experiment.blockBins) + " bins");
     for (const DetectorUnderTest &detectorUnderTest : experiment.detectors)
         checkSettings(detectorUnderTest.settings);
 }
@@ -407,7 +423,8 @@ Json toJson(const std::vector<DetectorUnderTest> &detectorsUnderTest)
 {
     Json list = Json::array();
     for (const DetectorUnderTest &detectorUnderTest : detectorsUnderTest)
-        list.push_back({{"name", detectorUnderTest.name}, {"settings", Json::parse(settingsToJson(detectorUnderTest.settings))}});
+        list.push_back(
+            {{"name", detectorUnderTest.name}, {"settings", Json::parse(settingsToJson(detectorUnderTest.settings))}});
     return list;
 }
 
@@ -437,8 +454,8 @@ std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const 
     return rules;
 }
 
-std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs, const RunContext &context,
-                                      const RunSink &sink)
+std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs,
+                                      const RunContext &context, const RunSink &sink)
 {
     checkExperiment(experiment);
     const std::vector<Recipe> recipes = recipesOf(experiment, context.part(0.0, 0.1));
@@ -472,8 +489,12 @@ LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, i
     }
     LineTrial trial;
     const Axis time{"time", "windows", 0.0, 1.0 / experiment.stepsPerWindow, experiment.blockFrames, false};
-    const Axis frequency{"frequency", "cells", static_cast<double>(firstBin) / experiment.binsPerCell, 1.0 / experiment.binsPerCell,
-                         experiment.blockBins, false};
+    const Axis frequency{"frequency",
+                         "cells",
+                         static_cast<double>(firstBin) / experiment.binsPerCell,
+                         1.0 / experiment.binsPerCell,
+                         experiment.blockBins,
+                         false};
     trial.frames = std::make_shared<FrameArray>(time, Grid{{frequency}}, std::move(block));
     const Place &place = field.places[static_cast<std::size_t>(signal)];
     trial.firstFrame = place.firstFrame - firstFrame;

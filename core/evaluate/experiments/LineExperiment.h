@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/AnalysisSettings.h"
-#include "base/json.h"
 #include "base/RunContext.h"
+#include "base/json.h"
 #include "recording/LineScene.h"
 #include "spectrum/NormalisedFrames.h"
 
@@ -26,9 +26,9 @@ Json toJson(const std::vector<DetectorUnderTest> &detectorsUnderTest);
 
 /// Detection of simulated lines in white noise, as in Billon 2005 section 5.
 ///
-/// A *run* is a field of `frames` × `bins` cells of noise alone and the same noise with one line in each of its blocks of
-/// `blockFrames` × `blockBins` cells. All lines of a run have the same SNR, duration and wander; onset, frequency and phase are
-/// random. Frequencies are measured in resolution cells 1/T_FT, times in windows T_FT.
+/// A *run* is a field of `frames` × `bins` cells of noise alone and the same noise with one line in each of its blocks
+/// of `blockFrames` × `blockBins` cells. All lines of a run have the same SNR, duration and wander; onset, frequency
+/// and phase are random. Frequencies are measured in resolution cells 1/T_FT, times in windows T_FT.
 struct LineExperiment {
     int seed = 1;
     int runs = 20;
@@ -61,7 +61,8 @@ struct LineExperiment {
 /// Throws Error where lines do not fit into their blocks, or there is no SNR or detector.
 void checkExperiment(const LineExperiment &experiment);
 
-/// {"kind": "lines", "snrDb": […], …, "detectors": [{"name": …, "settings": {"model.lowestSlope": 0, …}}]}; throws Error.
+/// {"kind": "lines", "snrDb": […], …, "detectors": [{"name": …, "settings": {"model.lowestSlope": 0, …}}]}; throws
+/// Error.
 LineExperiment lineExperimentFromJson(const Json &json, const std::string &where);
 Json toJson(const LineExperiment &experiment);
 
@@ -76,7 +77,8 @@ struct RunOutcome {
     bool operator==(const RunOutcome &) const = default;
 };
 
-/// The reset rule of every detector of the experiment, K found on the experiment's own noise (default for those without one).
+/// The reset rule of every detector of the experiment, K found on the experiment's own noise (default for those without
+/// one).
 std::vector<ResetRule> calibratedResets(const LineExperiment &experiment, const RunContext &context = {});
 
 /// Called with every finished run, in any order, from one thread at a time.
@@ -84,14 +86,15 @@ using RunSink = std::function<void(const RunOutcome &)>;
 
 /// Does the given runs, on context.threads threads; the answer is in the order of `runs` and depends on nothing but the
 /// experiment. K of sequential Markov detectors is calibrated first. Throws Error, Cancelled.
-std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs, const RunContext &context = {},
-                                      const RunSink &sink = {});
+std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const std::vector<int> &runs,
+                                      const RunContext &context = {}, const RunSink &sink = {});
 
 /// One signal of one run made again, by itself.
 struct LineTrial {
-    std::shared_ptr<const FrameArray> frames; ///< its block, y with noise of mean 1; bins as frequency in cells, frames as windows
-    Index firstFrame = 0;                     ///< of the line, in the block
-    std::vector<Index> path;                  ///< its bin in the block, one per frame of its duration
+    std::shared_ptr<const FrameArray>
+        frames;              ///< its block, y with noise of mean 1; bins as frequency in cells, frames as windows
+    Index firstFrame = 0;    ///< of the line, in the block
+    std::vector<Index> path; ///< its bin in the block, one per frame of its duration
 };
 LineTrial remakeTrial(const LineExperiment &experiment, double snrDb, int run, int signal);
 

@@ -43,7 +43,8 @@ namespace {
 
 } // namespace
 
-PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr)
+PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
+                        std::size_t snr)
 {
     PdPoint point;
     point.snrDb = experiment.snrDb[snr];
@@ -72,8 +73,8 @@ PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOut
     return point;
 }
 
-PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr,
-                      double threshold)
+PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
+                      std::size_t snr, double threshold)
 {
     return pdOf(pooledSignal(outcomes, detector, snr), experiment.snrDb[snr], threshold);
 }
@@ -82,11 +83,13 @@ double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector
 {
     const std::vector<float> maxima = pooledNoise(outcomes, detector);
     const double position = (1.0 - probability) * static_cast<double>(maxima.size());
-    const auto index = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::ceil(position)) - 1, 0, std::ssize(maxima) - 1);
+    const auto index =
+        std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(std::ceil(position)) - 1, 0, std::ssize(maxima) - 1);
     return static_cast<double>(maxima[static_cast<std::size_t>(index)]);
 }
 
-std::vector<RocPoint> rocCurve(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr)
+std::vector<RocPoint> rocCurve(const LineExperiment &experiment, std::span<const RunOutcome> outcomes,
+                               std::size_t detector, std::size_t snr)
 {
     std::vector<float> thresholds = pooledNoise(outcomes, detector);
     const auto blocks = static_cast<double>(thresholds.size());

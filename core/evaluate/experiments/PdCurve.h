@@ -22,13 +22,14 @@ struct PdPoint {
 ///
 ///   Pd = (1/I²) Σᵢ Σⱼ [ D₁ᵢ > D₀ⱼ ]   per run, averaged over the runs; strictly greater
 ///
-/// D₁ᵢ the largest statistic on signal i, D₀ⱼ that of noise block j: every block's maximum serves as threshold once. The
-/// interval comes from the scatter of the runs (Wilson's, of the signals, where there are fewer than five).
-PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr);
+/// D₁ᵢ the largest statistic on signal i, D₀ⱼ that of noise block j: every block's maximum serves as threshold once.
+/// The interval comes from the scatter of the runs (Wilson's, of the signals, where there are fewer than five).
+PdPoint pdAgainstBlocks(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
+                        std::size_t snr);
 
 /// The detection probability at a fixed threshold, with Wilson's interval.
-PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr,
-                      double threshold);
+PdPoint pdAtThreshold(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector,
+                      std::size_t snr, double threshold);
 
 /// The threshold that a noise block exceeds with the given probability: a quantile of all blocks' maxima.
 double blockThreshold(std::span<const RunOutcome> outcomes, std::size_t detector, double probability);
@@ -41,7 +42,9 @@ struct RocPoint {
     Interval interval;
 };
 
-/// Pd against false alarms as the threshold falls, one point for every noise block's maximum that differs; ascending in false alarms.
-std::vector<RocPoint> rocCurve(const LineExperiment &experiment, std::span<const RunOutcome> outcomes, std::size_t detector, std::size_t snr);
+/// Pd against false alarms as the threshold falls, one point for every noise block's maximum that differs; ascending in
+/// false alarms.
+std::vector<RocPoint> rocCurve(const LineExperiment &experiment, std::span<const RunOutcome> outcomes,
+                               std::size_t detector, std::size_t snr);
 
 } // namespace faintline

@@ -30,7 +30,8 @@ namespace {
         return plan;
     }
 
-    std::shared_ptr<const DetectorState> settle(const PingExperiment &experiment, const AnalysisPlan &plan, const ResetRule &rule, const RunContext &context)
+    std::shared_ptr<const DetectorState> settle(const PingExperiment &experiment, const AnalysisPlan &plan,
+                                                const ResetRule &rule, const RunContext &context)
     {
         PingScene scene = seeded(experiment.scene, experiment.seed);
         scene.targets.clear();
@@ -47,8 +48,8 @@ namespace {
         return detector.state();
     }
 
-    TrackScore runOnce(const PingExperiment &experiment, const AnalysisPlan &plan, const ResetRule &rule, const DetectorState &settled,
-                       std::uint64_t run, const RunContext &context)
+    TrackScore runOnce(const PingExperiment &experiment, const AnalysisPlan &plan, const ResetRule &rule,
+                       const DetectorState &settled, std::uint64_t run, const RunContext &context)
     {
         const SimulatedPings pings(seeded(experiment.scene, experiment.seed + 7919u * (run + 1)));
         auto detector = std::make_unique<Smd>(plan.model, rule);

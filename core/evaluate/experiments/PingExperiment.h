@@ -9,8 +9,8 @@
 
 namespace faintline {
 
-/// The whole chain of Parsons' Figure 1 against known targets: independent runs, each with noise of its own, all of them from one
-/// field of settled noise.
+/// The whole chain of Parsons' Figure 1 against known targets: independent runs, each with noise of its own, all of
+/// them from one field of settled noise.
 struct PingExperiment {
     PingScene scene;           ///< run by run with another seed
     AnalysisSettings settings; ///< one model, threshold in nats
@@ -20,7 +20,8 @@ struct PingExperiment {
     std::vector<Index> gateCells{3, 1};
 };
 
-/// The scores of the runs, in order: a pure function of (experiment, run), independent of the number of threads. Throws Error, Cancelled.
+/// The scores of the runs, in order: a pure function of (experiment, run), independent of the number of threads. Throws
+/// Error, Cancelled.
 std::vector<TrackScore> runPings(const PingExperiment &experiment, const RunContext &context = {});
 
 } // namespace faintline

@@ -13,7 +13,8 @@ void SignalMask::add(Index frame, Index low, Index high)
     if (frame < 0 || frame >= std::ssize(m_stretches) || low > high)
         return;
     auto &stretches = m_stretches[static_cast<std::size_t>(frame)];
-    const auto first = std::find_if(stretches.begin(), stretches.end(), [low](const auto &one) { return one.second + 1 >= low; });
+    const auto first =
+        std::find_if(stretches.begin(), stretches.end(), [low](const auto &one) { return one.second + 1 >= low; });
     auto last = first;
     for (; last != stretches.end() && last->first <= high + 1; ++last) {
         low = std::min(low, last->first);
@@ -27,7 +28,8 @@ bool SignalMask::touches(Index frame, Index low, Index high) const
     if (frame < 0 || frame >= std::ssize(m_stretches))
         return false;
     const auto &stretches = m_stretches[static_cast<std::size_t>(frame)];
-    return std::any_of(stretches.begin(), stretches.end(), [&](const auto &one) { return one.first <= high && one.second >= low; });
+    return std::any_of(stretches.begin(), stretches.end(),
+                       [&](const auto &one) { return one.first <= high && one.second >= low; });
 }
 
 void SignalMask::blank(Index frame, Index firstBin, std::span<float> y) const

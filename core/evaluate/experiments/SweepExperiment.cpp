@@ -5,8 +5,8 @@
 #include "analysis/scaledInjection.h"
 #include "analysis/slopeUnit.h"
 #include "base/Error.h"
-#include "base/parallel.h"
 #include "base/Random.h"
+#include "base/parallel.h"
 #include "evaluate/experiments/measureCost.h"
 #include "recording/InjectedRecording.h"
 #include "recording/SimulatedRecording.h"
@@ -22,8 +22,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double reachCells = 1.5;   ///< of a track around its line
-    constexpr double bandMargin = 0.1;   ///< of the band at either edge, kept free of lines
+    constexpr double reachCells = 1.5; ///< of a track around its line
+    constexpr double bandMargin = 0.1; ///< of the band at either edge, kept free of lines
     constexpr double neverDetected = -std::numeric_limits<double>::infinity();
 
     const Field<AnalysisSettings> &parameterField(const std::string &parameter)
@@ -64,7 +64,8 @@ namespace {
                 ++during;
                 on += isNear ? 1 : 0;
             }
-            isTouching = isTouching || (isNear && seconds >= truth.startSeconds - window && seconds <= truth.endSeconds + window);
+            isTouching = isTouching
+                         || (isNear && seconds >= truth.startSeconds - window && seconds <= truth.endSeconds + window);
         }
         return on > 0 && 2 * on >= during ? Bond::OnIt : isTouching ? Bond::Touches : Bond::None;
     }
@@ -78,10 +79,12 @@ namespace {
             falseAlarms += bond == Bond::None ? 1 : 0;
             if (bond != Bond::OnIt)
                 continue;
-            const double after = std::max(0.0, analysis.time().value(static_cast<double>(track.detectFrame)) - truth.startSeconds);
+            const double after =
+                std::max(0.0, analysis.time().value(static_cast<double>(track.detectFrame)) - truth.startSeconds);
             latency = latency < 0.0 ? after : std::min(latency, after);
         }
-        return sweepOutcome(run, falseAlarms, static_cast<double>(analysis.time().count) * analysis.time().step, latency);
+        return sweepOutcome(run, falseAlarms, static_cast<double>(analysis.time().count) * analysis.time().step,
+                            latency);
     }
 
     /// The values of "values": a list, or a range.
@@ -98,7 +101,8 @@ namespace {
         const auto number = [&](const char *key) {
             if (!found->contains(key))
                 throw Error(jsonName(name, key), "is missing");
-            return std::get<double>(fieldValueFromJson((*found)[key], {jsonName(name, key), "", -1e300, 1e300, "", {}, FieldKind::Number}));
+            return std::get<double>(
+                fieldValueFromJson((*found)[key], {jsonName(name, key), "", -1e300, 1e300, "", {}, FieldKind::Number}));
         };
         const std::string scale = found->value("scale", std::string("linear"));
         if (scale != "linear" && scale != "log")
@@ -123,7 +127,8 @@ const std::vector<Field<SweepExperiment>> &SweepExperiment::fields()
         field(&S::driftHzPerSecond, "driftHzPerSecond", "Hz/s", -1e9, 1e9, "Steady drift of a line."),
         field(&S::wanderHz, "wanderHz", "Hz", 0.0, 1e9, "Standard deviation of a line's wander."),
         field(&S::wanderSeconds, "wanderSeconds", "s", 1e-6, 1e7, "Correlation time of the wander."),
-        field(&S::marginSeconds, "marginSeconds", "s", 0.0, 1e6, "Noise before and after a line, in which false alarms are counted."),
+        field(&S::marginSeconds, "marginSeconds", "s", 0.0, 1e6,
+              "Noise before and after a line, in which false alarms are counted."),
         field(&S::sampleRateHz, "sampleRateHz", "Hz", 1e-3, 1e9, "Sample rate of simulated noise."),
     };
     return table;
@@ -131,8 +136,8 @@ const std::vector<Field<SweepExperiment>> &SweepExperiment::fields()
 
 bool isSweepable(const FieldInfo &field)
 {
-    return (field.kind == FieldKind::Integer || field.kind == FieldKind::Number) && !field.name.starts_with("selection.")
-        && !field.name.starts_with("conventional.");
+    return (field.kind == FieldKind::Integer || field.kind == FieldKind::Number)
+           && !field.name.starts_with("selection.") && !field.name.starts_with("conventional.");
 }
 
 std::vector<double> sweepValues(const std::string &parameter, double from, double to, int steps, bool isLogarithmic)
@@ -146,7 +151,9 @@ std::vector<double> sweepValues(const std::string &parameter, double from, doubl
         double value = isLogarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
         // Nobody wants to read, or type, the digits that a division leaves behind.
         const double scale = std::pow(10.0, 5.0 - std::ceil(std::log10(std::max(std::abs(value), 1e-300))));
-        value = field.kind == FieldKind::Integer ? std::round(value) : value == 0.0 ? 0.0 : std::round(value * scale) / scale;
+        value = field.kind == FieldKind::Integer ? std::round(value)
+                : value == 0.0                   ? 0.0
+                                                 : std::round(value * scale) / scale;
         if (values.empty() || value != values.back())
             values.push_back(value);
     }
@@ -174,7 +181,7 @@ void checkExperiment(const SweepExperiment &experiment)
     constexpr std::size_t mostRuns = 10'000'000;
     if (experiment.values.size() > mostRuns / static_cast<std::size_t>(experiment.trials))
         throw fieldError("trials", std::to_string(experiment.trials),
-                    "times " + std::to_string(experiment.values.size()) + " values exceeds 10 million");
+                         "times " + std::to_string(experiment.values.size()) + " values exceeds 10 million");
     for (std::size_t i = 0; i < experiment.values.size(); ++i)
         settingsAt(experiment, i);
     if (!experiment.recording.empty())
@@ -188,7 +195,8 @@ void checkExperiment(const SweepExperiment &experiment)
 SweepExperiment sweepExperimentFromJson(const Json &json, const std::string &where)
 {
     SweepExperiment experiment;
-    readFields(json, SweepExperiment::fields(), experiment, where, {"kind", "recording", "settings", "parameter", "values"});
+    readFields(json, SweepExperiment::fields(), experiment, where,
+               {"kind", "recording", "settings", "parameter", "values"});
     if (json.contains("recording")) {
         if (!json["recording"].is_string())
             throw Error(jsonName(where, "recording"), "must be the path of a recording");
@@ -243,7 +251,8 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
     checkExperiment(experiment);
     if (m_recording && experiment.trialSeconds() >= m_recording->info().durationSeconds())
         throw Error("durationSeconds, marginSeconds", "a trial of " + formatNumber(experiment.trialSeconds())
-                        + " s must be shorter than the recording, " + formatNumber(m_recording->info().durationSeconds()) + " s");
+                                                          + " s must be shorter than the recording, "
+                                                          + formatNumber(m_recording->info().durationSeconds()) + " s");
     if (experiment.settings.spectrogram.windowSeconds == 0.0) {
         // What is chosen for a recording must not change with the stretch that is looked at.
         RecordingInfo info;
@@ -258,15 +267,19 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
         const AnalysisSettings settings = settingsOfTrial(m_experiment, i, m_recording.get());
         const Made made = remake(static_cast<int>(i));
         const Spectrogram spectrogram(made.recording, settings.spectrogram, made.settings.selection);
-        const double cellFramesPerHour = static_cast<double>(spectrogram.frequency().count) * 3600.0 / spectrogram.time().step;
-        m_thresholds.push_back(thresholdNats(settings.decide, *calibrateBand(settings, spectrogram.frequency().count, part), cellFramesPerHour));
+        const double cellFramesPerHour =
+            static_cast<double>(spectrogram.frequency().count) * 3600.0 / spectrogram.time().step;
+        m_thresholds.push_back(thresholdNats(
+            settings.decide, *calibrateBand(settings, spectrogram.frequency().count, part), cellFramesPerHour));
     }
 }
 
 SweepTrials::Made SweepTrials::remake(int run) const
 {
     const int trial = m_experiment.trialOf(run);
-    Made made{nullptr, {}, settingsOfTrial(m_experiment, static_cast<std::size_t>(m_experiment.valueOf(run)), m_recording.get())};
+    Made made{nullptr,
+              {},
+              settingsOfTrial(m_experiment, static_cast<std::size_t>(m_experiment.valueOf(run)), m_recording.get())};
     Random places(static_cast<std::uint64_t>(m_experiment.seed), static_cast<std::uint64_t>(trial));
     const double wherePlaced = places.uniform();
     const double whenPlaced = places.uniform();
@@ -284,7 +297,8 @@ SweepTrials::Made SweepTrials::remake(int run) const
     const double low = lowest + bandMargin * (highest - lowest) + 4.0 * m_experiment.wanderHz + std::max(0.0, -travel);
     const double high = highest - bandMargin * (highest - lowest) - 4.0 * m_experiment.wanderHz - std::max(0.0, travel);
     if (!(low < high))
-        throw Error("driftHzPerSecond, wanderHz", "a line must stay within the band of " + formatNumber(highest - lowest) + " Hz");
+        throw Error("driftHzPerSecond, wanderHz",
+                    "a line must stay within the band of " + formatNumber(highest - lowest) + " Hz");
 
     LineSettings line;
     line.snrDb = m_experiment.snrDb;
@@ -296,7 +310,8 @@ SweepTrials::Made SweepTrials::remake(int run) const
     line.wanderHz = m_experiment.wanderHz;
     line.wanderSeconds = m_experiment.wanderSeconds;
     // Noise, phase and wander belong to the trial.
-    const std::uint64_t own = static_cast<std::uint64_t>(m_experiment.seed) * 1000003 + static_cast<std::uint64_t>(trial);
+    const std::uint64_t own =
+        static_cast<std::uint64_t>(m_experiment.seed) * 1000003 + static_cast<std::uint64_t>(trial);
     if (!m_recording) {
         LineScene scene;
         scene.sampleRateHz = m_experiment.sampleRateHz;
@@ -311,10 +326,12 @@ SweepTrials::Made SweepTrials::remake(int run) const
         return made;
     }
     const double from = selection.fromSeconds;
-    const double to = selection.toSeconds > from ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
+    const double to =
+        selection.toSeconds > from ? std::min(selection.toSeconds, info.durationSeconds()) : info.durationSeconds();
     if (to - from < whole)
-        throw Error("durationSeconds, marginSeconds", "a trial of " + formatNumber(whole) + " s must fit into the selection of "
-                        + formatNumber(to - from) + " s");
+        throw Error("durationSeconds, marginSeconds", "a trial of " + formatNumber(whole)
+                                                          + " s must fit into the selection of "
+                                                          + formatNumber(to - from) + " s");
     const double begin = from + whenPlaced * (to - from - whole);
     line.startSeconds += begin;
     made.settings.selection.fromSeconds = begin;
@@ -328,7 +345,8 @@ SweepTrials::Made SweepTrials::remake(int run) const
     return made;
 }
 
-std::vector<RunOutcome> SweepTrials::run(const std::vector<int> &runs, const RunContext &context, const RunSink &sink) const
+std::vector<RunOutcome> SweepTrials::run(const std::vector<int> &runs, const RunContext &context,
+                                         const RunSink &sink) const
 {
     std::vector<RunOutcome> outcomes(runs.size());
     std::mutex guard;
@@ -355,7 +373,8 @@ std::vector<double> SweepTrials::costs(const RunContext &context) const
     RunContext quiet;
     quiet.stop = context.stop;
     for (std::size_t i = 0; i < m_experiment.values.size(); ++i) {
-        context.checkpoint(static_cast<double>(i) / static_cast<double>(m_experiment.values.size()), "measuring the cost");
+        context.checkpoint(static_cast<double>(i) / static_cast<double>(m_experiment.values.size()),
+                           "measuring the cost");
         const Made made = remake(static_cast<int>(i));
         seconds.push_back(measureCost(*analyse(made.recording, made.settings, quiet), quiet));
     }

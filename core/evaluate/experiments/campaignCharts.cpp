@@ -1,5 +1,5 @@
-#include "evaluate/experiments/campaignCurve.h"
 #include "evaluate/experiments/campaignCharts.h"
+#include "evaluate/experiments/campaignCurve.h"
 
 #include "base/Field.h"
 #include "base/logmath.h"
@@ -73,7 +73,8 @@ namespace {
         }
         for (const DetectorUnderTest &detectorUnderTest : lines.detectors)
             if (hasTheory(lines, detectorUnderTest) && low < high)
-                chart.curves.push_back(theoryAgainstFalseAlarms(lines, detectorUnderTest.name, lines.snrDb[snr], low, high));
+                chart.curves.push_back(
+                    theoryAgainstFalseAlarms(lines, detectorUnderTest.name, lines.snrDb[snr], low, high));
     }
 
     /// On a recording: how often the path without the line exceeds a threshold, against how often it does with it.
@@ -120,7 +121,8 @@ namespace {
 
     std::string nameAt(const Campaign &campaign, std::size_t detector, double threshold)
     {
-        return detectorsOf(campaign.experiment)[detector].name + ", T = " + formatNumber(std::round(100.0 * threshold) / 100.0);
+        return detectorsOf(campaign.experiment)[detector].name
+               + ", T = " + formatNumber(std::round(100.0 * threshold) / 100.0);
     }
 
     /// Of all values of the runs' lists, the share above a threshold.
@@ -139,7 +141,9 @@ namespace {
 
     Curve::Point pdPoint(const Campaign &campaign, std::size_t detector, std::size_t snr, double threshold, double x)
     {
-        const auto signals = [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.signal[detector][snr]; };
+        const auto signals = [&](const RunOutcome &outcome) -> const std::vector<float> & {
+            return outcome.signal[detector][snr];
+        };
         const auto [above, all] = countAbove(campaign, threshold, signals);
         return {x, static_cast<double>(above) / static_cast<double>(all), wilsonInterval(above, all)};
     }
@@ -160,17 +164,21 @@ std::optional<Curve> pdAtOperatingPoint(const Campaign &campaign, const Analysis
     return curve;
 }
 
-std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, const AnalysisSettings &current, double threshold)
+std::optional<Curve> operatingPoint(const Campaign &campaign, std::size_t snr, const AnalysisSettings &current,
+                                    double threshold)
 {
     const std::optional<std::size_t> detector = detectorLike(campaign, current);
     if (!detector)
         return {};
     const auto [above, all] =
-        countAbove(campaign, threshold, [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.noise[*detector]; });
+        countAbove(campaign, threshold,
+                   [&](const RunOutcome &outcome) -> const std::vector<float> & { return outcome.noise[*detector]; });
     // None above, or all, has no place on a logarithmic axis: half a block away from it.
-    const double share = std::clamp(static_cast<double>(above), 0.5, static_cast<double>(all) - 0.5) / static_cast<double>(all);
+    const double share =
+        std::clamp(static_cast<double>(above), 0.5, static_cast<double>(all) - 0.5) / static_cast<double>(all);
     const bool isInBlocks = std::holds_alternative<LineExperiment>(campaign.experiment);
-    return Curve{nameAt(campaign, *detector, threshold), Curve::Kind::Paper,
+    return Curve{nameAt(campaign, *detector, threshold),
+                 Curve::Kind::Paper,
                  {pdPoint(campaign, *detector, snr, threshold, isInBlocks ? -std::log1p(-share) : share)}};
 }
 
@@ -179,15 +187,11 @@ Chart pdChart(const Campaign &campaign)
     if (std::holds_alternative<SweepExperiment>(campaign.experiment))
         return sweepChart(campaign, SweepMeasure::Pd);
     const auto *lines = std::get_if<LineExperiment>(&campaign.experiment);
-    Chart chart{"Detection probability",
-                "SNR (dB), at 1 false alarm per block",
-                "Pd",
-                false,
-                false,
-                {}};
+    Chart chart{"Detection probability", "SNR (dB), at 1 false alarm per block", "Pd", false, false, {}};
     if (const auto *injection = std::get_if<InjectionExperiment>(&campaign.experiment)) {
         chart.title = "Detection probability in this recording";
-        chart.xLabel = "SNR (dB), at " + formatNumber(injection->falseAlarmsPerHour) + (injection->falseAlarmsPerHour == 1.0 ? " false alarm/h" : " false alarms/h");
+        chart.xLabel = "SNR (dB), at " + formatNumber(injection->falseAlarmsPerHour)
+                       + (injection->falseAlarmsPerHour == 1.0 ? " false alarm/h" : " false alarms/h");
     }
     for (const CurvePoint &point : pdCurve(campaign)) {
         if (chart.curves.empty() || chart.curves.back().name != point.detector)

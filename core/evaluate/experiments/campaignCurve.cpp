@@ -13,11 +13,13 @@ namespace {
     {
         std::vector<CurvePoint> curve;
         for (const SweepPoint &point : sweepCurve(campaign))
-            curve.push_back({sweep.parameter + " = " + formatNumber(point.value), sweep.snrDb, point.pd, point.pdInterval, point.trials, point.threshold});
+            curve.push_back({sweep.parameter + " = " + formatNumber(point.value), sweep.snrDb, point.pd,
+                             point.pdInterval, point.trials, point.threshold});
         return curve;
     }
 
-    CurvePoint injectionPoint(const InjectionExperiment &experiment, const Campaign &campaign, std::size_t detector, std::size_t snr)
+    CurvePoint injectionPoint(const InjectionExperiment &experiment, const Campaign &campaign, std::size_t detector,
+                              std::size_t snr)
     {
         const double threshold = campaign.thresholds[detector];
         CurvePoint point{experiment.detectors[detector].name, experiment.snrDb[snr], 0.0, {}, 0, threshold};
@@ -43,15 +45,20 @@ std::vector<CurvePoint> pdCurve(const Campaign &campaign)
     std::visit(
         [&]<class E>(const E &experiment) {
             if constexpr (!std::is_same_v<E, SweepExperiment>)
-            for (std::size_t d = 0; d < experiment.detectors.size(); ++d)
-                for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
-                    if constexpr (std::is_same_v<E, LineExperiment>) {
-                        const PdPoint point = pdAgainstBlocks(experiment, campaign.outcomes, d, s);
-                        curve.push_back({experiment.detectors[d].name, point.snrDb, point.pd, point.interval, point.trials, {}});
-                    } else {
-                        curve.push_back(injectionPoint(experiment, campaign, d, s));
+                for (std::size_t d = 0; d < experiment.detectors.size(); ++d)
+                    for (std::size_t s = 0; s < experiment.snrDb.size(); ++s) {
+                        if constexpr (std::is_same_v<E, LineExperiment>) {
+                            const PdPoint point = pdAgainstBlocks(experiment, campaign.outcomes, d, s);
+                            curve.push_back({experiment.detectors[d].name,
+                                             point.snrDb,
+                                             point.pd,
+                                             point.interval,
+                                             point.trials,
+                                             {}});
+                        } else {
+                            curve.push_back(injectionPoint(experiment, campaign, d, s));
+                        }
                     }
-                }
         },
         campaign.experiment);
     return curve;

@@ -37,7 +37,9 @@ double measureCost(const Analysis &analysis, const RunContext &context)
         block.resize(static_cast<std::size_t>(count * cells));
         analysis.frames->read(done, count, block);
         for (Index i = 0; i < count; ++i)
-            chain->update(done + i, std::span(block).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>(cells)), scores);
+            chain->update(
+                done + i,
+                std::span(block).subspan(static_cast<std::size_t>(i * cells), static_cast<std::size_t>(cells)), scores);
         done += count;
         spent = threadSeconds() - start;
     }

@@ -6,7 +6,8 @@
 
 namespace faintline {
 
-double measuredThreshold(std::vector<float> maxima, double falseAlarms, const Calibration &calibration, double eventsPerCellFrame)
+double measuredThreshold(std::vector<float> maxima, double falseAlarms, const Calibration &calibration,
+                         double eventsPerCellFrame)
 {
     constexpr double least = 10.0;
     const auto blocks = static_cast<double>(maxima.size());

@@ -18,7 +18,8 @@ struct TrialPlace {
     bool operator==(const TrialPlace &) const = default;
 };
 
-/// The trials behind a point of a campaign's curve, in order, and whether the campaign's statistic exceeds the threshold shown.
+/// The trials behind a point of a campaign's curve, in order, and whether the campaign's statistic exceeds the
+/// threshold shown.
 struct TrialOutcome {
     TrialPlace place;
     double statistic = 0.0;
@@ -32,9 +33,10 @@ struct ShownTrial {
     Truth truth;
 };
 
-/// Makes the very trial behind a point again, with the detector's settings, the campaign's own ln K and the threshold of
-/// `shownThreshold`. A simulated line comes with its block alone, one window T_FT a second long, one resolution cell a hertz wide; an
-/// injected one in the whole selection. `trials`: of an injection, as prepared; null otherwise. Throws Error, Cancelled.
+/// Makes the very trial behind a point again, with the detector's settings, the campaign's own ln K and the threshold
+/// of `shownThreshold`. A simulated line comes with its block alone, one window T_FT a second long, one resolution cell
+/// a hertz wide; an injected one in the whole selection. `trials`: of an injection, as prepared; null otherwise. Throws
+/// Error, Cancelled.
 ShownTrial showTrial(const Campaign &campaign, const InjectionTrials *trials, std::size_t detector, std::size_t snr,
                      const TrialPlace &place, const RunContext &context = {});
 

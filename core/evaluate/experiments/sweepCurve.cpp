@@ -92,8 +92,10 @@ Chart sweepChart(const Campaign &campaign, SweepMeasure measure)
         if (measure == SweepMeasure::Pd)
             curve.points.push_back({point.value, point.pd, point.pdInterval});
         else if (measure == SweepMeasure::FalseAlarms)
-            curve.points.push_back({point.value, shownFalseAlarms(point),
-                                    {std::max(point.falseAlarmInterval.low, 0.1 / point.hours), point.falseAlarmInterval.high}});
+            curve.points.push_back(
+                {point.value,
+                 shownFalseAlarms(point),
+                 {std::max(point.falseAlarmInterval.low, 0.1 / point.hours), point.falseAlarmInterval.high}});
         else if (point.detections > 0)
             curve.points.push_back({point.value, point.latencySeconds, point.latencyInterval});
     }
@@ -109,8 +111,9 @@ Chart tradeOffChart(const Campaign &campaign)
     Curve curve{{}, Curve::Kind::Measured, {}}; // the only one needs no name
     for (const SweepPoint &point : sweepCurve(campaign)) {
         const Curve::Point shown{shownFalseAlarms(point), point.pd, point.pdInterval, formatNumber(point.value)};
-        const auto same = std::find_if(curve.points.begin(), curve.points.end(),
-                                       [&](const Curve::Point &other) { return other.x == shown.x && other.y == shown.y; });
+        const auto same = std::find_if(curve.points.begin(), curve.points.end(), [&](const Curve::Point &other) {
+            return other.x == shown.x && other.y == shown.y;
+        });
         if (same == curve.points.end()) {
             curve.points.push_back(shown);
             continue;
@@ -125,7 +128,12 @@ Chart tradeOffChart(const Campaign &campaign)
 
 Chart costChart(const SweepExperiment &experiment, const std::vector<double> &seconds)
 {
-    Chart chart{"Cost", labelOf(experiment), "processor time per hour of recording (s)", isLogarithmic(experiment.values), false, {}};
+    Chart chart{"Cost",
+                labelOf(experiment),
+                "processor time per hour of recording (s)",
+                isLogarithmic(experiment.values),
+                false,
+                {}};
     Curve curve{{}, Curve::Kind::Measured, {}};
     for (std::size_t i = 0; i < std::min(seconds.size(), experiment.values.size()); ++i)
         curve.points.push_back({experiment.values[i], seconds[i], {}});

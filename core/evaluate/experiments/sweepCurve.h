@@ -13,13 +13,13 @@ struct SweepPoint {
     std::int64_t trials = 0;
     std::int64_t detections = 0;
     double pd = 0.0;
-    Interval pdInterval;                 ///< Wilson's
+    Interval pdInterval; ///< Wilson's
     std::int64_t falseAlarms = 0;
-    double hours = 0.0;                  ///< looked at
+    double hours = 0.0; ///< looked at
     double falseAlarmsPerHour = 0.0;
-    Interval falseAlarmInterval;         ///< Garwood's, of the count, per hour
-    double latencySeconds = 0.0;         ///< mean of those detected, 0 where none was
-    Interval latencyInterval;            ///< ± 1.96 standard errors
+    Interval falseAlarmInterval; ///< Garwood's, of the count, per hour
+    double latencySeconds = 0.0; ///< mean of those detected, 0 where none was
+    Interval latencyInterval;    ///< ± 1.96 standard errors
     double threshold = 0.0;
 };
 
@@ -28,8 +28,8 @@ std::vector<SweepPoint> sweepCurve(const Campaign &campaign);
 
 enum class SweepMeasure { Pd, FalseAlarms, Latency };
 
-/// One measure against the parameter, with its 95 % intervals. Where no false alarm was counted the point stands at 0.7 of one, the
-/// median of what that leaves open.
+/// One measure against the parameter, with its 95 % intervals. Where no false alarm was counted the point stands at 0.7
+/// of one, the median of what that leaves open.
 Chart sweepChart(const Campaign &campaign, SweepMeasure measure);
 
 /// Pd against false alarms per hour, one point per value, in the order of the values.

@@ -14,9 +14,9 @@ Interval ReproducedCell::jointInterval() const
     constexpr double byChance = 0.05;
     constexpr double seeds = 20.0;
     const double tail = 0.5 * byChance / (seeds * std::max(1, judgedTogether));
-    const double deviations = runs > 1
-        ? boost::math::quantile(boost::math::complement(boost::math::students_t(runs - 1.0), tail))
-        : boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
+    const double deviations =
+        runs > 1 ? boost::math::quantile(boost::math::complement(boost::math::students_t(runs - 1.0), tail))
+                 : boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
     const double widening = deviations / single;
     return {ours - widening * (ours - interval.low), ours + widening * (interval.high - ours)};
 }
@@ -44,7 +44,8 @@ bool Reproduction::isInside() const
 
 void judgeTogether(Reproduction &reproduction)
 {
-    const auto judged = std::count_if(reproduction.cells.begin(), reproduction.cells.end(), [](const ReproducedCell &cell) { return cell.isJudged(); });
+    const auto judged = std::count_if(reproduction.cells.begin(), reproduction.cells.end(),
+                                      [](const ReproducedCell &cell) { return cell.isJudged(); });
     for (ReproducedCell &cell : reproduction.cells)
         cell.judgedTogether = static_cast<int>(judged);
 }

@@ -92,19 +92,26 @@ namespace {
             const double reference = share * (target == 0 ? wanted.confirmedSteady : wanted.confirmedWeaving);
             const double best = runs;
             ReproducedCell cell = cellOf(row, name + "confirmed of " + std::to_string(runs), confirmed);
-            made.cells.push_back(confirmed >= reference ? judged(cell, reference, best - reference) : judged(cell, reference, 0.0));
+            made.cells.push_back(confirmed >= reference ? judged(cell, reference, best - reference)
+                                                        : judged(cell, reference, 0.0));
             made.cells.push_back(cellOf(row, name + "median ping of detection", medianOf(detect)));
             made.cells.push_back(cellOf(row, name + "median ping of confirmation", medianOf(confirm)));
-            made.cells.push_back(cellOf(row, name + "RMS range error, cells", points > 0.0 ? std::sqrt(squares / points) : 0.0));
+            made.cells.push_back(
+                cellOf(row, name + "RMS range error, cells", points > 0.0 ? std::sqrt(squares / points) : 0.0));
         }
-        made.cells.push_back(judged(cellOf(row, "false confirmed", falseConfirmed), 0.0, std::ceil(share * wanted.falseConfirmed)));
+        made.cells.push_back(
+            judged(cellOf(row, "false confirmed", falseConfirmed), 0.0, std::ceil(share * wanted.falseConfirmed)));
         made.cells.push_back(cellOf(row, "false tracks", falseTracks));
     }
 
     Reproduction reproduceFigure1(const ReproduceOptions &options, const RunContext &context)
     {
-        Reproduction made{
-            "parsons:figure1", "Parsons 2008, Figure 1: the chain from detector to tracks", "12 runs of 60 pings", {}, {}, {}};
+        Reproduction made{"parsons:figure1",
+                          "Parsons 2008, Figure 1: the chain from detector to tracks",
+                          "12 runs of 60 pings",
+                          {},
+                          {},
+                          {}};
         const auto count = static_cast<double>(chainCases().size());
         const int runs = options.quick ? 3 : chainRuns;
         for (std::size_t i = 0; i < chainCases().size(); ++i) {
@@ -113,13 +120,16 @@ namespace {
             experiment.settings = preset(chainCases()[i].preset).settings;
             experiment.runs = runs;
             experiment.seed = options.seed;
-            const auto scores = runPings(experiment, context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
+            const auto scores =
+                runPings(experiment, context.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
             addChainCells(chainCases()[i], scores, runs, made);
         }
-        made.notes = {"The paper's Figure 1 is a diagram: the references are an independent program's chain. Confirmed targets are "
+        made.notes = {"The paper's Figure 1 is a diagram: the references are an independent program's chain. Confirmed "
+                      "targets are "
                       "judged from below, "
                       "false confirmed tracks from above.",
-                      "A keeps its rates (3 cells and 1 beam a ping), B weaves in range by ±6 cells a ping about 2, period 20; both "
+                      "A keeps its rates (3 cells and 1 beam a ping), B weaves in range by ±6 cells a ping about 2, "
+                      "period 20; both "
                       "vanish after 45 pings."};
         return made;
     }

@@ -44,7 +44,8 @@ namespace {
     /// Four targets in one field that move by three range cells and one beam a ping, from places of the field's own.
     PingScene targetScene(std::uint64_t seed, int chain, int field, double snrDb)
     {
-        PingScene scene = noiseScene(seed + 1000003u * static_cast<std::uint64_t>(1 + chain * fieldsPerChain + field), targetPings);
+        PingScene scene =
+            noiseScene(seed + 1000003u * static_cast<std::uint64_t>(1 + chain * fieldsPerChain + field), targetPings);
         Random random(seed, static_cast<std::uint64_t>(1 + chain * fieldsPerChain + field));
         const Grid grid = pingGrid(scene);
         for (int i = 0; i < targetsPerField; ++i) {
@@ -70,7 +71,8 @@ namespace {
             detector.update(y, statistic);
             for (std::size_t i = 0; i < first.size(); ++i) {
                 const Index cell = pings.truth().targets[i].cellAt(ping);
-                if (first[i] == 0 && cell >= 0 && static_cast<double>(statistic[static_cast<std::size_t>(cell)]) > threshold)
+                if (first[i] == 0 && cell >= 0
+                    && static_cast<double>(statistic[static_cast<std::size_t>(cell)]) > threshold)
                     first[i] = ping + 1;
             }
             if (std::find(first.begin(), first.end(), 0) == first.end())
@@ -80,7 +82,8 @@ namespace {
     }
 
     /// First crossings of all targets, a list for each curve.
-    std::vector<std::vector<int>> detect(const DetectionFigure &figure, const ReproduceOptions &options, const RunContext &context)
+    std::vector<std::vector<int>> detect(const DetectionFigure &figure, const ReproduceOptions &options,
+                                         const RunContext &context)
     {
         const int chainCount = options.quick ? 1 : chains;
         std::vector<std::vector<std::vector<int>>> found(static_cast<std::size_t>(chainCount),
@@ -106,7 +109,8 @@ namespace {
                 for (int field = 0; field < fieldsPerChain; ++field) {
                     const auto settled = detector->state();
                     for (std::size_t c = 0; c < figure.curves.size(); ++c) {
-                        const SimulatedPings pings(targetScene(options.seed, static_cast<int>(chain), field, figure.curves[c].snrDb));
+                        const SimulatedPings pings(
+                            targetScene(options.seed, static_cast<int>(chain), field, figure.curves[c].snrDb));
                         const std::vector<int> first = firstCrossings(*detector, pings, figure.threshold);
                         auto &all = found[static_cast<std::size_t>(chain)][c];
                         all.insert(all.end(), first.begin(), first.end());
@@ -123,10 +127,12 @@ namespace {
         return result;
     }
 
-    Reproduction reproduceDetection(const DetectionFigure &figure, const ReproduceOptions &options, const RunContext &context)
+    Reproduction reproduceDetection(const DetectionFigure &figure, const ReproduceOptions &options,
+                                    const RunContext &context)
     {
         const std::vector<std::vector<int>> first = detect(figure, options, context);
-        Reproduction made{figure.name, figure.title, "cumulative Pd, threshold " + formatNumber(figure.threshold), {}, {}, {}};
+        Reproduction made{figure.name, figure.title, "cumulative Pd, threshold " + formatNumber(figure.threshold),
+                          {},          {},           {}};
         Chart chart{figure.title, "ping", "Pd", false, false, {}};
         Chart latency{figure.title + ": latency", "pings until the first crossing", "targets", false, false, {}};
         const double tolerance = 0.10 * (options.quick ? std::sqrt(static_cast<double>(chains)) : 1.0);
@@ -138,7 +144,8 @@ namespace {
             std::vector<double> pd;
             std::vector<Interval> intervals;
             for (int ping = 1; ping <= targetPings; ++ping) {
-                const auto crossed = std::count_if(first[c].begin(), first[c].end(), [ping](int at) { return at > 0 && at <= ping; });
+                const auto crossed =
+                    std::count_if(first[c].begin(), first[c].end(), [ping](int at) { return at > 0 && at <= ping; });
                 const auto now = std::count(first[c].begin(), first[c].end(), ping);
                 pd.push_back(static_cast<double>(crossed) / static_cast<double>(first[c].size()));
                 intervals.push_back(wilsonInterval(crossed, std::ssize(first[c])));
@@ -159,29 +166,34 @@ namespace {
 
     const DetectionFigure &figure4()
     {
-        static const DetectionFigure figure{
-            "parsons:figure4", "Parsons 2008, Figure 4: Pd against pings, non-manoeuvring model", "nonManoeuvring", 30.7,
-            {{9.0, {.03, .59, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
-             {7.0, {.01, .01, .04, .29, .89, 1, 1, 1, 1, 1, 1, 1}},
-             {5.0, {0, .01, .01, .01, .01, .04, .13, .34, .63, .92, .99, 1}}}};
+        static const DetectionFigure figure{"parsons:figure4",
+                                            "Parsons 2008, Figure 4: Pd against pings, non-manoeuvring model",
+                                            "nonManoeuvring",
+                                            30.7,
+                                            {{9.0, {.03, .59, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
+                                             {7.0, {.01, .01, .04, .29, .89, 1, 1, 1, 1, 1, 1, 1}},
+                                             {5.0, {0, .01, .01, .01, .01, .04, .13, .34, .63, .92, .99, 1}}}};
         return figure;
     }
 
     const DetectionFigure &figure5()
     {
         // The last curve's last value is a bound, < 0.15: judged as 0.05 ± 0.10.
-        static const DetectionFigure figure{
-            "parsons:figure5", "Parsons 2008, Figure 5: Pd against pings, manoeuvring model", "manoeuvring", 18.7,
-            {{9.0, {.54, .98, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
-             {7.0, {.03, .06, .12, .21, .33, .50, .69, .83, .93, .97, 1, 1}},
-             {5.0, {0, 0, .01, .02, .03, .03, .04, .04, .04, .05, .06, .05}}}};
+        static const DetectionFigure figure{"parsons:figure5",
+                                            "Parsons 2008, Figure 5: Pd against pings, manoeuvring model",
+                                            "manoeuvring",
+                                            18.7,
+                                            {{9.0, {.54, .98, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}},
+                                             {7.0, {.03, .06, .12, .21, .33, .50, .69, .83, .93, .97, 1, 1}},
+                                             {5.0, {0, 0, .01, .02, .03, .03, .04, .04, .04, .05, .06, .05}}}};
         return figure;
     }
 
     Reproduction reproduceFigure4(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made = reproduceDetection(figure4(), options, context);
-        made.notes = {"200 targets a curve, four in a field of settled noise (the paper: 28 targets). Pd counts a target from the "
+        made.notes = {"200 targets a curve, four in a field of settled noise (the paper: 28 targets). Pd counts a "
+                      "target from the "
                       "first ping in which "
                       "its own cell, maximum over the rates, has exceeded the threshold.",
                       "The paper's figure is a picture; its text gives a latency of 11 to 12 pings at 5 dB."};
@@ -191,7 +203,8 @@ namespace {
     Reproduction reproduceFigure5(const ReproduceOptions &options, const RunContext &context)
     {
         Reproduction made = reproduceDetection(figure5(), options, context);
-        made.notes = {"As Figure 4. The paper's text gives a latency of 7 to 11 pings at 7 dB, and leaves 5 dB out: Pd was too small "
+        made.notes = {"As Figure 4. The paper's text gives a latency of 7 to 11 pings at 7 dB, and leaves 5 dB out: Pd "
+                      "was too small "
                       "to be measured.",
                       "5 dB at ping 25 is judged by a bound, Pd < 0.15, written as 0.05 ± 0.10."};
         return made;

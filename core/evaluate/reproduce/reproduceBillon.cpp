@@ -17,9 +17,10 @@ namespace {
     constexpr int quickRuns = 12;
     constexpr double tolerance = 0.04; ///< what 20 runs allow
     constexpr double paperSignals = 90.0;
-    constexpr double none = -1.0;      ///< a cell the table leaves empty
+    constexpr double none = -1.0; ///< a cell the table leaves empty
 
-    /// One row of a table: a detector, the paper's figures and those of an independent program with 3000 signals a cell.
+    /// One row of a table: a detector, the paper's figures and those of an independent program with 3000 signals a
+    /// cell.
     struct Row {
         std::string detector;
         std::vector<double> paper;
@@ -52,8 +53,12 @@ namespace {
              {"SMD stable", {.30, .55, .74, .90, .96, none}, {.321, .500, .730, .916, .990, 1.000}},
              {"SMD 5 slopes", {none, .30, .46, .60, .79, .97, none}, {.221, .303, .417, .634, .887, .984, .998}},
              {"SMD 5 slopes, K = 2", {none, .30, .46, .60, .79, .97}, {.199, .272, .376, .574, .846, .981}},
-             {"3 of 4", {none, none, none, none, .31, .40, .50, .67, .90}, {.065, .088, .123, .180, .270, .393, .545, .725, .865}},
-             {"6 of 8", {none, none, none, none, none, none, none, none, none}, {.083, .120, .179, .274, .419, .602, .773, .918, .979}}}};
+             {"3 of 4",
+              {none, none, none, none, .31, .40, .50, .67, .90},
+              {.065, .088, .123, .180, .270, .393, .545, .725, .865}},
+             {"6 of 8",
+              {none, none, none, none, none, none, none, none, none},
+              {.083, .120, .179, .274, .419, .602, .773, .918, .979}}}};
         return table;
     }
 
@@ -76,19 +81,18 @@ namespace {
 
     const Table &table3()
     {
-        static const Table table{
-            "billon:table3",
-            "Billon 2005, Table 3: wandering frequency, T_sig = 100 T_FT, -1 dB",
-            Sweep::Wander,
-            {0, 1, 2, 3},
-            100.0,
-            -1.0,
-            {{"integrator", {1.00, .58, .21, .14}, {1.000, .642, .342, .249}},
-             {"SMD stable", {none, none, none, none}, {.990, .618, .342, .212}},
-             {"SMD 5 slopes", {.79, .75, .61, .53}, {.887, .858, .770, .614}},
-             {"SMD 5 slopes, K = 2", {.79, .75, .61, .53}, {.846, .809, .698, .545}},
-             {"3 of 4", {.31, .28, .23, .17}, {.270, .245, .203, .160}},
-             {"6 of 8", {.48, .34, .20, .10}, {.419, .331, .226, .166}}}};
+        static const Table table{"billon:table3",
+                                 "Billon 2005, Table 3: wandering frequency, T_sig = 100 T_FT, -1 dB",
+                                 Sweep::Wander,
+                                 {0, 1, 2, 3},
+                                 100.0,
+                                 -1.0,
+                                 {{"integrator", {1.00, .58, .21, .14}, {1.000, .642, .342, .249}},
+                                  {"SMD stable", {none, none, none, none}, {.990, .618, .342, .212}},
+                                  {"SMD 5 slopes", {.79, .75, .61, .53}, {.887, .858, .770, .614}},
+                                  {"SMD 5 slopes, K = 2", {.79, .75, .61, .53}, {.846, .809, .698, .545}},
+                                  {"3 of 4", {.31, .28, .23, .17}, {.270, .245, .203, .160}},
+                                  {"6 of 8", {.48, .34, .20, .10}, {.419, .331, .226, .166}}}};
         return table;
     }
 
@@ -114,7 +118,8 @@ namespace {
     }
 
     /// Pd of every detector (outer) and column (inner).
-    std::vector<std::vector<PdPoint>> measure(const Table &table, const ReproduceOptions &options, const RunContext &context)
+    std::vector<std::vector<PdPoint>> measure(const Table &table, const ReproduceOptions &options,
+                                              const RunContext &context)
     {
         LineExperiment experiment = experimentOf(table, options);
         std::vector<int> all(static_cast<std::size_t>(experiment.runs));
@@ -147,7 +152,12 @@ namespace {
 
     Chart chartOf(const Table &table, const std::vector<std::vector<PdPoint>> &points)
     {
-        Chart chart{table.title, table.sweep == Sweep::Snr ? "SNR (dB)" : "wander σ_f (1/T_FT)", "Pd at one false alarm per block", false, false, {}};
+        Chart chart{table.title,
+                    table.sweep == Sweep::Snr ? "SNR (dB)" : "wander σ_f (1/T_FT)",
+                    "Pd at one false alarm per block",
+                    false,
+                    false,
+                    {}};
         for (std::size_t d = 0; d < table.rows.size(); ++d) {
             Curve curve{table.rows[d].detector, Curve::Kind::Measured, {}};
             for (std::size_t c = 0; c < table.columns.size(); ++c)
@@ -159,7 +169,8 @@ namespace {
             const double pfaOut = table.durationWindows / (300.0 / 2.0 * 200.0 / 4.0);
             Curve theory{"integrator, Marcum Q", Curve::Kind::Theory, {}};
             for (double db = table.columns.front(); db <= table.columns.back() + 1e-9; db += 0.25)
-                theory.points.push_back({db, pdOfMeanPower(thresholdOfMeanPower(pfaOut, looks), looks, ratioFromDb(db)), {}});
+                theory.points.push_back(
+                    {db, pdOfMeanPower(thresholdOfMeanPower(pfaOut, looks), looks, ratioFromDb(db)), {}});
             chart.curves.push_back(std::move(theory));
         }
         for (const Row &row : table.rows) {
@@ -176,7 +187,9 @@ namespace {
     Reproduction reproduceTable(const Table &table, const ReproduceOptions &options, const RunContext &context)
     {
         const auto points = measure(table, options, context);
-        Reproduction made{table.name, table.title, "Pd at one false alarm per block of 300 × 200 cells", {}, {chartOf(table, points)}, {}};
+        Reproduction made{
+            table.name, table.title, "Pd at one false alarm per block of 300 × 200 cells", {}, {chartOf(table, points)},
+            {}};
         for (std::size_t d = 0; d < table.rows.size(); ++d) {
             const Row &row = table.rows[d];
             for (std::size_t c = 0; c < table.columns.size(); ++c) {
@@ -197,14 +210,17 @@ namespace {
                 made.cells.push_back(std::move(cell));
             }
         }
-        made.notes = {
-            "References: an independent program with 3000 signals a cell. The paper's cells rest on 90 signals (standard error 0.04 to 0.05 at "
-            "middling Pd).",
-            "The paper asks for K < 1 and for a 50 % reset probability; for five slopes only K = 2.01 gives the latter. K = 2 exactly is printed beside."};
+        made.notes = {"References: an independent program with 3000 signals a cell. The paper's cells rest on 90 "
+                      "signals (standard error 0.04 to 0.05 at "
+                      "middling Pd).",
+                      "The paper asks for K < 1 and for a 50 % reset probability; for five slopes only K = 2.01 gives "
+                      "the latter. K = 2 exactly is printed beside."};
         if (table.sweep == Sweep::Wander)
-            made.notes.push_back("Known misfits: five slopes at σ_f = 0 to 2 is 0.10 to 0.16 above the paper, the integrator at σ_f = 2 and 3 likewise.");
+            made.notes.push_back("Known misfits: five slopes at σ_f = 0 to 2 is 0.10 to 0.16 above the paper, the "
+                                 "integrator at σ_f = 2 and 3 likewise.");
         if (table.durationWindows == 10.0)
-            made.notes.push_back("The paper's caption says T_sig = 100 T_FT for the integrator; its SNRs fit 10 T_FT and P_f,out = 0.0013.");
+            made.notes.push_back("The paper's caption says T_sig = 100 T_FT for the integrator; its SNRs fit 10 T_FT "
+                                 "and P_f,out = 0.0013.");
         return made;
     }
 
@@ -241,17 +257,20 @@ namespace {
             const Index k = frame - trial.firstFrame;
             if (k < 0 || k >= std::ssize(trial.path))
                 continue;
-            const auto value = static_cast<double>(statistic[static_cast<std::size_t>(trial.path[static_cast<std::size_t>(k)])]);
+            const auto value =
+                static_cast<double>(statistic[static_cast<std::size_t>(trial.path[static_cast<std::size_t>(k)])]);
             along.points.push_back({windows, value, {}});
             onLine = std::max(onLine, value);
         }
-        Reproduction made{"billon:figure1",
-                          "Billon 2005, Figure 1: one line, -1 dB, T_sig = 100 T_FT, σ_f = 3/T_FT, five slopes",
-                          "largest statistic, nats above background",
-                          {},
-                          {{"Billon 2005, Figure 1", "time (T_FT)", "SMD statistic (nats)", false, false, {along, elsewhere}}},
-                          {"The paper's figure is a picture without numbers: nothing to judge. Pd at these settings is in Table 3.",
-                           "The picture itself: faintline render with the scenario of a faint wandering line, views input and output."}};
+        Reproduction made{
+            "billon:figure1",
+            "Billon 2005, Figure 1: one line, -1 dB, T_sig = 100 T_FT, σ_f = 3/T_FT, five slopes",
+            "largest statistic, nats above background",
+            {},
+            {{"Billon 2005, Figure 1", "time (T_FT)", "SMD statistic (nats)", false, false, {along, elsewhere}}},
+            {"The paper's figure is a picture without numbers: nothing to judge. Pd at these settings is in Table 3.",
+             "The picture itself: faintline render with the scenario of a faint wandering line, views input and "
+             "output."}};
         const auto add = [&](const char *column, double ours) {
             ReproducedCell cell;
             cell.row = "SMD 5 slopes";
@@ -273,7 +292,8 @@ std::vector<Reproducible> billonReproducibles()
         list.push_back({table->name, table->title, [table](const ReproduceOptions &options, const RunContext &context) {
                             return reproduceTable(*table, options, context);
                         }});
-    list.push_back({"billon:figure1", "Billon 2005, Figure 1: the statistic along one faint wandering line", reproduceFigure1});
+    list.push_back(
+        {"billon:figure1", "Billon 2005, Figure 1: the statistic along one faint wandering line", reproduceFigure1});
     return list;
 }
 

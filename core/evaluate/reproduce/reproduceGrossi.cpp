@@ -42,8 +42,8 @@ namespace {
         return std::sqrt(inside * (1.0 - inside) / trials);
     }
 
-    ReproducedCell measuredCell(std::string row, std::string column, const Estimate &ours, double reference, double referenceError,
-                                double rounding)
+    ReproducedCell measuredCell(std::string row, std::string column, const Estimate &ours, double reference,
+                                double referenceError, double rounding)
     {
         ReproducedCell cell;
         cell.row = std::move(row);
@@ -103,14 +103,30 @@ namespace {
     const std::array<LineReference, 4> &figure2References()
     {
         static const std::array<LineReference, 4> table{{
-            {10, 40000, {{{96.96, .21}, {116.88, .26}, {128.83, .30}, {134.90, .32}, {135.15, .32}}},
-             {{{63.08, .21}, {84.09, .27}, {99.44, .31}, {105.26, .32}, {106.23, .32}}}, 132.77, 97.85},
-            {20, 20000, {{{113.77, .24}, {153.49, .34}, {188.38, .44}, {209.20, .50}, {216.76, .52}}},
-             {{{68.90, .24}, {103.59, .34}, {141.19, .44}, {167.36, .51}, {174.60, .53}}}, 212.49, 162.01},
-            {50, 8000, {{{120.88, .27}, {193.20, .43}, {280.62, .64}, {373.89, .90}, {417.0, 1.0}}},
-             {{{70.87, .26}, {118.46, .42}, {194.75, .64}, {295.13, .91}, {347.2, 1.0}}}, 411.72, 326.16},
-            {100, 5000, {{{121.78, .55}, {203.1, .9}, {342.7, 1.5}, {548.2, 2.6}, {705.8, 3.5}}},
-             {{{70.11, .51}, {122.1, .9}, {222.2, 1.5}, {417.2, 2.7}, {603.0, 3.5}}}, 696.52, 565.52},
+            {10,
+             40000,
+             {{{96.96, .21}, {116.88, .26}, {128.83, .30}, {134.90, .32}, {135.15, .32}}},
+             {{{63.08, .21}, {84.09, .27}, {99.44, .31}, {105.26, .32}, {106.23, .32}}},
+             132.77,
+             97.85},
+            {20,
+             20000,
+             {{{113.77, .24}, {153.49, .34}, {188.38, .44}, {209.20, .50}, {216.76, .52}}},
+             {{{68.90, .24}, {103.59, .34}, {141.19, .44}, {167.36, .51}, {174.60, .53}}},
+             212.49,
+             162.01},
+            {50,
+             8000,
+             {{{120.88, .27}, {193.20, .43}, {280.62, .64}, {373.89, .90}, {417.0, 1.0}}},
+             {{{70.87, .26}, {118.46, .42}, {194.75, .64}, {295.13, .91}, {347.2, 1.0}}},
+             411.72,
+             326.16},
+            {100,
+             5000,
+             {{{121.78, .55}, {203.1, .9}, {342.7, 1.5}, {548.2, 2.6}, {705.8, 3.5}}},
+             {{{70.11, .51}, {122.1, .9}, {222.2, 1.5}, {417.2, 2.7}, {603.0, 3.5}}},
+             696.52,
+             565.52},
         }};
         return table;
     }
@@ -129,15 +145,17 @@ namespace {
         made.cells.push_back(exactCell(h1, "deviation", exact.h1.deviationStages, 16.120, 1e-3));
         made.cells.push_back(exactCell(h0, "α", exact.h0.acceptH1, 5.001e-4, 1e-7));
         made.cells.push_back(exactCell(h1, "β", exact.h1.acceptH0, 7.947e-4, 1e-7));
-        constexpr std::array<std::array<double, 3>, 3> others{{{3.0, 16.938, 9.898}, {6.0, 9.304, 4.579}, {10.0, 5.273, 2.222}}};
+        constexpr std::array<std::array<double, 3>, 3> others{
+            {{3.0, 16.938, 9.898}, {6.0, 9.304, 4.579}, {10.0, 5.273, 2.222}}};
         for (const auto &[snrDb, asnH0, asnH1] : others) {
             const double snr = ratioFromDb(snrDb);
             const DeterministicSprt at = deterministicSprt(sprt, snr, snr);
             made.cells.push_back(exactCell(h0, formatNumber(snrDb) + " dB", at.h0.meanStages, asnH0, 1e-3));
             made.cells.push_back(exactCell(h1, formatNumber(snrDb) + " dB", at.h1.meanStages, asnH1, 1e-3));
         }
-        made.notes.push_back("Known trajectory: Fredholm's integral equation, exact; a test of fixed size with the same errors takes "
-                             + std::to_string(fixedSampleSize(sprt, 1.0)) + " stages at 0 dB.");
+        made.notes.push_back(
+            "Known trajectory: Fredholm's integral equation, exact; a test of fixed size with the same errors takes "
+            + std::to_string(fixedSampleSize(sprt, 1.0)) + " stages at 0 dB.");
     }
 
     Curve levelCurve(const std::string &name, double level)
@@ -207,8 +225,8 @@ namespace {
     {
         Reproduction made;
         made.name = "grossi:figure2";
-        made.title =
-            "ASN under both hypotheses against what is known of the trajectory (Grossi and Lops 2006, Figure 2): 0 dB, α = β = 1e-3";
+        made.title = "ASN under both hypotheses against what is known of the trajectory (Grossi and Lops 2006, Figure "
+                     "2): 0 dB, α = β = 1e-3";
         made.quantity = "ASN (stages)";
         SequentialStudy study;
         addKnownTrajectory(made, study.sprt);
@@ -223,39 +241,45 @@ namespace {
             const WaldBounds bounds = waldBounds(study.sprt, 1.0, reference.cells);
             for (const bool isTarget : {false, true}) {
                 const std::string row = lineName + (isTarget ? ", H1" : ", H0");
-                Curve curve{lineName, Curve::Kind::Measured, {{0.0, isTarget ? known.h1.meanStages : known.h0.meanStages, {}}}};
+                Curve curve{
+                    lineName, Curve::Kind::Measured, {{0.0, isTarget ? known.h1.meanStages : known.h0.meanStages, {}}}};
                 study.actualSnr = isTarget ? std::optional(1.0) : std::nullopt;
                 study.trials = trialsOf(reference.trials, options);
                 for (std::size_t i = 0; i < deviations.size(); ++i) {
                     study.model = walkOnLine(reference.cells, deviations[i], 1.0);
-                    study.seed = options.seed * 1000 + static_cast<std::uint64_t>(reference.cells * 10 + (isTarget ? 5 : 0)) + i;
+                    study.seed =
+                        options.seed * 1000 + static_cast<std::uint64_t>(reference.cells * 10 + (isTarget ? 5 : 0)) + i;
                     const SequentialOutcome outcome = simulate(study, context.part(done, done + 0.025));
                     done += 0.025;
                     const AsnReference &asn = isTarget ? reference.h1[i] : reference.h0[i];
                     const double rounding = reference.cells == 100 || asn.error >= 0.95 ? 0.1 : 0.01;
-                    made.cells.push_back(measuredCell(row, deviationName(deviations[i]), outcome.stages, asn.value, asn.error, rounding));
-                    curve.points.push_back(
-                        {relativeEntropyRate(reference.cells, deviations[i]), outcome.stages.value, outcome.stages.interval()});
+                    made.cells.push_back(measuredCell(row, deviationName(deviations[i]), outcome.stages, asn.value,
+                                                      asn.error, rounding));
+                    curve.points.push_back({relativeEntropyRate(reference.cells, deviations[i]), outcome.stages.value,
+                                            outcome.stages.interval()});
                     if (reference.cells == 10 && deviations[i] == 1.0) {
                         const std::string errorRow = row + ", σ = 1";
                         const double trials = static_cast<double>(study.trials);
-                        ReproducedCell measured =
-                            measuredCell(errorRow, isTarget ? "α by change of measure" : "β by change of measure", outcome.otherError,
-                                         isTarget ? 6.107e-4 : 8.785e-4, isTarget ? 4e-7 : 1e-7, 1e-7);
+                        ReproducedCell measured = measuredCell(
+                            errorRow, isTarget ? "α by change of measure" : "β by change of measure",
+                            outcome.otherError, isTarget ? 6.107e-4 : 8.785e-4, isTarget ? 4e-7 : 1e-7, 1e-7);
                         const Index wrong = isTarget ? study.trials - outcome.acceptedH1 : outcome.acceptedH1;
-                        ReproducedCell counted = frequencyCell(errorRow, isTarget ? "β counted" : "α counted", wrong, study.trials,
-                                                               isTarget ? 8.63e-4 : 6.08e-4, 400000.0, 1e-6);
+                        ReproducedCell counted =
+                            frequencyCell(errorRow, isTarget ? "β counted" : "α counted", wrong, study.trials,
+                                          isTarget ? 8.63e-4 : 6.08e-4, 400000.0, 1e-6);
                         // Few are counted: the tolerance goes by the expected number, not by what happened to come.
-                        counted.tolerance =
-                            within(frequencyError(*counted.reference, 400000.0), frequencyError(*counted.reference, trials), 1.0 / trials);
+                        counted.tolerance = within(frequencyError(*counted.reference, 400000.0),
+                                                   frequencyError(*counted.reference, trials), 1.0 / trials);
                         made.cells.push_back(std::move(measured));
                         made.cells.push_back(std::move(counted));
                     }
                 }
                 const double bound = isTarget ? bounds.h1High : bounds.h0High;
-                made.cells.push_back(exactCell(row, "(8) upper", bound, isTarget ? reference.h1Bound : reference.h0Bound, 0.006));
+                made.cells.push_back(
+                    exactCell(row, "(8) upper", bound, isTarget ? reference.h1Bound : reference.h0Bound, 0.006));
                 std::string &list = excess[isTarget ? 1 : 0];
-                list += (list.empty() ? "" : ", ") + text("%+.1f", 100.0 * (curve.points.back().y / bound - 1.0)) + " % at " + lineName;
+                list += (list.empty() ? "" : ", ") + text("%+.1f", 100.0 * (curve.points.back().y / bound - 1.0))
+                        + " % at " + lineName;
                 charts[isTarget ? 1 : 0].curves.push_back(std::move(curve));
                 upper[isTarget ? 1 : 0].push_back(levelCurve("(8) upper, " + lineName, bound));
             }
@@ -266,11 +290,12 @@ namespace {
             charts[i].curves.push_back(levelCurve("(8) lower", i == 0 ? lower.h0Low : lower.h1Low));
         }
         made.charts.assign(charts.begin(), charts.end());
+        made.notes.push_back("(8) neglects by how far ln Λ overshoots its boundary, so its \"upper bound\" is exceeded "
+                             "at the uniform end: H0 "
+                             + excess[0] + "; H1 " + excess[1] + ".");
         made.notes.push_back(
-            "(8) neglects by how far ln Λ overshoots its boundary, so its \"upper bound\" is exceeded at the uniform end: H0 " + excess[0]
-            + "; H1 " + excess[1] + ".");
-        made.notes.push_back(
-            "σ, in cells, is the walk's discretised Gaussian step, rows renormalised on the line; the start is the row of the middle cell. "
+            "σ, in cells, is the walk's discretised Gaussian step, rows renormalised on the line; the start is the row "
+            "of the middle cell. "
             "α ≤ 1/γ1 and β ≤ γ0 hold for any law; the wanted 1e-3 is not used up because of the overshoot.");
         return made;
     }
@@ -279,13 +304,20 @@ namespace {
     {
         Reproduction made;
         made.name = "grossi:figure3";
-        made.title = "Correct last cell and correct trajectory against what is known of it (Grossi and Lops 2006, Figure 3): M = 100";
+        made.title = "Correct last cell and correct trajectory against what is known of it (Grossi and Lops 2006, "
+                     "Figure 3): M = 100";
         made.quantity = "probability, given H1 accepted";
         SequentialStudy study;
         study.trials = trialsOf(5000, options);
         study.estimatesTrajectory = true;
-        Chart lastChart{"Last cell correct within two cells, M = 100", "entropy rate / ln M", "P_c,last", false, false, {}};
-        Chart trackChart{"Trajectory correct within five cells all along, M = 100", "entropy rate / ln M", "P_c,track", false, false, {}};
+        Chart lastChart{
+            "Last cell correct within two cells, M = 100", "entropy rate / ln M", "P_c,last", false, false, {}};
+        Chart trackChart{"Trajectory correct within five cells all along, M = 100",
+                         "entropy rate / ln M",
+                         "P_c,track",
+                         false,
+                         false,
+                         {}};
         double done = 0.0;
         for (const TrackReference &reference : figure3References) {
             const double snr = ratioFromDb(reference.snrDb);
@@ -301,10 +333,10 @@ namespace {
                 done += 0.05;
                 misses += study.trials - outcome.acceptedH1;
                 const std::string column = deviationName(deviations[i]);
-                made.cells.push_back(frequencyCell(name + ", last", column, outcome.correctLast, outcome.acceptedH1, reference.last[i],
-                                                   figure3ReferenceTrials, 1e-3));
-                made.cells.push_back(frequencyCell(name + ", track", column, outcome.correctTrack, outcome.acceptedH1, reference.track[i],
-                                                   figure3ReferenceTrials, 1e-3));
+                made.cells.push_back(frequencyCell(name + ", last", column, outcome.correctLast, outcome.acceptedH1,
+                                                   reference.last[i], figure3ReferenceTrials, 1e-3));
+                made.cells.push_back(frequencyCell(name + ", track", column, outcome.correctTrack, outcome.acceptedH1,
+                                                   reference.track[i], figure3ReferenceTrials, 1e-3));
                 const double x = relativeEntropyRate(100, deviations[i]);
                 const ReproducedCell &trackCell = made.cells.back();
                 const ReproducedCell &lastCell = made.cells[made.cells.size() - 2];
@@ -312,8 +344,9 @@ namespace {
                 track.points.push_back({x, trackCell.ours, trackCell.interval});
             }
             const Index trials = study.trials * std::ssize(deviations);
-            ReproducedCell missed = frequencyCell(name, "P(miss), all σ", misses, trials, 1e-3 * reference.missesPerThousand,
-                                                  5.0 * figure3ReferenceTrials, 1e-5);
+            ReproducedCell missed =
+                frequencyCell(name, "P(miss), all σ", misses, trials, 1e-3 * reference.missesPerThousand,
+                              5.0 * figure3ReferenceTrials, 1e-5);
             missed.tolerance = within(frequencyError(*missed.reference, 5.0 * figure3ReferenceTrials),
                                       frequencyError(*missed.reference, static_cast<double>(trials)), 1e-5);
             made.cells.push_back(std::move(missed));
@@ -321,9 +354,10 @@ namespace {
             trackChart.curves.push_back(std::move(track));
         }
         made.charts = {std::move(lastChart), std::move(trackChart)};
-        made.notes.push_back("The test is designed at the actual SNR, so P_d hardly depends on it: a lower SNR is paid for with stages, "
-                             "and with trajectories that "
-                             "are longer and less often correct.");
+        made.notes.push_back(
+            "The test is designed at the actual SNR, so P_d hardly depends on it: a lower SNR is paid for with stages, "
+            "and with trajectories that "
+            "are longer and less often correct.");
         return made;
     }
 
@@ -331,15 +365,18 @@ namespace {
     {
         Reproduction made;
         made.name = "grossi:figure4";
-        made.title = "ASN and its coefficient of variation in the radar case (Grossi and Lops 2006, Figure 4): 3 × 3 × 100 × 16 cells, "
+        made.title = "ASN and its coefficient of variation in the radar case (Grossi and Lops 2006, Figure 4): 3 × 3 × "
+                     "100 × 16 cells, "
                      "cut-off 20 stages, design SNR 12 dB";
         made.quantity = "ASN (stages), CV, P(accept H1)";
         SequentialStudy study;
         study.model = radarModel(ratioFromDb(12.0));
         study.sprt.cutOffStage = 20;
         study.trials = trialsOf(10000, options);
-        Chart stagesChart{"Stages in the radar case, designed for 12 dB", "actual SNR (dB)", "ASN (stages)", false, false, {}};
-        Chart variationChart{"Their coefficient of variation", "actual SNR (dB)", "standard deviation / mean", false, false, {}};
+        Chart stagesChart{
+            "Stages in the radar case, designed for 12 dB", "actual SNR (dB)", "ASN (stages)", false, false, {}};
+        Chart variationChart{
+            "Their coefficient of variation", "actual SNR (dB)", "standard deviation / mean", false, false, {}};
         Chart acceptedChart{"Acceptance of a target", "actual SNR (dB)", "P(accept H1)", false, false, {}};
         Curve stages{"ASN with a target", Curve::Kind::Measured, {}};
         Curve variation{"CV with a target", Curve::Kind::Measured, {}};
@@ -355,14 +392,16 @@ namespace {
             study.seed = options.seed * 1000 + 900 + i;
             const double from = 0.1 * static_cast<double>(i);
             const SequentialOutcome outcome = simulate(study, context.part(from, from + 0.1));
-            made.cells.push_back(measuredCell("ASN", column, outcome.stages, reference.stages.value, reference.stages.error, 1e-3));
-            ReproducedCell cv =
-                measuredCell("CV", column, outcome.variation, reference.variation,
-                             outcome.variation.standardError * std::sqrt(static_cast<double>(study.trials) / figure4ReferenceTrials), 1e-3);
+            made.cells.push_back(
+                measuredCell("ASN", column, outcome.stages, reference.stages.value, reference.stages.error, 1e-3));
+            ReproducedCell cv = measuredCell(
+                "CV", column, outcome.variation, reference.variation,
+                outcome.variation.standardError * std::sqrt(static_cast<double>(study.trials) / figure4ReferenceTrials),
+                1e-3);
             cv.tolerance *= 2.0;
             made.cells.push_back(std::move(cv));
-            made.cells.push_back(frequencyCell("P(accept H1)", column, outcome.acceptedH1, study.trials, reference.acceptH1,
-                                               figure4ReferenceTrials, reference.acceptRounding));
+            made.cells.push_back(frequencyCell("P(accept H1)", column, outcome.acceptedH1, study.trials,
+                                               reference.acceptH1, figure4ReferenceTrials, reference.acceptRounding));
             if (!reference.snrDb) {
                 noiseStages = outcome.stages.value;
                 noiseVariation = outcome.variation.value;
@@ -381,11 +420,13 @@ namespace {
         for (const Index cells : {32, 16}) {
             study.averagedCells = cells;
             const SequentialOutcome outcome = simulate(study, context.part(0.9, 1.0));
-            made.cells.push_back(measuredCell("ASN", "H0, noise power from " + std::to_string(cells) + " cells", outcome.stages,
-                                              cells == 32 ? 13.1 : 15.4, outcome.stages.standardError, 0.1));
+            made.cells.push_back(measuredCell("ASN", "H0, noise power from " + std::to_string(cells) + " cells",
+                                              outcome.stages, cells == 32 ? 13.1 : 15.4, outcome.stages.standardError,
+                                              0.1));
         }
         const auto onNoise = [&](const std::string &name, double value) {
-            return Curve{name, Curve::Kind::Theory, {{stages.points.front().x, value, {}}, {stages.points.back().x, value, {}}}};
+            return Curve{
+                name, Curve::Kind::Theory, {{stages.points.front().x, value, {}}, {stages.points.back().x, value, {}}}};
         };
         variationChart.curves = {std::move(variation), onNoise("on noise", noiseVariation)};
         Curve noise = onNoise("on noise", noiseStages);
@@ -394,13 +435,14 @@ namespace {
         made.charts = {std::move(stagesChart), std::move(variationChart), std::move(acceptedChart)};
         made.notes.push_back("ASN peaks at " + formatNumber(peakDb) + " dB, " + text("%.2f", peak) + " stages against "
                              + text("%.2f", noiseStages)
-                             + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the cut-off ends what would "
+                             + " on noise: half-way between noise and the design SNR ln Λ drifts nowhere, and the "
+                               "cut-off ends what would "
                                "hang. A test designed "
                                "at each actual SNR has no such peak; it saturates at the cut-off and falls.");
-        made.notes.push_back(
-            "The publication's cell averaging is not described: sliding means of the 32 or 16 neighbours in range are shown, with the "
-            "exact likelihood ratio of such a quotient. All other cells "
-            "know the noise power.");
+        made.notes.push_back("The publication's cell averaging is not described: sliding means of the 32 or 16 "
+                             "neighbours in range are shown, with the "
+                             "exact likelihood ratio of such a quotient. All other cells "
+                             "know the noise power.");
         return made;
     }
 
@@ -408,10 +450,12 @@ namespace {
 
 std::vector<Reproducible> grossiReproducibles()
 {
-    return {
-        {"grossi:figure2", "Grossi and Lops 2006, Figure 2: stages taken, against what is known of the trajectory", reproduceFigure2},
-        {"grossi:figure3", "Grossi and Lops 2006, Figure 3: how often the trajectory is correct", reproduceFigure3},
-        {"grossi:figure4", "Grossi and Lops 2006, Figure 4: stages and detections in the radar case, against the SNR", reproduceFigure4}};
+    return {{"grossi:figure2", "Grossi and Lops 2006, Figure 2: stages taken, against what is known of the trajectory",
+             reproduceFigure2},
+            {"grossi:figure3", "Grossi and Lops 2006, Figure 3: how often the trajectory is correct", reproduceFigure3},
+            {"grossi:figure4",
+             "Grossi and Lops 2006, Figure 4: stages and detections in the radar case, against the SNR",
+             reproduceFigure4}};
 }
 
 } // namespace faintline

@@ -6,8 +6,9 @@
 
 namespace faintline {
 
-/// Figures 2 to 4 of Grossi and Lops 2006: stages against knowledge of the trajectory, correct trajectories, and the radar case.
-/// The publication's figures give no numbers; references are an independent program's with their standard errors, or exact.
+/// Figures 2 to 4 of Grossi and Lops 2006: stages against knowledge of the trajectory, correct trajectories, and the
+/// radar case. The publication's figures give no numbers; references are an independent program's with their standard
+/// errors, or exact.
 std::vector<Reproducible> grossiReproducibles();
 
 } // namespace faintline

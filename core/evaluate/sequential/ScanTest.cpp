@@ -21,7 +21,8 @@ namespace {
         KinematicAxis axis;
         axis.name = name;
         axis.cells = cells;
-        axis.step = scene.moves == ScanMoves::Uniform ? std::vector{1.0 / 3.0, 1.0 / 3.0} : gaussianStep(scene.moveCells, cells);
+        axis.step = scene.moves == ScanMoves::Uniform ? std::vector{1.0 / 3.0, 1.0 / 3.0}
+                                                      : gaussianStep(scene.moveCells, cells);
         axis.renormalised = true;
         return axis;
     }
@@ -49,21 +50,24 @@ const std::vector<Field<ScanTest>> &ScanTest::fields()
         const auto sprt = [](auto &test) { return &test.sprt; };
         const auto scene = [](auto &test) { return &test.scene; };
         std::vector<Field<S>> all = within<S>("sprt", SprtSettings::fields(), sprt);
-        all.push_back(
-            field(&S::designSnrDb, "design.snrDb", "dB", -20.0, highestDesignDb, "SNR of the target for which the test "
-                                                                                 "is designed."));
+        all.push_back(field(&S::designSnrDb, "design.snrDb", "dB", -20.0, highestDesignDb,
+                            "SNR of the target for which the test "
+                            "is designed."));
         all.push_back(field(&S::averagedCells, "design.averagedCells", "", 0.0, 65536.0,
                             "Neighbours in range whose mean estimates the noise power; 0: the noise power is known."));
         for (Field<S> &one : within<S>("scene", ScanScene::fields(), scene))
             if (one.name != "scene.stages" && one.name != "scene.hasTarget" && one.name != "scene.secondsPerStage")
                 all.push_back(std::move(one));
-        all.push_back(field(&S::walks, "runs.walks", "", 1.0, 2000.0, "Number of tests of each hypothesis shown "
-                                                                      "individually."));
+        all.push_back(field(&S::walks, "runs.walks", "", 1.0, 2000.0,
+                            "Number of tests of each hypothesis shown "
+                            "individually."));
         all.push_back(field(&S::trials, "runs.trials", "", 20.0, 100000.0, "Number of tests per point of a curve."));
         all.push_back(field(&S::designFollows, "runs.designFollows", "Design the test for each SNR of the curves."));
-        all.push_back(field(&S::sectors, "survey.sectors", "", 1.0, 360.0, "Number of angular sectors visited in turn."));
-        all.push_back(field(&S::targetSectors, "survey.targetSectors", "", 0.0, 360.0, "Number of sectors with a "
-                                                                                       "target."));
+        all.push_back(
+            field(&S::sectors, "survey.sectors", "", 1.0, 360.0, "Number of angular sectors visited in turn."));
+        all.push_back(field(&S::targetSectors, "survey.targetSectors", "", 0.0, 360.0,
+                            "Number of sectors with a "
+                            "target."));
         all.push_back(field(&S::rounds, "survey.rounds", "", 1.0, 1000.0, "Number of looks at each sector."));
         return all;
     }();
@@ -98,20 +102,20 @@ void checkScanTest(const ScanTest &test)
     checkSprt(test.sprt, "sprt");
     if (test.sprt.cutOffStage > mostStages)
         throw fieldError("sprt.cutOffStage", std::to_string(test.sprt.cutOffStage),
-                    "must lie in 0 … " + std::to_string(mostStages) + " if tests are simulated");
+                         "must lie in 0 … " + std::to_string(mostStages) + " if tests are simulated");
     ScanScene scene = test.scene;
     scene.stages = 1;
     checkScene(scene);
     const double cells = static_cast<double>(scanGrid(scene).size());
     if (cells > mostCells)
         throw fieldError("scene.rangeCells", std::to_string(scene.rangeCells),
-                    "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁰ are simulated");
+                         "gives a scan of " + formatNumber(cells) + " cells; at most 2²⁰ are simulated");
     if (test.averagedCells >= test.scene.rangeCells)
         throw fieldError("design.averagedCells", std::to_string(test.averagedCells),
-                    "must be less than the " + std::to_string(test.scene.rangeCells) + " range cells");
+                         "must be less than the " + std::to_string(test.scene.rangeCells) + " range cells");
     if (test.targetSectors > test.sectors)
         throw fieldError("survey.targetSectors", std::to_string(test.targetSectors),
-                    "must be at most the number of sectors, " + std::to_string(test.sectors));
+                         "must be at most the number of sectors, " + std::to_string(test.sectors));
 }
 
 SequentialModel scanModel(const ScanScene &scene, double designSnrDb)
@@ -119,9 +123,10 @@ SequentialModel scanModel(const ScanScene &scene, double designSnrDb)
     KinematicAxis doppler;
     doppler.name = "Doppler";
     doppler.cells = scene.dopplerCells;
-    return makeSequentialModel({spatialAxis("azimuth", scene.azimuthCells, scene), spatialAxis("elevation", scene.elevationCells, scene),
-                                spatialAxis("range", scene.rangeCells, scene), doppler},
-                               {false, false, false, true}, Likelihood(LikelihoodKind::Exponential, ratioFromDb(designSnrDb)));
+    return makeSequentialModel(
+        {spatialAxis("azimuth", scene.azimuthCells, scene), spatialAxis("elevation", scene.elevationCells, scene),
+         spatialAxis("range", scene.rangeCells, scene), doppler},
+        {false, false, false, true}, Likelihood(LikelihoodKind::Exponential, ratioFromDb(designSnrDb)));
 }
 
 Index stageLimit(const ScanTest &test)
@@ -138,19 +143,21 @@ StageSource scanStages(const ScanTest &test, const ScanRun &run)
 {
     const ScanScene scene = sceneOf(test, run);
     StageSource source = [scene, stream = streamOf(run), path = scanTrajectory(scene, streamOf(run)),
-                          y = std::vector<float>(static_cast<std::size_t>(scanGrid(scene).size()))](Index stage,
-                                                                                                    std::span<double> out) mutable {
+                          y = std::vector<float>(static_cast<std::size_t>(scanGrid(scene).size()))](
+                             Index stage, std::span<double> out) mutable {
         readScan(scene, path, stream, stage, y);
         std::copy(y.begin(), y.end(), out.begin());
     };
     if (test.averagedCells == 0)
         return source;
-    return averagedStages(std::move(source), scanModel(test.scene, test.designSnrDb), test.averagedCells, "design.averagedCells");
+    return averagedStages(std::move(source), scanModel(test.scene, test.designSnrDb), test.averagedCells,
+                          "design.averagedCells");
 }
 
 std::vector<float> rangeDopplerDb(const ScanTest &test, const ScanRun &run, Index stage)
 {
-    const auto plane = static_cast<std::size_t>(test.scene.rangeCells) * static_cast<std::size_t>(test.scene.dopplerCells);
+    const auto plane =
+        static_cast<std::size_t>(test.scene.rangeCells) * static_cast<std::size_t>(test.scene.dopplerCells);
     std::vector<double> y(static_cast<std::size_t>(scanGrid(test.scene).size()));
     scanStages(test, run)(stage, y);
     std::vector<float> map(plane, 0.0f);
@@ -177,10 +184,11 @@ bool holdsTarget(const ScanTest &test, Index sector)
 Survey surveyScans(const ScanTest &test, Index fixedSize, const RunContext &context)
 {
     const auto source = [&](const SectorVisit &visit) {
-        return scanStages(test, {holdsTarget(test, visit.sector), firstLook + static_cast<int>(visit.round * test.sectors + visit.sector)});
+        return scanStages(test, {holdsTarget(test, visit.sector),
+                                 firstLook + static_cast<int>(visit.round * test.sectors + visit.sector)});
     };
-    return survey(scanModel(test.scene, test.designSnrDb), test.sprt, test.sectors, test.rounds, stageLimit(test), fixedSize, source,
-                  context);
+    return survey(scanModel(test.scene, test.designSnrDb), test.sprt, test.sectors, test.rounds, stageLimit(test),
+                  fixedSize, source, context);
 }
 
 SequentialStudy studyOf(const ScanTest &test, double designSnrDb, std::optional<double> actualSnrDb)

@@ -40,11 +40,13 @@ namespace {
             sum[i] += ratio[i];
     }
 
-    /// Of a trial's frame: Σ p1/p0 of the cells folded into one, in the first stateCells places of `ratio`, which is as long as the frame.
+    /// Of a trial's frame: Σ p1/p0 of the cells folded into one, in the first stateCells places of `ratio`, which is as
+    /// long as the frame.
     void foldedRatios(const SequentialModel &model, std::span<const float> y, std::span<float> ratio)
     {
         const double snr = model.markov.likelihood.snr();
-        likelihoodRatios(y.data(), y.size(), static_cast<float>(snr / (1.0 + snr)), static_cast<float>(-std::log1p(snr)), ratio.data());
+        likelihoodRatios(y.data(), y.size(), static_cast<float>(snr / (1.0 + snr)),
+                         static_cast<float>(-std::log1p(snr)), ratio.data());
         const auto cells = static_cast<std::size_t>(model.reduction.stateCells());
         for (std::size_t other = cells; other < ratio.size(); other += cells)
             addFolded(ratio.data(), ratio.data() + other, cells);
@@ -92,7 +94,8 @@ namespace {
             throw fieldError("actualSnr", formatNumber(*study.actualSnr), "must be a power ratio above 0");
         if (study.trials < 1)
             throw Error("trials", "must be at least 1");
-        if (const Index row = study.model.markov.space.axes().back().cells; study.averagedCells < 0 || study.averagedCells >= row)
+        if (const Index row = study.model.markov.space.axes().back().cells;
+            study.averagedCells < 0 || study.averagedCells >= row)
             throw Error("averagedCells", "must be less than the " + std::to_string(row) + " cells of the last axis");
     }
 
@@ -102,10 +105,12 @@ namespace {
     public:
         Runner(const SequentialStudy &study, const TrajectorySampler &sampler)
             : m_study(study), m_sampler(sampler), m_cells(study.model.markov.space.cellCount()),
-              m_states(study.model.markov.space.stateCount()), m_lanes(lanesFor(m_states)), m_initial(study.model.initialLaw()),
-              m_recursion(withLanes(study.model.markov.space, m_lanes)), m_weights(static_cast<std::size_t>(m_states * m_lanes), 0.0),
+              m_states(study.model.markov.space.stateCount()), m_lanes(lanesFor(m_states)),
+              m_initial(study.model.initialLaw()), m_recursion(withLanes(study.model.markov.space, m_lanes)),
+              m_weights(static_cast<std::size_t>(m_states * m_lanes), 0.0),
               m_ratio(static_cast<std::size_t>(m_cells * m_lanes), 0.0), m_total(static_cast<std::size_t>(m_lanes)),
-              m_cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells())), m_slot(static_cast<std::size_t>(m_lanes))
+              m_cellRatio(static_cast<std::size_t>(study.model.reduction.frameCells())),
+              m_slot(static_cast<std::size_t>(m_lanes))
         {
         }
 
@@ -156,7 +161,8 @@ namespace {
             std::fill(m_total.begin(), m_total.end(), 0.0);
             for (Index plane = 0; plane < m_states / m_cells; ++plane) {
                 const Index offset = plane * m_cells * m_lanes;
-                weigh(predicted.data() + offset, m_ratio.data(), m_cells, m_lanes, m_weights.data() + offset, m_total.data());
+                weigh(predicted.data() + offset, m_ratio.data(), m_cells, m_lanes, m_weights.data() + offset,
+                      m_total.data());
             }
         }
 
@@ -228,11 +234,13 @@ namespace {
                 for (Index cell = 0; cell < cells; ++cell) {
                     Index best = 0;
                     for (Index d = 1; d < folded; ++d)
-                        if (y[static_cast<std::size_t>(d * cells + cell)] > y[static_cast<std::size_t>(best * cells + cell)])
+                        if (y[static_cast<std::size_t>(d * cells + cell)]
+                            > y[static_cast<std::size_t>(best * cells + cell)])
                             best = d;
                     const auto at = static_cast<std::size_t>(stage * cells + cell);
                     m_best[at] = best;
-                    m_lambda[at] = m_study.model.markov.likelihood.at(static_cast<double>(y[static_cast<std::size_t>(best * cells + cell)]))
+                    m_lambda[at] = m_study.model.markov.likelihood.at(
+                                       static_cast<double>(y[static_cast<std::size_t>(best * cells + cell)]))
                                    - lnFolded;
                 }
             }
@@ -243,7 +251,8 @@ namespace {
             Index error = 0;
             for (Index stage = 0; stage < outcome.stages; ++stage) {
                 const Index state = map.states[static_cast<std::size_t>(stage)];
-                const Index best = m_best[static_cast<std::size_t>(stage * cells + m_study.model.markov.space.cellOf(state))];
+                const Index best =
+                    m_best[static_cast<std::size_t>(stage * cells + m_study.model.markov.space.cellOf(state))];
                 error = distance(position(state, best), truth[static_cast<std::size_t>(stage)]);
                 worst = std::max(worst, error);
             }
@@ -255,7 +264,10 @@ namespace {
         bool isAllFolded() const { return m_study.model.reduction.stateCells() == 1; }
 
         /// The cell of a state; where every axis is folded, the cell on those: a line of which nothing is known.
-        Index position(Index state, Index folded) const { return isAllFolded() ? folded : m_study.model.markov.space.cellOf(state); }
+        Index position(Index state, Index folded) const
+        {
+            return isAllFolded() ? folded : m_study.model.markov.space.cellOf(state);
+        }
 
         /// Largest distance along any axis.
         Index distance(Index a, Index b) const
@@ -307,7 +319,8 @@ namespace {
         result.deviationStages = std::sqrt(m2);
         result.stages = {mean, std::sqrt(m2 / n)};
         const double variation = result.deviationStages / mean;
-        const double relative = m2 > 0.0 ? (m4 - m2 * m2) / (4.0 * m2 * m2) + m2 / (mean * mean) - m3 / (m2 * mean) : 0.0;
+        const double relative =
+            m2 > 0.0 ? (m4 - m2 * m2) / (4.0 * m2 * m2) + m2 / (mean * mean) - m3 / (m2 * mean) : 0.0;
         result.variation = {variation, variation * std::sqrt(std::max(0.0, relative) / n)};
     }
 
@@ -342,7 +355,8 @@ SequentialTrial::SequentialTrial(const SequentialStudy &study, const TrajectoryS
       m_target(study.seed, 2 * static_cast<std::uint64_t>(trial) + 1), m_frameCells(study.model.reduction.frameCells())
 {
     // Whole blocks of four random words at a time, about 256 cells or a frame.
-    m_bufferFrames = m_frameCells % 4 == 0 ? std::max<Index>(1, 256 / m_frameCells) : 4 * std::max<Index>(1, 64 / m_frameCells);
+    m_bufferFrames =
+        m_frameCells % 4 == 0 ? std::max<Index>(1, 256 / m_frameCells) : 4 * std::max<Index>(1, 64 / m_frameCells);
     m_used = m_bufferFrames;
     m_buffer.resize(static_cast<std::size_t>(m_bufferFrames * m_frameCells));
 }
@@ -379,7 +393,8 @@ SequentialOutcome simulate(const SequentialStudy &study, const RunContext &conte
     const Index items = (study.trials + trialsOfAnItem - 1) / trialsOfAnItem;
     parallelFor(items, context, "sequential tests", [&]() -> std::function<void(Index)> {
         const auto runner = std::make_shared<Runner>(study, sampler);
-        const auto judge = study.estimatesTrajectory && study.actualSnr ? std::make_shared<TrajectoryJudge>(study, sampler) : nullptr;
+        const auto judge =
+            study.estimatesTrajectory && study.actualSnr ? std::make_shared<TrajectoryJudge>(study, sampler) : nullptr;
         return [&, runner, judge](Index item) {
             const Index first = item * trialsOfAnItem;
             const Index count = std::min(trialsOfAnItem, study.trials - first);
@@ -412,15 +427,16 @@ namespace {
                     foldedRatios(study.model, run.next(), cellRatio);
                     for (std::size_t cell = 0; cell < lambda.size(); ++cell)
                         lambda[cell] = std::log(static_cast<double>(cellRatio[cell])) - lnFolded;
-                    lnLambda[static_cast<std::size_t>(stage) * trials + static_cast<std::size_t>(trial)] = ratio.update(lambda);
+                    lnLambda[static_cast<std::size_t>(stage) * trials + static_cast<std::size_t>(trial)] =
+                        ratio.update(lambda);
                 }
             };
         });
         return lnLambda;
     }
 
-    /// Whether a threshold exists that misses no more than β of these runs with a target and accepts no more than α of noise, by
-    /// change of measure. Sorts them.
+    /// Whether a threshold exists that misses no more than β of these runs with a target and accepts no more than α of
+    /// noise, by change of measure. Sorts them.
     bool suffices(std::span<double> lnLambda, const SprtSettings &sprt)
     {
         std::sort(lnLambda.begin(), lnLambda.end());
@@ -445,7 +461,8 @@ std::optional<Index> simulatedFixedSampleSize(const SequentialStudy &study, Inde
         std::vector<double> lnLambda =
             lnRatios(own, count, context.part(done, static_cast<double>(count) / static_cast<double>(largest)));
         for (Index stage = known; stage < count; ++stage)
-            if (suffices(std::span(lnLambda).subspan(static_cast<std::size_t>(stage * own.trials), static_cast<std::size_t>(own.trials)),
+            if (suffices(std::span(lnLambda).subspan(static_cast<std::size_t>(stage * own.trials),
+                                                     static_cast<std::size_t>(own.trials)),
                          own.sprt))
                 return stage + 1;
         known = count;

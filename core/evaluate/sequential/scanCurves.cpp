@@ -16,7 +16,8 @@ namespace {
 
     void sortBySnr(std::vector<ScanPoint> &points)
     {
-        std::sort(points.begin(), points.end(), [](const ScanPoint &a, const ScanPoint &b) { return a.snrDb < b.snrDb; });
+        std::sort(points.begin(), points.end(),
+                  [](const ScanPoint &a, const ScanPoint &b) { return a.snrDb < b.snrDb; });
     }
 
     Curve::Point pointAt(double x, const Estimate &estimate)
@@ -85,8 +86,9 @@ ScanPoint measureScanPoint(const ScanTest &test, double snrDb, const ScanPoint *
     point.snrDb = snrDb;
     point.designSnrDb = test.designFollows ? snrDb : test.designSnrDb;
     const bool isKnown = before && before->designSnrDb == point.designSnrDb;
-    point.bounds = isKnown ? before->bounds
-                           : waldBounds(test.sprt, ratioFromDb(point.designSnrDb), static_cast<int>(scanGrid(test.scene).size()));
+    point.bounds =
+        isKnown ? before->bounds
+                : waldBounds(test.sprt, ratioFromDb(point.designSnrDb), static_cast<int>(scanGrid(test.scene).size()));
     point.h0 = isKnown ? before->h0 : simulate(studyOf(test, point.designSnrDb, {}), context.part(0.0, 0.5));
     SequentialStudy study = studyOf(test, point.designSnrDb, snrDb);
     study.seed += std::uint64_t(1) << 32; // not the noise of H0 again
@@ -170,7 +172,8 @@ std::optional<Overshoot> overshoot(const PriorCurve &curve)
 {
     for (const PriorPoint &point : curve.points)
         if (point.entropyRate == 1.0)
-            return Overshoot{point.h0.stages.value / curve.bounds.h0High - 1.0, point.h1.stages.value / curve.bounds.h1High - 1.0};
+            return Overshoot{point.h0.stages.value / curve.bounds.h0High - 1.0,
+                             point.h1.stages.value / curve.bounds.h1High - 1.0};
     return {};
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 } // namespace
 
-std::vector<ExceedancePoint> boxExceedance(const PeakPyramid &statistic, Index beginFrame, Index endFrame, Index beginCell, Index endCell)
+std::vector<ExceedancePoint> boxExceedance(const PeakPyramid &statistic, Index beginFrame, Index endFrame,
+                                           Index beginCell, Index endCell)
 {
     beginFrame = std::clamp<Index>(beginFrame, 0, statistic.frameCount());
     endFrame = std::clamp<Index>(endFrame, beginFrame, statistic.frameCount());
@@ -28,7 +29,8 @@ std::vector<ExceedancePoint> boxExceedance(const PeakPyramid &statistic, Index b
     std::int64_t total = 0;
     for (Index frame = beginFrame; frame < endFrame; frame += stride) {
         const auto row = statistic.row(0, frame);
-        for (const std::uint8_t byte : row.subspan(static_cast<std::size_t>(beginCell), static_cast<std::size_t>(width)))
+        for (const std::uint8_t byte :
+             row.subspan(static_cast<std::size_t>(beginCell), static_cast<std::size_t>(width)))
             ++counts[byte];
         total += width;
     }

@@ -29,9 +29,12 @@ namespace {
         }
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);
         const bool isOneToOne = model.motion == Motion::Slopes && model.lowestSlope == model.highestSlope;
-        if (smd && isIndependentInTime && isOneToOne && model.likelihood == LikelihoodKind::Linear && calibration.lnK < -1.0
+        if (smd && isIndependentInTime && isOneToOne && model.likelihood == LikelihoodKind::Linear
+            && calibration.lnK < -1.0
             && (smd->reset == SmdSettings::Reset::Fixed || smd->reset == SmdSettings::Reset::Calibrated))
-            return [lnK = calibration.lnK](double level) { return level + lnK >= 0.0 ? lindleyExceedance(level + lnK, lnK) : -1.0; };
+            return [lnK = calibration.lnK](double level) {
+                return level + lnK >= 0.0 ? lindleyExceedance(level + lnK, lnK) : -1.0;
+            };
         return {};
     }
 

@@ -41,7 +41,8 @@ double pdOfMeanPowerEstimated(double threshold, int looks, int references, doubl
 {
     if (snr <= 0.0)
         return pfaOfMeanPowerEstimated(threshold, looks, references);
-    return math::cdf(math::complement(math::non_central_f(2.0 * looks, 2.0 * references, 2.0 * looks * snr), threshold));
+    return math::cdf(
+        math::complement(math::non_central_f(2.0 * looks, 2.0 * references, 2.0 * looks * snr), threshold));
 }
 
 double snrOfMeanPower(double pd, double pfa, int looks)
@@ -49,7 +50,8 @@ double snrOfMeanPower(double pd, double pfa, int looks)
     const double threshold = thresholdOfMeanPower(pfa, looks);
     const auto gap = [&](double lnSnr) { return pdOfMeanPower(threshold, looks, std::exp(lnSnr)) - pd; };
     std::uintmax_t steps = 200;
-    const auto [low, high] = math::tools::toms748_solve(gap, -12.0, 12.0, math::tools::eps_tolerance<double>(40), steps);
+    const auto [low, high] =
+        math::tools::toms748_solve(gap, -12.0, 12.0, math::tools::eps_tolerance<double>(40), steps);
     return std::exp(0.5 * (low + high));
 }
 

@@ -2,8 +2,8 @@
 
 namespace faintline {
 
-// What can be known of detectors without simulating them. Noise cells are exponential of mean 1, signals of constant amplitude add
-// power `snr` (a ratio), looks are independent.
+// What can be known of detectors without simulating them. Noise cells are exponential of mean 1, signals of constant
+// amplitude add power `snr` (a ratio), looks are independent.
 
 /// P( mean of `looks` noise cells > threshold ): a gamma law.
 double pfaOfMeanPower(double threshold, int looks);
@@ -11,12 +11,12 @@ double pfaOfMeanPower(double threshold, int looks);
 /// The threshold for that probability.
 double thresholdOfMeanPower(double pfa, int looks);
 
-/// P( mean of `looks` cells > threshold ) with a signal: Marcum's Q of order `looks`, a non-central χ² law of 2·looks degrees of freedom.
-/// Billon 2005 section 5: "the well-known ROC curves for the Rice case".
+/// P( mean of `looks` cells > threshold ) with a signal: Marcum's Q of order `looks`, a non-central χ² law of 2·looks
+/// degrees of freedom. Billon 2005 section 5: "the well-known ROC curves for the Rice case".
 double pdOfMeanPower(double threshold, int looks, double snr);
 
-/// The same two where the threshold is `threshold` times the mean of `references` other noise cells (cell averaging): Fisher's F law,
-/// central and not.
+/// The same two where the threshold is `threshold` times the mean of `references` other noise cells (cell averaging):
+/// Fisher's F law, central and not.
 double pfaOfMeanPowerEstimated(double threshold, int looks, int references);
 double pdOfMeanPowerEstimated(double threshold, int looks, int references, double snr);
 
@@ -26,7 +26,8 @@ double snrOfMeanPower(double pd, double pfa, int looks);
 /// P( at least p of n independent frames have an event ) where one has it with probability `event`: a binomial tail.
 double pdOfPofN(int p, int n, double event);
 
-/// Lindley's recursion in closed form: the sequential Markov detector with one-to-one transitions and the linear likelihood on noise,
+/// Lindley's recursion in closed form: the sequential Markov detector with one-to-one transitions and the linear
+/// likelihood on noise,
 ///
 ///   L ← max(L, 0) + y + ln K,   σ the root below 1 of σ = exp(ln K·(1-σ)),   P(L > T) = σ·e^{-(1-σ)T} for T ≥ 0
 ///

@@ -33,7 +33,8 @@ namespace {
         const double end = std::max(knee + 4.5 / (mean * s), 1.0);
         using Rule = boost::math::quadrature::gauss_kronrod<double, 61>;
         double sum = 0.0;
-        for (const auto &[from, to] : {std::pair{0.0, std::min(knee, 45.0)}, std::pair{std::min(knee, 45.0), std::min(end, 60.0)}})
+        for (const auto &[from, to] :
+             {std::pair{0.0, std::min(knee, 45.0)}, std::pair{std::min(knee, 45.0), std::min(end, 60.0)}})
             if (from < to)
                 sum += Rule::integrate(value, from, to, 8, 1e-13);
         return sum;
@@ -163,7 +164,8 @@ namespace {
                     continue;
                 for (std::size_t k = 0; k < order; ++k) {
                     const double z = 0.5 * (from + to) + 0.5 * (to - from) * gaussRule().x[k];
-                    const double weight = 0.5 * (to - from) * gaussRule().w[k] * std::exp(-(z - begin) / m_scale) / m_scale;
+                    const double weight =
+                        0.5 * (to - from) * gaussRule().w[k] * std::exp(-(z - begin) / m_scale) / m_scale;
                     const Nodes values = lagrange((2.0 * z - m_edges[panel] - to) / (to - m_edges[panel]));
                     for (std::size_t i = 0; i < order; ++i)
                         row[panel * order + i] += weight * values[i];

@@ -19,7 +19,8 @@ SequentialModel walkOnLine(Index cells, double deviation, double snr)
     const Index centre = cells / 2;
     for (Index cell = 0; cell < cells; ++cell)
         if (const Index d = std::abs(cell - centre); d < std::ssize(axis.step))
-            initial[static_cast<std::size_t>(cell)] = axis.step[static_cast<std::size_t>(d)] * std::exp(axis.lnDeparture(centre));
+            initial[static_cast<std::size_t>(cell)] =
+                axis.step[static_cast<std::size_t>(d)] * std::exp(axis.lnDeparture(centre));
     return makeSequentialModel({axis}, {false}, likelihood, std::move(initial));
 }
 

@@ -11,7 +11,8 @@
 
 namespace faintline::test {
 
-/// faintline-cli from outside: the real program in a folder of its own, its files, its exit codes and what it says where.
+/// faintline-cli from outside: the real program in a folder of its own, its files, its exit codes and what it says
+/// where.
 class CommandLineTest : public QObject
 {
 protected:
@@ -24,7 +25,8 @@ protected:
     static constexpr int patience = 120'000 * slowdown; ///< ms, for a machine that is busy with other things
     inline static const QString program = QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline-cli");
     /// For the line of `simulateLine`.
-    inline static const QStringList lineSettings{"--set", "spectrogram.windowSeconds=0.5", "--set", "decide.falseAlarmsPerHour=2"};
+    inline static const QStringList lineSettings{"--set", "spectrogram.windowSeconds=0.5", "--set",
+                                                 "decide.falseAlarmsPerHour=2"};
 
     /// Runs the program to its end.
     Outcome run(const QStringList &arguments, const std::function<void()> &inChild = {}) const

@@ -19,9 +19,11 @@ private slots:
 
 void tst_cliCompare::comparesTwoSettings()
 {
-    const QStringList options{"compare", "line.wav", "--set-b", "detector.kind=energy", "--set-b", "decide.thresholdNats=500"};
+    const QStringList options{
+        "compare", "line.wav", "--set-b", "detector.kind=energy", "--set-b", "decide.thresholdNats=500"};
     const Outcome one =
-        run(options + QStringList{"--threads", "1", "--events", "compared1.csv", "--difference", "compared1.npy"} + lineSettings);
+        run(options + QStringList{"--threads", "1", "--events", "compared1.csv", "--difference", "compared1.npy"}
+            + lineSettings);
     QCOMPARE(one.err, QByteArray());
     QCOMPARE(one.code, 0);
     QVERIFY2(one.out.contains("  detector.kind: smd in A, energy in B\n"), one.out.data());
@@ -32,14 +34,16 @@ void tst_cliCompare::comparesTwoSettings()
     QCOMPARE(difference.shape, (std::vector<Index>{119, 501}));
 
     const Outcome two =
-        run(options + QStringList{"--threads", "2", "--events", "compared2.csv", "--difference", "compared2.npy"} + lineSettings);
+        run(options + QStringList{"--threads", "2", "--events", "compared2.csv", "--difference", "compared2.npy"}
+            + lineSettings);
     QCOMPARE(two.out, one.out);
     QVERIFY(content("compared2.csv") == content("compared1.csv"));
     QVERIFY(content("compared2.npy") == content("compared1.npy"));
 
     // The same on both sides: everything in both, no difference.
     const Outcome same = run(QStringList{"compare", "line.wav", "--difference", "same.npy"} + lineSettings);
-    QVERIFY2(same.out.contains("their settings are the same\nin both: 1, only in A: 0, only in B: 0\n"), same.out.data());
+    QVERIFY2(same.out.contains("their settings are the same\nin both: 1, only in A: 0, only in B: 0\n"),
+             same.out.data());
     for (const float value : readNumPy(pathOf("same.npy")).values)
         QCOMPARE(value, 0.0f);
 }

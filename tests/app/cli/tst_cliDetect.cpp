@@ -11,16 +11,19 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// detect and explain, on a line, on frames, on pings and on what hardly is a recording: the same bytes on however many threads.
+/// detect and explain, on a line, on frames, on pings and on what hardly is a recording: the same bytes on however many
+/// threads.
 class tst_cliDetect : public CommandLineTest
 {
     Q_OBJECT
 
 private slots:
-    void initTestCase() { 
+    void initTestCase()
+    {
         simulateLine();
-        const Outcome found = run(QStringList{"detect", "line.wav", "--threads", "1", "--events", "events.csv", "--tracks", "tracks.csv",
-                                    "--statistic", "D.npy"} + lineSettings);
+        const Outcome found = run(QStringList{"detect", "line.wav", "--threads", "1", "--events", "events.csv",
+                                              "--tracks", "tracks.csv", "--statistic", "D.npy"}
+                                  + lineSettings);
         QCOMPARE(found.err, QByteArray());
         QCOMPARE(found.code, 0);
         QCOMPARE(found.out, QByteArray());
@@ -44,26 +47,26 @@ private slots:
 
 namespace {
 
-    std::shared_ptr<const Analysis> inLibrary(const std::string &path, std::vector<float> &statistic)
-    {
-        AnalysisSettings own;
-        setSetting(own, "spectrogram.windowSeconds", "0.5");
-        setSetting(own, "decide.falseAlarmsPerHour", "2");
-        return analyse(openRecording(path), own, {}, nullptr, [&](Index, std::span<const float> values) {
-            statistic.insert(statistic.end(), values.begin(), values.end());
-        });
-    }
+std::shared_ptr<const Analysis> inLibrary(const std::string &path, std::vector<float> &statistic)
+{
+    AnalysisSettings own;
+    setSetting(own, "spectrogram.windowSeconds", "0.5");
+    setSetting(own, "decide.falseAlarmsPerHour", "2");
+    return analyse(openRecording(path), own, {}, nullptr, [&](Index, std::span<const float> values) {
+        statistic.insert(statistic.end(), values.begin(), values.end());
+    });
+}
 
-    /// A WAV file of float samples, its header by hand, so that it may lie.
-    QByteArray wav(quint32 rate, quint16 channels, const std::vector<float> &samples)
-    {
-        const auto number = [](auto value) { return QByteArray(reinterpret_cast<const char *>(&value), sizeof value); };
-        const QByteArray data(reinterpret_cast<const char *>(samples.data()), static_cast<qsizetype>(4 * samples.size()));
-        return "RIFF" + number(static_cast<quint32>(36 + data.size())) + "WAVEfmt " + number(quint32(16)) + number(quint16(3))
-               + number(channels) + number(rate) + number(static_cast<quint32>(rate * channels * 4))
-               + number(static_cast<quint16>(channels * 4)) + number(quint16(32)) + "data" + number(static_cast<quint32>(data.size()))
-               + data;
-    }
+/// A WAV file of float samples, its header by hand, so that it may lie.
+QByteArray wav(quint32 rate, quint16 channels, const std::vector<float> &samples)
+{
+    const auto number = [](auto value) { return QByteArray(reinterpret_cast<const char *>(&value), sizeof value); };
+    const QByteArray data(reinterpret_cast<const char *>(samples.data()), static_cast<qsizetype>(4 * samples.size()));
+    return "RIFF" + number(static_cast<quint32>(36 + data.size())) + "WAVEfmt " + number(quint32(16))
+           + number(quint16(3)) + number(channels) + number(rate) + number(static_cast<quint32>(rate * channels * 4))
+           + number(static_cast<quint16>(channels * 4)) + number(quint16(32)) + "data"
+           + number(static_cast<quint32>(data.size())) + data;
+}
 
 } // namespace
 
@@ -115,13 +118,15 @@ void tst_cliDetect::theBandMayHaveOneEdge()
     QVERIFY2(above.out.startsWith("119 frames of 351 cells"), (above.out + above.err).data()); // 150 … 500 Hz
     const Outcome below = run(QStringList{"detect", "line.wav", "--high", "150"} + lineSettings);
     QVERIFY2(below.out.startsWith("119 frames of 151 cells"), (below.out + below.err).data());
-    QVERIFY(run(QStringList{"detect", "line.wav", "--low", "100", "--high", "300"} + lineSettings).out.startsWith("119 frames of 201 cells"));
+    QVERIFY(run(QStringList{"detect", "line.wav", "--low", "100", "--high", "300"} + lineSettings)
+                .out.startsWith("119 frames of 201 cells"));
 }
 
 void tst_cliDetect::threadsChangeNoByte()
 {
-    const Outcome two = run(QStringList{"detect", "line.wav", "--threads", "2", "--events", "events2.csv", "--tracks", "tracks2.csv",
-                                        "--statistic", "D2.npy", "--summary", "--progress", "json"} + lineSettings);
+    const Outcome two = run(QStringList{"detect", "line.wav", "--threads", "2", "--events", "events2.csv", "--tracks",
+                                        "tracks2.csv", "--statistic", "D2.npy", "--summary", "--progress", "json"}
+                            + lineSettings);
     QCOMPARE(two.code, 0);
     QVERIFY(content("events2.csv") == content("events.csv"));
     QVERIFY(content("tracks2.csv") == content("tracks.csv"));
@@ -146,8 +151,9 @@ void tst_cliDetect::keptCalibrationsChangeNoByte()
     const QString folder = path("cache");
     for (const QString &cache : {QStringLiteral("off"), folder, folder}) { // none, made, read back
         qputenv("FAINTLINE_CACHE", cache.toLocal8Bit());
-        const Outcome outcome = run(QStringList{"detect", "line.wav", "--events", "kept.csv", "--tracks", "keptTracks.csv",
-                                                "--statistic", "kept.npy"} + lineSettings);
+        const Outcome outcome = run(QStringList{"detect", "line.wav", "--events", "kept.csv", "--tracks",
+                                                "keptTracks.csv", "--statistic", "kept.npy"}
+                                    + lineSettings);
         QCOMPARE(outcome.code, 0);
         QVERIFY(content("kept.csv") == content("events.csv"));
         QVERIFY(content("keptTracks.csv") == content("tracks.csv"));
@@ -177,7 +183,8 @@ void tst_cliDetect::isTheLibrary()
 
 void tst_cliDetect::explainsItsTerms()
 {
-    const Outcome told = run(QStringList{"explain", "line.wav", "--time", "18", "--frequency", "212", "--json"} + lineSettings);
+    const Outcome told =
+        run(QStringList{"explain", "line.wav", "--time", "18", "--frequency", "212", "--json"} + lineSettings);
     QCOMPARE(told.err, QByteArray());
     QCOMPARE(told.code, 0);
     const Json json = parseJson(told.out.toStdString(), "explain");
@@ -198,7 +205,8 @@ void tst_cliDetect::explainsItsTerms()
     const auto frame = static_cast<std::size_t>(std::llround((json["time"].get<double>() - 0.25) / 0.25));
     const auto bin = static_cast<std::size_t>(std::llround(json["position"][0].get<double>()));
     const auto shown = static_cast<double>(D.values[frame * 501 + bin]);
-    QVERIFY2(std::abs(shown - statistic) < 1e-3, qPrintable(QString("D.npy %1, explained %2").arg(shown).arg(statistic)));
+    QVERIFY2(std::abs(shown - statistic) < 1e-3,
+             qPrintable(QString("D.npy %1, explained %2").arg(shown).arg(statistic)));
     QVERIFY(std::abs(shown - json["displayed"].get<double>()) < 1e-5);
 }
 
@@ -212,19 +220,23 @@ void tst_cliDetect::framesInPlaceOfARecording()
     for (std::size_t frame = 10; frame < 30; ++frame)
         y[frame * 50 + frame + 5] += 9.0f;
     writeArray(pathOf("y.npy"), {40, 50}, y);
-    writeBytes(pathOf("grid.json"),
-               R"({"axes": [{"name": "range", "unit": "m", "first": 1000, "step": 10}], "time": {"first": 5, "step": 2}})");
-    writeBytes(pathOf("model.json"), R"({"axes": [{"cells": 50, "rates": [-1, 0, 1], "rateChange": [1]}], "likelihood": {"kind": "linear"},
+    writeBytes(
+        pathOf("grid.json"),
+        R"({"axes": [{"name": "range", "unit": "m", "first": 1000, "step": 10}], "time": {"first": 5, "step": 2}})");
+    writeBytes(pathOf("model.json"),
+               R"({"axes": [{"cells": 50, "rates": [-1, 0, 1], "rateChange": [1]}], "likelihood": {"kind": "linear"},
         "reset": {"law": "fixed", "lnK": -1.4}})");
-    const Outcome found = run({"detect", "--frames", "y.npy", "--grid", "grid.json", "--model", "model.json", "--set",
-                               "decide.thresholdNats=20", "--events", "target.csv", "--tracks", "target.json", "--statistic", "T.npy"});
+    const Outcome found =
+        run({"detect", "--frames", "y.npy", "--grid", "grid.json", "--model", "model.json", "--set",
+             "decide.thresholdNats=20", "--events", "target.csv", "--tracks", "target.json", "--statistic", "T.npy"});
     QCOMPARE(found.err, QByteArray());
     QCOMPARE(found.code, 0);
     const auto events = numbersOf(content("target.csv"));
     QCOMPARE(events.size(), std::size_t(1));
     const double detect = events[0][2]; // frame (t - 5)/2, cell frame + 5
     QVERIFY(detect >= 25.0 && detect < 65.0);
-    QVERIFY2(std::abs(events[0][4] - (1000.0 + 10.0 * ((detect - 5.0) / 2.0 + 5.0))) <= 20.0, content("target.csv").data());
+    QVERIFY2(std::abs(events[0][4] - (1000.0 + 10.0 * ((detect - 5.0) / 2.0 + 5.0))) <= 20.0,
+             content("target.csv").data());
     QVERIFY2(std::abs(events[0][5] - 5.0) < 0.6, content("target.csv").data()); // 10 m in 2 s
     QCOMPARE(readNumPy(pathOf("T.npy")).shape, (std::vector<Index>{40, 50}));
     const Outcome told = run({"detect", "--frames", "y.npy", "--summary", "--set", "model.slopeUnit=hzPerSecond"});
@@ -232,20 +244,23 @@ void tst_cliDetect::framesInPlaceOfARecording()
     QVERIFY2(told.err.startsWith("error: model.slopeUnit = hzPerSecond: needs a recording"), told.err.data());
 }
 
-// Half a second, two frames and two bins a cell: 4 Hz/s are a bin a frame, and what is between two slopes goes outwards.
+// Half a second, two frames and two bins a cell: 4 Hz/s are a bin a frame, and what is between two slopes goes
+// outwards.
 void tst_cliDetect::slopesInHertzAreTheSame()
 {
-    const Outcome found = run(QStringList{"detect", "line.wav", "--events", "hertz.csv", "--set", "model.slopeUnit=hzPerSecond", "--set",
-                                          "model.lowestSlope=-4", "--set", "model.highestSlope=3.6"}
-                              + lineSettings);
+    const Outcome found =
+        run(QStringList{"detect", "line.wav", "--events", "hertz.csv", "--set", "model.slopeUnit=hzPerSecond", "--set",
+                        "model.lowestSlope=-4", "--set", "model.highestSlope=3.6"}
+            + lineSettings);
     QCOMPARE(found.err, QByteArray());
     QCOMPARE(content("hertz.csv"), content("events.csv"));
 }
 
 void tst_cliDetect::pingsFromAScene()
 {
-    writeBytes(pathOf("pings.json"),
-               R"({"kind": "pings", "pings": 30, "rangeCells": 90, "beams": 8, "targets": [{"snrDb": 12, "rangeMetres": 3200,
+    writeBytes(
+        pathOf("pings.json"),
+        R"({"kind": "pings", "pings": 30, "rangeCells": 90, "beams": 8, "targets": [{"snrDb": 12, "rangeMetres": 3200,
         "bearingDegrees": 315, "appearPing": 4, "legs": [{"rangeCellsPerPing": 2, "beamsPerPing": 0.2}]}]})");
     const Outcome info = run({"info", "pings.json"});
     QVERIFY2(info.out.contains("range         90 cells of 10 m, 3000 … 3890 m")
@@ -258,9 +273,11 @@ void tst_cliDetect::pingsFromAScene()
     // From the scene and from the frames written: the same events, byte for byte.
     const QStringList settings{"--preset", "sonar", "--set", "decide.thresholdNats=20"};
     QCOMPARE(run(QStringList{"detect", "pings.json", "--events", "a.csv"} + settings).code, 0);
-    QCOMPARE(run(QStringList{"detect", "--frames", "P.npy", "--grid", "P.grid.json", "--events", "b.csv"} + settings).code, 0);
-    QVERIFY(content("a.csv").startsWith(
-        "event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,open,range_per_s,bearing_per_s\n"));
+    QCOMPARE(
+        run(QStringList{"detect", "--frames", "P.npy", "--grid", "P.grid.json", "--events", "b.csv"} + settings).code,
+        0);
+    QVERIFY(content("a.csv").startsWith("event,t_onset,t_detect,t_end,range,bearing,drift_hz_per_s,statistic,confirmed,"
+                                        "open,range_per_s,bearing_per_s\n"));
     QCOMPARE(content("a.csv"), content("b.csv"));
     bool isFound = false;
     for (const auto &event : numbersOf(content("a.csv"))) // 20 m and 9° in 40 s
@@ -277,7 +294,8 @@ void tst_cliDetect::pingsFromAScene()
     QVERIFY(std::abs(sum - json["statistic"].get<double>()) < 1e-6);
     QVERIFY(std::abs(sum - json["displayed"].get<double>()) < 1e-3);
     QCOMPARE(json["position"].size(), std::size_t(2));
-    const Outcome unnamed = run(QStringList{"explain", "pings.json", "--time", "960", "--frequency", "3400"} + settings);
+    const Outcome unnamed =
+        run(QStringList{"explain", "pings.json", "--time", "960", "--frequency", "3400"} + settings);
     QCOMPARE(unnamed.code, 2);
     QVERIFY(unnamed.err.contains("--range and --bearing"));
     // Beside it, the conventional detector.
@@ -310,7 +328,8 @@ void tst_cliDetect::oddRecordings_data()
     QTest::newRow("less than a window") << wav(1000, 1, someNoise(499)) << true;
     QTest::newRow("one window") << wav(1000, 1, someNoise(500)) << false;
     QTest::newRow("constant") << wav(1000, 1, std::vector<float>(8000, 0.5f)) << false;
-    QTest::newRow("silence") << wav(1000, 1, std::vector<float>(8000, 0.0f)) << true; // nothing that could be used: said in one sentence
+    QTest::newRow("silence") << wav(1000, 1, std::vector<float>(8000, 0.0f))
+                             << true; // nothing that could be used: said in one sentence
     QTest::newRow("hardly anything") << wav(1000, 1, std::vector<float>(8000, 1e-42f)) << false;
     std::vector<float> loud = samples;
     for (float &sample : loud)
@@ -325,7 +344,8 @@ void tst_cliDetect::oddRecordings()
     QFETCH(bool, isRefused);
     writeBytes(pathOf("odd.wav"), bytes);
     if (isRefused) {
-        const Outcome told = run(QStringList{"detect", "odd.wav", "--events", "odd.csv", "--statistic", "odd.npy"} + lineSettings);
+        const Outcome told =
+            run(QStringList{"detect", "odd.wav", "--events", "odd.csv", "--statistic", "odd.npy"} + lineSettings);
         QCOMPARE(told.code, 2);
         QCOMPARE(told.out, QByteArray());
         QVERIFY2(told.err.startsWith("error: ") && told.err.count('\n') == 1, told.err.data());
@@ -353,7 +373,8 @@ void tst_cliDetect::samplesThatAreNoNumbers()
     std::fill_n(samples.begin() + 3000, 400, NAN);
     samples[5] = INFINITY;
     writeBytes(pathOf("nan.wav"), wav(1000, 1, samples));
-    const Outcome done = run(QStringList{"detect", "nan.wav", "--events", "nan.csv", "--statistic", "nan.npy"} + lineSettings);
+    const Outcome done =
+        run(QStringList{"detect", "nan.wav", "--events", "nan.csv", "--statistic", "nan.npy"} + lineSettings);
     QCOMPARE(done.err, QByteArray());
     QCOMPARE(done.code, 0);
     const QByteArray events = content("nan.csv");

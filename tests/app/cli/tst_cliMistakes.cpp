@@ -38,15 +38,18 @@ void tst_cliMistakes::mistakes_data()
     row("nothing asked", {}, "command line: A subcommand is required");
     row("no such command", {"dtect"}, "dtect: unknown command; faintline-cli --help lists the commands");
     row("no such command after an option", {"--threads", "2", "dtect", "line.wav"}, "dtect: unknown command");
-    row("no such option", {"detect", "line.wav", "--summery"}, "command line: The following argument was not expected: --summery");
-    row("no number", {"detect", "line.wav", "--summary", "--from", "soon"}, "command line: Could not convert: --from = soon");
+    row("no such option", {"detect", "line.wav", "--summery"},
+        "command line: The following argument was not expected: --summery");
+    row("no number", {"detect", "line.wav", "--summary", "--from", "soon"},
+        "command line: Could not convert: --from = soon");
     row("no threads", {"--threads", "0", "describe"}, "command line: --threads");
     row("no such file", {"info", "none.wav"}, "none.wav: no such file");
     row("a folder", {"info", "."}, ".: is a folder");
     row("a text", {"info", "truth.json"}, "");
     row("unknown setting", {"describe", "smd.k"}, "smd.k: unknown setting; did you mean smd.lnK");
-    row("misspelt setting", {"detect", "line.wav", "--summary", "--set", "smd.thresold=3"}, "smd.thresold: unknown "
-                                                                                            "setting; did you mean ");
+    row("misspelt setting", {"detect", "line.wav", "--summary", "--set", "smd.thresold=3"},
+        "smd.thresold: unknown "
+        "setting; did you mean ");
     row("signal too strong for any K", {"detect", "line.wav", "--summary", "--set", "model.snr=50"},
         "model.snr = 50: permits no ln K at which half of the states continue on noise: at 20 nat ");
     row("nothing but silence", {"detect", "silence.raw", "--raw-type", "rf32_le", "--raw-rate", "100", "--summary"},
@@ -60,34 +63,46 @@ void tst_cliMistakes::mistakes_data()
         "model.slopeChange = 0.5: h(0) + 2·");
     row("slopes upside down", {"detect", "line.wav", "--summary", "--set", "model.lowestSlope=3"},
         "model.lowestSlope = 3: must not exceed");
-    row("slopes too steep", {"detect", "line.wav", "--summary", "--set", "model.slopeUnit=hzPerSecond", "--set", "model.highestSlope=1e8"},
+    row("slopes too steep",
+        {"detect", "line.wav", "--summary", "--set", "model.slopeUnit=hzPerSecond", "--set", "model.highestSlope=1e8"},
         "model.highestSlope = ");
     row("comparison without a recording", {"compare"}, "command line: FILE is required");
     row("comparison in another format", {"compare", "line.wav", "--events", "e.txt"},
         "e.txt: the file name must end in .csv");
-    row("comparison with a misspelt setting", {"compare", "line.wav", "--set-b", "smd.thresold=3"}, "smd.thresold: unknown setting");
+    row("comparison with a misspelt setting", {"compare", "line.wav", "--set-b", "smd.thresold=3"},
+        "smd.thresold: unknown setting");
     row("no input", {"detect", "--summary"}, "detect: needs a recording, or --frames");
-    row("two inputs", {"detect", "line.wav", "--frames", "y.npy", "--summary"}, "detect: accepts either a recording or "
-                                                                                "--frames");
+    row("two inputs", {"detect", "line.wav", "--frames", "y.npy", "--summary"},
+        "detect: accepts either a recording or "
+        "--frames");
     row("unknown kind of events", {"detect", "line.wav", "--events", "e.xml"}, "e.xml: the file name must end in");
     row("unknown kind of tracks", {"detect", "line.wav", "--tracks", "t.txt"}, "t.txt: the file name must end in");
-    row("no such folder", {"detect", "line.wav", "--statistic", "no/D.npy"}, "no/D.npy: cannot be written: No such file or directory");
-    row("channel", {"detect", "line.wav", "--summary", "--channel", "1"}, "selection.channel = 1: the recording has 1 channel(s)");
+    row("no such folder", {"detect", "line.wav", "--statistic", "no/D.npy"},
+        "no/D.npy: cannot be written: No such file or directory");
+    row("channel", {"detect", "line.wav", "--summary", "--channel", "1"},
+        "selection.channel = 1: the recording has 1 channel(s)");
     row("negative channel", {"detect", "line.wav", "--summary", "--channel", "-1"}, "command line: --channel");
-    row("one channel as I/Q", {"detect", "line.wav", "--summary", "--iq"}, "line.wav: has 1 channel(s); I/Q needs an "
-                                                                           "even number");
-    row("behind the end", {"detect", "line.wav", "--summary", "--from", "31"}, "selection.fromSeconds = 31: must lie before");
-    row("before the beginning", {"detect", "line.wav", "--summary", "--from", "-1"}, "selection.fromSeconds = -1: must lie in 0");
-    row("band upside down", {"detect", "line.wav", "--summary", "--low", "50", "--high", "20"}, "selection.lowHz = 50: must not lie above");
-    row("band that is no number", {"detect", "line.wav", "--summary", "--low", "nan"}, "selection.lowHz = nan: must lie in");
+    row("one channel as I/Q", {"detect", "line.wav", "--summary", "--iq"},
+        "line.wav: has 1 channel(s); I/Q needs an "
+        "even number");
+    row("behind the end", {"detect", "line.wav", "--summary", "--from", "31"},
+        "selection.fromSeconds = 31: must lie before");
+    row("before the beginning", {"detect", "line.wav", "--summary", "--from", "-1"},
+        "selection.fromSeconds = -1: must lie in 0");
+    row("band upside down", {"detect", "line.wav", "--summary", "--low", "50", "--high", "20"},
+        "selection.lowHz = 50: must not lie above");
+    row("band that is no number", {"detect", "line.wav", "--summary", "--low", "nan"},
+        "selection.lowHz = nan: must lie in");
     row("longer than the recording", {"detect", "line.wav", "--summary", "--set", "spectrogram.windowSeconds=31"},
         "shorter than one window of 31 s");
-    row("unknown preset", {"detect", "line.wav", "--summary", "--preset", "x"}, "preset x: unknown; choose one of lines, billon");
+    row("unknown preset", {"detect", "line.wav", "--summary", "--preset", "x"},
+        "preset x: unknown; choose one of lines, billon");
     row("no session", {"detect", "line.wav", "--summary", "--session", "line.wav"}, "line.wav: is not valid JSON");
     row("no scene", {"simulate", "line.wav", "--out", "x.wav"}, "line.wav: is not valid JSON");
     row("no kind of recording", {"simulate", "scene.json", "--out", "x.xyz"}, "x.xyz: has no known extension");
     row("negative seed", {"simulate", "scene.json", "--out", "x.wav", "--seed", "-1"}, "command line: --seed");
-    row("no model", {"statistic", "--frames", "none.npy", "--model", "m.json", "--out", "x.npy"}, "none.npy: cannot be opened");
+    row("no model", {"statistic", "--frames", "none.npy", "--model", "m.json", "--out", "x.npy"},
+        "none.npy: cannot be opened");
 }
 
 void tst_cliMistakes::mistakes()
@@ -125,9 +140,12 @@ void tst_cliMistakes::interruptLeavesNothing_data()
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<int>("signal");
     QTest::newRow("simulate") << QStringList{"simulate", "endless.json", "--out", "endless.w64"} << SIGINT;
-    QTest::newRow("detect") << QStringList{"detect", "endless.json", "--set", "spectrogram.windowSeconds=1", "--statistic", "endless.npy", "--events", "endless.csv"}
+    QTest::newRow("detect") << QStringList{"detect",      "endless.json", "--set",    "spectrogram.windowSeconds=1",
+                                           "--statistic", "endless.npy",  "--events", "endless.csv"}
                             << SIGINT;
-    QTest::newRow("terminated") << QStringList{"detect", "endless.json", "--set", "spectrogram.windowSeconds=1", "--statistic", "endless.npy"} << SIGTERM;
+    QTest::newRow("terminated") << QStringList{"detect",      "endless.json", "--set", "spectrogram.windowSeconds=1",
+                                               "--statistic", "endless.npy"}
+                                << SIGTERM;
 }
 
 void tst_cliMistakes::interruptLeavesNothing()
@@ -140,7 +158,9 @@ void tst_cliMistakes::interruptLeavesNothing()
     process.setWorkingDirectory(folder());
     process.start(program, arguments);
     QVERIFY(process.waitForStarted(patience));
-    const auto halfWritten = [&] { return QDir(folder()).entryList({"endless*.part", ".endless*"}, QDir::Files | QDir::Hidden); };
+    const auto halfWritten = [&] {
+        return QDir(folder()).entryList({"endless*.part", ".endless*"}, QDir::Files | QDir::Hidden);
+    };
     QTRY_VERIFY_WITH_TIMEOUT(!halfWritten().isEmpty() || process.state() == QProcess::NotRunning, patience);
     QVERIFY2(process.state() == QProcess::Running, process.readAllStandardError().data());
     QCOMPARE(::kill(static_cast<pid_t>(process.processId()), signal), 0);
@@ -149,7 +169,8 @@ void tst_cliMistakes::interruptLeavesNothing()
     QCOMPARE(process.exitCode(), 1);
     QCOMPARE(process.readAllStandardError(), QByteArray("error: interrupted: no incomplete output was left\n"));
     QCOMPARE(process.readAllStandardOutput(), QByteArray());
-    QCOMPARE(QDir(folder()).entryList({"endless*", ".endless*"}, QDir::Files | QDir::Hidden), QStringList{"endless.json"});
+    QCOMPARE(QDir(folder()).entryList({"endless*", ".endless*"}, QDir::Files | QDir::Hidden),
+             QStringList{"endless.json"});
 }
 
 QTEST_GUILESS_MAIN(tst_cliMistakes)

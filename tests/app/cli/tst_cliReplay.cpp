@@ -26,22 +26,26 @@ private:
 
 namespace {
 
-    /// Every file and folder below one, with its content.
-    QMap<QString, QByteArray> everything(const QString &folder)
-    {
-        QMap<QString, QByteArray> all;
-        for (QDirIterator entry(folder, QDir::AllEntries | QDir::Hidden | QDir::System | QDir::NoDotAndDotDot, QDirIterator::Subdirectories);
-             entry.hasNext();) {
-            const QString path = entry.next();
-            all[path] = entry.fileInfo().isDir() ? "folder" : QCryptographicHash::hash(readBytes(path.toStdString()), QCryptographicHash::Sha256);
-        }
-        return all;
+/// Every file and folder below one, with its content.
+QMap<QString, QByteArray> everything(const QString &folder)
+{
+    QMap<QString, QByteArray> all;
+    for (QDirIterator entry(folder, QDir::AllEntries | QDir::Hidden | QDir::System | QDir::NoDotAndDotDot,
+                            QDirIterator::Subdirectories);
+         entry.hasNext();) {
+        const QString path = entry.next();
+        all[path] = entry.fileInfo().isDir()
+                        ? "folder"
+                        : QCryptographicHash::hash(readBytes(path.toStdString()), QCryptographicHash::Sha256);
     }
+    return all;
+}
 
-    QByteArray provenance(const QByteArray &arguments, const QByteArray &outputs)
-    {
-        return R"({"faintline": "0", "folder": ".", "inputs": [], "arguments": )" + arguments + R"(, "outputs": )" + outputs + "}";
-    }
+QByteArray provenance(const QByteArray &arguments, const QByteArray &outputs)
+{
+    return R"({"faintline": "0", "folder": ".", "inputs": [], "arguments": )" + arguments + R"(, "outputs": )" + outputs
+           + "}";
+}
 
 } // namespace
 
@@ -65,24 +69,31 @@ void tst_cliReplay::nothingElseIsTouched_data()
 {
     QTest::addColumn<QByteArray>("told");
     QTest::newRow("an output that is not told of") << provenance(
-        R"(["detect", "line.wav", "--set", "spectrogram.windowSeconds=0.5", "--events", "gift.csv", "--tracks", "../mine.csv"])", R"(["gift.csv"])");
+        R"(["detect", "line.wav", "--set", "spectrogram.windowSeconds=0.5", "--events", "gift.csv", "--tracks", "../mine.csv"])",
+        R"(["gift.csv"])");
     QTest::newRow("an output far away") << provenance(
         R"(["simulate", "scene.json", "--out", "gift.wav", "--truth=../mine.json"])", R"(["gift.wav"])");
     QTest::newRow("an experiment with a chart called detect") << provenance(
         R"(["evaluate", "experiment.json", "--out", "../mine.csv", "--chart", "detect"])", R"(["detect"])");
-    QTest::newRow("shards, one of them called detect") << provenance(R"(["evaluate", "merge", "detect", "--out", "../mine.csv"])", R"(["detect"])");
+    QTest::newRow("shards, one of them called detect")
+        << provenance(R"(["evaluate", "merge", "detect", "--out", "../mine.csv"])", R"(["detect"])");
     QTest::newRow("a statistic of frames called inject") << provenance(
-        R"(["statistic", "--frames", "inject", "--model", "model.json", "--out", "../mine.npy", "--log", "../mine.csv"])", R"(["inject"])");
+        R"(["statistic", "--frames", "inject", "--model", "model.json", "--out", "../mine.npy", "--log", "../mine.csv"])",
+        R"(["inject"])");
     QTest::newRow("a command after threads") << provenance(
         R"(["--threads", "1", "evaluate", "experiment.json", "--out=../mine.csv", "--chart=detect"])", R"(["detect"])");
-    QTest::newRow("frames with their grid") << provenance(R"(["simulate", "pings.json", "--out", "../mine.npy"])", R"(["../mine.npy"])");
-    QTest::newRow("made in the folder above") << QByteArray(provenance(R"(["simulate", "gift/scene.json", "--out", "mine.wav"])", R"(["mine.wav"])"))
-                                                     .replace("\"folder\": \".\"", "\"folder\": \"..\"");
-    QTest::newRow("an experiment of the window") << QByteArray(R"({"version": "0", "outputs": ["../mine.csv"], "experiment": {"kind": "sweep", "trials": 2,
+    QTest::newRow("frames with their grid")
+        << provenance(R"(["simulate", "pings.json", "--out", "../mine.npy"])", R"(["../mine.npy"])");
+    QTest::newRow("made in the folder above")
+        << QByteArray(provenance(R"(["simulate", "gift/scene.json", "--out", "mine.wav"])", R"(["mine.wav"])"))
+               .replace("\"folder\": \".\"", "\"folder\": \"..\"");
+    QTest::newRow("an experiment of the window")
+        << QByteArray(R"({"version": "0", "outputs": ["../mine.csv"], "experiment": {"kind": "sweep", "trials": 2,
         "durationSeconds": 2, "sampleRateHz": 100, "parameter": "decide.thresholdNats", "values": [5, 6], "out": "../mine.csv"}})");
     QTest::newRow("events of the window") << QByteArray(R"({"version": "0", "outputs": ["gift.csv"], "settings": {},
         "recording": {"path": "../mine.csv", "name": "../mine", "scenario": {"kind": "lines", "sampleRateHz": 1000, "durationSeconds": 20}}})");
-    QTest::newRow("a link that leads away") << provenance(R"(["simulate", "scene.json", "--out", "gift.wav", "--truth", "link.json"])", R"(["gift.wav"])");
+    QTest::newRow("a link that leads away")
+        << provenance(R"(["simulate", "scene.json", "--out", "gift.wav", "--truth", "link.json"])", R"(["gift.wav"])");
 }
 
 void tst_cliReplay::nothingElseIsTouched()
@@ -96,13 +107,17 @@ void tst_cliReplay::nothingElseIsTouched()
     writeBytes(at("gift/line.wav"), content("line.wav"));
     writeBytes(at("gift/scene.json"), content("scene.json"));
     writeBytes(at("gift/pings.json"), R"({"kind": "pings", "pings": 4, "rangeCells": 20, "beams": 4})");
-    writeBytes(at("gift/experiment.json"), R"({"kind": "lines", "runs": 2, "frames": 60, "blockFrames": 30, "blockBins": 30,
+    writeBytes(at("gift/experiment.json"),
+               R"({"kind": "lines", "runs": 2, "frames": 60, "blockFrames": 30, "blockBins": 30,
         "durationWindows": 10, "snrDb": [3], "detectors": [{"name": "SMD", "settings": {"detector.kind": "smd", "smd.reset": "fixed"}}]})");
-    writeBytes(at("gift/model.json"), R"({"axes": [{"cells": 4, "rates": [-1, 0, 1], "rateChange": [0.4, 0.3]}], "likelihood": {"kind": "linear"}})");
+    writeBytes(
+        at("gift/model.json"),
+        R"({"axes": [{"cells": 4, "rates": [-1, 0, 1], "rateChange": [0.4, 0.3]}], "likelihood": {"kind": "linear"}})");
     writeArray(at("gift/inject"), {3, 4}, std::vector<float>(12, 1.0f));
     QVERIFY(QFile::link(home.filePath("mine.json"), home.filePath("gift/link.json")));
     if (told.contains("merge"))
-        QCOMPARE(runAtHome({"evaluate", "experiment.json", "--shard", "1/1", "--out", "detect"}, home.path()).err, QByteArray());
+        QCOMPARE(runAtHome({"evaluate", "experiment.json", "--shard", "1/1", "--out", "detect"}, home.path()).err,
+                 QByteArray());
     const QDir gift(home.filePath("gift"));
     QFile::remove(home.filePath(".cache"));
     for (const char *result : {"gift/gift.csv", "gift/gift.wav", "gift/mine.npy"})
@@ -154,7 +169,8 @@ void tst_cliReplay::onlyItsOwnFolderIsRead()
 
     // Nor by an experiment of the window.
     writeBytes(pathOf("results/curve.csv"), "look");
-    writeBytes(pathOf("results/curve.csv.provenance.json"), R"({"version": "0", "experiment": {"kind": "injection", "recording": "line.wav",
+    writeBytes(pathOf("results/curve.csv.provenance.json"),
+               R"({"version": "0", "experiment": {"kind": "injection", "recording": "line.wav",
         "detectors": [{"name": "SMD", "settings": {"detector.kind": "smd"}}]}})");
     const Outcome outcome = run({"replay", "results/curve.csv"});
     QCOMPARE(outcome.code, 2);
@@ -166,8 +182,10 @@ void tst_cliReplay::runsThatAreNone()
 {
     writeBytes(pathOf("sweep.csv"), "look");
     for (const char *runs : {"[-1]", "[4]", "[0, 1e300]", "[0.5]"}) {
-        writeBytes(pathOf("sweep.csv.provenance.json"), R"({"version": "0", "experiment": {"kind": "sweep", "trials": 2, "durationSeconds": 2,
-            "sampleRateHz": 100, "parameter": "decide.thresholdNats", "values": [5, 6]}, "runs": )" + QByteArray(runs) + "}");
+        writeBytes(pathOf("sweep.csv.provenance.json"),
+                   R"({"version": "0", "experiment": {"kind": "sweep", "trials": 2, "durationSeconds": 2,
+            "sampleRateHz": 100, "parameter": "decide.thresholdNats", "values": [5, 6]}, "runs": )"
+                       + QByteArray(runs) + "}");
         const Outcome outcome = run({"replay", "sweep.csv"});
         QCOMPARE(outcome.code, 2);
         QVERIFY2(outcome.err.startsWith("error: runs"), outcome.err.constData());
@@ -177,7 +195,8 @@ void tst_cliReplay::runsThatAreNone()
 void tst_cliReplay::helpIsNoResult()
 {
     writeBytes(pathOf("help.csv"), "look");
-    writeBytes(pathOf("help.csv.provenance.json"), provenance(R"(["detect", "--events", "help.csv", "--help"])", R"(["help.csv"])"));
+    writeBytes(pathOf("help.csv.provenance.json"),
+               provenance(R"(["detect", "--events", "help.csv", "--help"])", R"(["help.csv"])"));
     const Outcome outcome = run({"replay", "help.csv"});
     QCOMPARE(outcome.code, 2);
     QVERIFY2(outcome.err.contains("invalid command line"), outcome.err.constData());
@@ -185,7 +204,9 @@ void tst_cliReplay::helpIsNoResult()
 
 void tst_cliReplay::resultsAreMadeAgain()
 {
-    QCOMPARE(run(QStringList{"detect", "line.wav", "--events", "again.csv", "--statistic=again.npy"} + lineSettings).code, 0);
+    QCOMPARE(
+        run(QStringList{"detect", "line.wav", "--events", "again.csv", "--statistic=again.npy"} + lineSettings).code,
+        0);
     Outcome replayed = run({"replay", "again.csv"});
     QCOMPARE(replayed.err, QByteArray());
     QCOMPARE(replayed.out, QByteArray("again.csv: the same bytes\nagain.npy: the same bytes\n"));
@@ -203,12 +224,16 @@ void tst_cliReplay::resultsAreMadeAgain()
     QCOMPARE(run(QStringList{"detect", "line.wav", "--events", "plain.csv"} + lineSettings).code, 0);
     QVERIFY(!content("plain.csv").contains("review"));
     writeBytes(pathOf("judged.txt"), "8\t22\t[rejected] mains\n\\\t205\t218\n");
-    QCOMPARE(run(QStringList{"detect", "line.wav", "--annotations", "judged.txt", "--events", "judged.csv"} + lineSettings).err,
-             QByteArray());
-    QVERIFY2(content("judged.csv").contains("rejected") && content("judged.csv").contains("mains"), content("judged.csv").constData());
+    QCOMPARE(
+        run(QStringList{"detect", "line.wav", "--annotations", "judged.txt", "--events", "judged.csv"} + lineSettings)
+            .err,
+        QByteArray());
+    QVERIFY2(content("judged.csv").contains("rejected") && content("judged.csv").contains("mains"),
+             content("judged.csv").constData());
     QCOMPARE(run({"replay", "judged.csv"}).out, QByteArray("judged.csv: the same bytes\n"));
     QCOMPARE(run(QStringList{"detect", "line.wav", "--annotations", "judged.txt", "--summary"} + lineSettings).code, 2);
-    const Outcome missing = run(QStringList{"detect", "line.wav", "--annotations", "none.txt", "--events", "e.csv"} + lineSettings);
+    const Outcome missing =
+        run(QStringList{"detect", "line.wav", "--annotations", "none.txt", "--events", "e.csv"} + lineSettings);
     QCOMPARE(missing.code, 2);
     QCOMPARE(missing.err.count('\n'), 1);
 
@@ -223,9 +248,10 @@ void tst_cliReplay::resultsAreMadeAgain()
 
     // A provenance that somebody made up runs nothing.
     const std::string head = R"({"faintline": "0", "folder": ".", "inputs": [], )";
-    for (const char *tail :
-         {R"("arguments": ["replay", "made.up"], "outputs": ["made.up"]})", R"("arguments": ["detect"], "outputs": []})",
-          R"("arguments": ["detect", "line.wav", "--summary"], "outputs": ["made.up"]})", R"("arguments": 7, "outputs": []})"}) {
+    for (const char *tail : {R"("arguments": ["replay", "made.up"], "outputs": ["made.up"]})",
+                             R"("arguments": ["detect"], "outputs": []})",
+                             R"("arguments": ["detect", "line.wav", "--summary"], "outputs": ["made.up"]})",
+                             R"("arguments": 7, "outputs": []})"}) {
         writeBytes(pathOf("made.up.provenance.json"), QByteArray::fromStdString(head + tail));
         replayed = run({"replay", "made.up"});
         QCOMPARE(replayed.code, 2);

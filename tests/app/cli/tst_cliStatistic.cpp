@@ -22,10 +22,10 @@ private slots:
 
 namespace {
 
-    QByteArray shared(const char *name)
-    {
-        return readBytes(std::string(FAINTLINE_SOURCE_DIR "/../shared/vectors/") + name);
-    }
+QByteArray shared(const char *name)
+{
+    return readBytes(std::string(FAINTLINE_SOURCE_DIR "/../shared/vectors/") + name);
+}
 
 } // namespace
 
@@ -36,7 +36,8 @@ void tst_cliStatistic::billonsVectors_data()
     QTest::addColumn<int>("column"); ///< of outputs.csv
     QTest::addColumn<int>("states");
     QTest::newRow("stable, K = 0.92") << QByteArray(R"("rates": [0], "rateChange": [1])") << std::log(0.92) << 4 << 16;
-    QTest::newRow("5 slopes, K = 2") << QByteArray(R"("rates": [-2, -1, 0, 1, 2], "rateChange": [0.3333333333333333, 0.3333333333333333])")
+    QTest::newRow("5 slopes, K = 2") << QByteArray(
+        R"("rates": [-2, -1, 0, 1, 2], "rateChange": [0.3333333333333333, 0.3333333333333333])")
                                      << std::log(2.0) << 5 << 80;
 }
 
@@ -54,10 +55,12 @@ void tst_cliStatistic::billonsVectors()
     for (const auto &row : expected)
         y.push_back(static_cast<float>(row[2]));
     writeArray(pathOf("billon.npy"), {12, 16}, y);
-    writeBytes(pathOf("billon.json"), R"({"axes": [{"name": "frequency", "cells": 16, )" + axis
-                                          + R"(}], "likelihood": {"kind": "rice", "r0": 0.5}, "reset": {"law": "fixed", "lnK": )"
-                                          + QByteArray::number(lnK, 'g', 17) + "}}");
-    const Outcome done = run({"statistic", "--frames", "billon.npy", "--model", "billon.json", "--out", "L.npy", "--projected", "P.npy"});
+    writeBytes(pathOf("billon.json"),
+               R"({"axes": [{"name": "frequency", "cells": 16, )" + axis
+                   + R"(}], "likelihood": {"kind": "rice", "r0": 0.5}, "reset": {"law": "fixed", "lnK": )"
+                   + QByteArray::number(lnK, 'g', 17) + "}}");
+    const Outcome done = run(
+        {"statistic", "--frames", "billon.npy", "--model", "billon.json", "--out", "L.npy", "--projected", "P.npy"});
     QCOMPARE(done.err, QByteArray());
     QCOMPARE(done.code, 0);
     const NumPyArray L = readNumPy(pathOf("L.npy"));
@@ -67,12 +70,16 @@ void tst_cliStatistic::billonsVectors()
     for (std::size_t i = 0; i < expected.size(); ++i) {
         // The vectors' ln Λ starts from ln P_n = -ln N; L = ln NΛ.
         const double wanted = expected[i][static_cast<std::size_t>(column)] + std::log(states);
-        QVERIFY2(
-            std::abs(static_cast<double>(projected.values[i]) - wanted) < 1e-5,
-            qPrintable(QString("frame %1, bin %2: %3, vector %4").arg(i / 16).arg(i % 16).arg(double(projected.values[i])).arg(wanted)));
+        QVERIFY2(std::abs(static_cast<double>(projected.values[i]) - wanted) < 1e-5,
+                 qPrintable(QString("frame %1, bin %2: %3, vector %4")
+                                .arg(i / 16)
+                                .arg(i % 16)
+                                .arg(double(projected.values[i]))
+                                .arg(wanted)));
         float largest = -INFINITY;
         for (std::size_t rate = 0; rate < static_cast<std::size_t>(states / 16); ++rate)
-            largest = std::max(largest, L.values[(i / 16 * static_cast<std::size_t>(states / 16) + rate) * 16 + i % 16]);
+            largest =
+                std::max(largest, L.values[(i / 16 * static_cast<std::size_t>(states / 16) + rate) * 16 + i % 16]);
         QCOMPARE(projected.values[i], largest);
     }
 }
@@ -87,10 +94,12 @@ void tst_cliStatistic::parsonsVectors()
     std::vector<float> y(6 * 24 * 6);
     for (const auto &row : input)
         for (std::size_t range = 0; range < 24; ++range)
-            y[static_cast<std::size_t>(row[0]) * 144 + range * 6 + static_cast<std::size_t>(row[1])] = static_cast<float>(row[2 + range]);
+            y[static_cast<std::size_t>(row[0]) * 144 + range * 6 + static_cast<std::size_t>(row[1])] =
+                static_cast<float>(row[2 + range]);
     writeArray(pathOf("pings.npy"), {6, 24, 6}, y);
-    writeBytes(pathOf("parsons.json"),
-               R"({"axes": [{"name": "range", "cells": 24, "rates": [-2, -1, 0, 1, 2], "rateChange": [1], "round": "trunc"},
+    writeBytes(
+        pathOf("parsons.json"),
+        R"({"axes": [{"name": "range", "cells": 24, "rates": [-2, -1, 0, 1, 2], "rateChange": [1], "round": "trunc"},
         {"name": "bearing", "cells": 6, "cyclic": true, "rates": [-1, 0, 1], "rateChange": [1], "round": "trunc"}],
         "likelihood": {"kind": "linear"}, "reset": {"law": "mean"}})");
     const Outcome done =
@@ -108,7 +117,8 @@ void tst_cliStatistic::parsonsVectors()
         const auto rate = static_cast<std::size_t>((row[5] + 2.0) * 3.0 + row[6] + 1.0);
         const auto cell = static_cast<std::size_t>(row[3] * 6.0 + row[4]);
         const auto found = static_cast<double>(L.values[(ping * 15 + rate) * 144 + cell]);
-        QVERIFY2(std::abs(found - row[7]) < 1e-4, qPrintable(QString("ping %1: %2, vector %3").arg(ping).arg(found).arg(row[7])));
+        QVERIFY2(std::abs(found - row[7]) < 1e-4,
+                 qPrintable(QString("ping %1: %2, vector %3").arg(ping).arg(found).arg(row[7])));
         QVERIFY(std::abs(log[ping][1] - row[1]) < 1e-5);
         QVERIFY(std::abs(log[ping][2] - row[2]) < 1e-9);
         largest[ping] = std::max(largest[ping], row[7]);
@@ -121,21 +131,28 @@ void tst_cliStatistic::lnLambdaByEye()
 {
     // Two cells, nothing moves, λ = y, ln K = -1: L = y + max(L - 1, 0).
     writeArray(pathOf("eye.npy"), {3, 2}, {0.5f, 3.0f, 1.0f, 0.0f, 0.25f, 2.0f});
-    writeBytes(pathOf("eye.json"), R"({"axes": [{"cells": 2}], "likelihood": {"kind": "linear"}, "reset": {"law": "fixed", "lnK": -1}})");
-    QCOMPARE(run({"statistic", "--frames", "eye.npy", "--model", "eye.json", "--out", "eyeL.npy", "--log", "eye.csv"}).code, 0);
+    writeBytes(pathOf("eye.json"),
+               R"({"axes": [{"cells": 2}], "likelihood": {"kind": "linear"}, "reset": {"law": "fixed", "lnK": -1}})");
+    QCOMPARE(
+        run({"statistic", "--frames", "eye.npy", "--model", "eye.json", "--out", "eyeL.npy", "--log", "eye.csv"}).code,
+        0);
     QCOMPARE(readNumPy(pathOf("eyeL.npy")).values, (std::vector<float>{0.5f, 3.0f, 1.0f, 2.0f, 0.25f, 3.0f}));
-    QCOMPARE(content("eye.csv"), QByteArray("frame,lnK,reset_fraction,max_statistic\n0,-1,1,3\n1,-1,0.5,2\n2,-1,0.5,3\n"));
+    QCOMPARE(content("eye.csv"),
+             QByteArray("frame,lnK,reset_fraction,max_statistic\n0,-1,1,3\n1,-1,0.5,2\n2,-1,0.5,3\n"));
 
     // A cell that nobody can have come from: rate 1 from the lowest cell, and no reset.
-    writeBytes(pathOf("none.json"), R"({"axes": [{"cells": 2, "rates": [1], "rateChange": [1]}], "likelihood": {"kind": "linear"},
+    writeBytes(pathOf("none.json"),
+               R"({"axes": [{"cells": 2, "rates": [1], "rateChange": [1]}], "likelihood": {"kind": "linear"},
         "reset": {"law": "none"}})");
     QCOMPARE(run({"statistic", "--frames", "eye.npy", "--model", "none.json", "--out", "noneL.npy"}).code, 0);
-    QCOMPARE(readNumPy(pathOf("noneL.npy")).values, (std::vector<float>{0.5f, 3.0f, -INFINITY, 0.5f, -INFINITY, -INFINITY}));
+    QCOMPARE(readNumPy(pathOf("noneL.npy")).values,
+             (std::vector<float>{0.5f, 3.0f, -INFINITY, 0.5f, -INFINITY, -INFINITY}));
 
     // All paths counted: with one state it is the same sum.
     writeArray(pathOf("one.npy"), {3, 1}, {0.5f, 3.0f, 1.0f});
-    writeBytes(pathOf("sum.json"),
-               R"({"axes": [{"cells": 1}], "likelihood": {"kind": "linear"}, "reset": {"law": "none", "semiring": "sum"}})");
+    writeBytes(
+        pathOf("sum.json"),
+        R"({"axes": [{"cells": 1}], "likelihood": {"kind": "linear"}, "reset": {"law": "none", "semiring": "sum"}})");
     QCOMPARE(run({"statistic", "--frames", "one.npy", "--model", "sum.json", "--out", "sumL.npy"}).code, 0);
     QCOMPARE(readNumPy(pathOf("sumL.npy")).values, (std::vector<float>{0.5f, 3.5f, 4.5f}));
 }
@@ -146,10 +163,12 @@ void tst_cliStatistic::mistakesInFrames_data()
     QTest::addColumn<QString>("message");
     QTest::newRow("other cells") << QByteArray(R"({"axes": [{"cells": 3}], "likelihood": {"kind": "linear"}})")
                                  << "do not match the frames of two.npy";
-    QTest::newRow("other axes") << QByteArray(R"({"axes": [{"cells": 1}, {"cells": 2}], "likelihood": {"kind": "linear"}})")
+    QTest::newRow("other axes") << QByteArray(
+        R"({"axes": [{"cells": 1}, {"cells": 2}], "likelihood": {"kind": "linear"}})")
                                 << "do not match the frames of two.npy";
     QTest::newRow("misspelt key") << QByteArray(R"({"axis": []})") << "m.json.axis: unknown";
-    QTest::newRow("no law") << QByteArray(R"({"axes": [{"cells": 2, "rateChange": [0.9]}], "likelihood": {"kind": "linear"}})")
+    QTest::newRow("no law") << QByteArray(
+        R"({"axes": [{"cells": 2, "rateChange": [0.9]}], "likelihood": {"kind": "linear"}})")
                             << "axes[0].rateChange: h(0)";
     QTest::newRow("r0 of 0") << QByteArray(R"({"axes": [{"cells": 2}], "likelihood": {"kind": "rice", "r0": 0}})")
                              << "m.json: likelihood.r0 = 0: must be";

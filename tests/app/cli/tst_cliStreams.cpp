@@ -11,7 +11,8 @@
 using namespace faintline;
 using namespace faintline::test;
 
-/// Standard streams that are full or closed, signals that ask to stop, and names and texts that a terminal or JSON would choke on.
+/// Standard streams that are full or closed, signals that ask to stop, and names and texts that a terminal or JSON
+/// would choke on.
 class tst_cliStreams : public CommandLineTest
 {
     Q_OBJECT
@@ -35,7 +36,8 @@ void tst_cliStreams::outputThatCannotBeWritten_data()
     QTest::newRow("info") << QStringList{"info", "line.wav"};
     QTest::newRow("describe") << QStringList{"describe"};
     QTest::newRow("summary") << QStringList{"detect", "line.wav", "--summary"} + lineSettings;
-    QTest::newRow("explanation") << QStringList{"explain", "line.wav", "--time", "15", "--frequency", "210"} + lineSettings;
+    QTest::newRow("explanation") << QStringList{"explain", "line.wav", "--time", "15", "--frequency", "210"}
+                                        + lineSettings;
     QTest::newRow("comparison") << QStringList{"compare", "line.wav", "--set-b", "model.snr=5"} + lineSettings;
     QTest::newRow("calibration") << QStringList{"calibrate", "line.wav"} + lineSettings;
     QTest::newRow("help") << QStringList{"--help"};
@@ -55,13 +57,15 @@ void tst_cliStreams::outputThatCannotBeWritten()
         QCOMPARE(told.code, 1);
         QCOMPARE(told.err, QByteArray("error: standard output: cannot be written; the output is incomplete\n"));
     }
-    QCOMPARE(run({"simulate", "scene.json", "--out", "silent.wav"}, [] { ::close(STDOUT_FILENO); }).code, 0); // has nothing to say
+    QCOMPARE(run({"simulate", "scene.json", "--out", "silent.wav"}, [] { ::close(STDOUT_FILENO); }).code,
+             0); // has nothing to say
 }
 
 void tst_cliStreams::closedStreamsTakeNothing()
 {
     QCOMPARE(run({"simulate", "scene.json", "--out", "open.wav", "--progress", "json"}).code, 0);
-    for (const std::vector<int> &closed : {std::vector{STDERR_FILENO}, std::vector{STDOUT_FILENO, STDERR_FILENO}, std::vector{0, 1, 2}}) {
+    for (const std::vector<int> &closed :
+         {std::vector{STDERR_FILENO}, std::vector{STDOUT_FILENO, STDERR_FILENO}, std::vector{0, 1, 2}}) {
         const Outcome told = run({"simulate", "scene.json", "--out", "closed.wav", "--progress", "json"}, [&] {
             for (const int descriptor : closed)
                 ::close(descriptor);
@@ -77,25 +81,33 @@ void tst_cliStreams::stopsWhenAsked_data()
     QTest::newRow("large pings") << QStringList{"simulate", "pings.json", "--out", "o.npy"};
     QTest::newRow("an experiment's many SNRs") << QStringList{"evaluate", "experiment.json", "--out", "o.csv"};
     QTest::newRow("calibration") << QStringList{"calibrate", "--set", "spectrogram.windowSeconds=0.7"};
-    QTest::newRow("a window that is chosen") << QStringList{"detect", "line.wav", "--events", "o.csv", "--statistic", "o.npy"};
-    QTest::newRow("a window that is chosen, to explain") << QStringList{"explain", "line.wav", "--time", "15", "--frequency", "210"};
-    QTest::newRow("windows that are chosen, to compare") << QStringList{"compare", "line.wav", "--set-b", "model.snr=5", "--events", "o.csv"};
+    QTest::newRow("a window that is chosen")
+        << QStringList{"detect", "line.wav", "--events", "o.csv", "--statistic", "o.npy"};
+    QTest::newRow("a window that is chosen, to explain")
+        << QStringList{"explain", "line.wav", "--time", "15", "--frequency", "210"};
+    QTest::newRow("windows that are chosen, to compare")
+        << QStringList{"compare", "line.wav", "--set-b", "model.snr=5", "--events", "o.csv"};
     QTest::newRow("a window that is chosen, to calibrate") << QStringList{"calibrate", "line.wav", "--surrogates", "5"};
     QTest::newRow("a pipe for frames") << QStringList{"detect", "--frames", "pipe", "--tracks", "o.csv"};
-    QTest::newRow("a pipe for a statistic") << QStringList{"statistic", "--frames", "pipe", "--model", "model.json", "--out", "o.npy"};
+    QTest::newRow("a pipe for a statistic")
+        << QStringList{"statistic", "--frames", "pipe", "--model", "model.json", "--out", "o.npy"};
     QTest::newRow("a pipe for shards") << QStringList{"merge", "pipe", "--out", "o.csv"};
-    QTest::newRow("a pipe for annotations") << QStringList{"detect", "line.wav", "--annotations", "pipe", "--events", "o.csv"};
+    QTest::newRow("a pipe for annotations")
+        << QStringList{"detect", "line.wav", "--annotations", "pipe", "--events", "o.csv"};
 }
 
 void tst_cliStreams::stopsWhenAsked()
 {
     QFETCH(QStringList, arguments);
-    writeBytes(pathOf("pings.json"), R"({"kind": "pings", "pings": 100, "rangeCells": 100000, "beams": 100, "looks": 100})");
+    writeBytes(pathOf("pings.json"),
+               R"({"kind": "pings", "pings": 100, "rangeCells": 100000, "beams": 100, "looks": 100})");
     QByteArray snrs = "1";
     for (int i = 2; i <= 100000; ++i)
         snrs += "," + QByteArray::number(i * 1e-4);
-    writeBytes(pathOf("experiment.json"), R"({"kind": "lines", "runs": 2, "frames": 60, "blockFrames": 30, "blockBins": 30,
-        "durationWindows": 10, "snrDb": [)" + snrs + R"(], "detectors": [{"name": "P", "settings": {"detector.kind": "pOfN"}}]})");
+    writeBytes(pathOf("experiment.json"),
+               R"({"kind": "lines", "runs": 2, "frames": 60, "blockFrames": 30, "blockBins": 30,
+        "durationWindows": 10, "snrDb": [)"
+                   + snrs + R"(], "detectors": [{"name": "P", "settings": {"detector.kind": "pOfN"}}]})");
     ::mkfifo(pathOf("pipe").c_str(), 0600);
     QProcess process;
     QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
@@ -122,8 +134,10 @@ void tst_cliStreams::controlCharactersStayOut_data()
 {
     QTest::addColumn<QByteArray>("evil");
     QTest::newRow("escape") << QByteArray("\x1b[31m");
-    QTest::newRow("C1") << QByteArray("\xc2\x9b""31m");
-    QTest::newRow("override") << QByteArray("\xe2\x80\xae""vaw.exe");
+    QTest::newRow("C1") << QByteArray("\xc2\x9b"
+                                      "31m");
+    QTest::newRow("override") << QByteArray("\xe2\x80\xae"
+                                            "vaw.exe");
     QTest::newRow("isolate") << QByteArray("\xe2\x81\xa6x");
     QTest::newRow("mark") << QByteArray("\xd8\x9c");
 }
@@ -134,16 +148,24 @@ void tst_cliStreams::controlCharactersStayOut()
     const QByteArray inJson = evil.startsWith('\x1b') ? "\\u001b" + evil.mid(1) : evil;
     writeBytes(pathOf("e.sigmf-data"), QByteArray(400, '\0'));
     writeBytes(pathOf("e.sigmf-meta"), R"({"global": {"core:datatype": "rf32_le", "core:sample_rate": 50},
-        "captures": [{"core:sample_start": 0, "core:datetime": ")" + inJson + "\"}]}");
+        "captures": [{"core:sample_start": 0, "core:datetime": ")"
+                                           + inJson + "\"}]}");
     writeArray(pathOf("frames.npy"), {60, 40}, std::vector<float>(2400, 1.0f));
     writeBytes(pathOf("grid.json"), R"({"axes": [{"name": ")" + inJson + R"(", "unit": ")" + inJson + R"("}]})");
-    writeBytes(pathOf("names.json"), R"({"kind": "lines", "runs": 1, "frames": 60, "blockFrames": 30, "blockBins": 30, "durationWindows": 10,
-        "snrDb": [3], "detectors": [{"name": ")" + inJson + R"(", "settings": {"detector.kind": "pOfN"}}]})");
+    writeBytes(pathOf("names.json"),
+               R"({"kind": "lines", "runs": 1, "frames": 60, "blockFrames": 30, "blockBins": 30, "durationWindows": 10,
+        "snrDb": [3], "detectors": [{"name": ")"
+                   + inJson + R"(", "settings": {"detector.kind": "pOfN"}}]})");
     const QByteArray name = "name" + evil + ".wav";
     writeBytes(folder().toStdString() + "/" + name.toStdString(), content("line.wav"));
-    for (const QStringList &arguments : {QStringList{"info", "e.sigmf-meta"}, {"info", "e.sigmf-meta", "--json"}, {"info", QString::fromUtf8(name)},
-                                         {"info", QString::fromUtf8(name), "--json"}, {"info", QString::fromUtf8("none" + evil)},
-                                         {"evaluate", "names.json"}, {"explain", "frames.npy", "--grid", "grid.json", "--time", "30", "--frequency", "20"}}) {
+    for (const QStringList &arguments :
+         {QStringList{"info", "e.sigmf-meta"},
+          {"info", "e.sigmf-meta", "--json"},
+          {"info", QString::fromUtf8(name)},
+          {"info", QString::fromUtf8(name), "--json"},
+          {"info", QString::fromUtf8("none" + evil)},
+          {"evaluate", "names.json"},
+          {"explain", "frames.npy", "--grid", "grid.json", "--time", "30", "--frequency", "20"}}) {
         const Outcome told = run(arguments);
         QVERIFY2(told.code == 0 || arguments[1].startsWith("none"), told.err.constData());
         QVERIFY2(!(told.out + told.err).contains(evil), qPrintable(arguments.join(' ')));
@@ -156,7 +178,8 @@ void tst_cliStreams::namesThatAreNoText()
     const auto shell = [&](const QByteArray &line) {
         QProcess process;
         process.setWorkingDirectory(folder());
-        process.start("/bin/sh", {"-c", "set -e; n=$(printf 'n\\377\\342'); cli=\"" + program + "\"; " + QString::fromUtf8(line)});
+        process.start("/bin/sh",
+                      {"-c", "set -e; n=$(printf 'n\\377\\342'); cli=\"" + program + "\"; " + QString::fromUtf8(line)});
         process.waitForFinished(patience);
         return Outcome{process.exitCode(), process.readAllStandardOutput(), process.readAllStandardError()};
     };

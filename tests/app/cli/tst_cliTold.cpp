@@ -27,7 +27,8 @@ void tst_cliTold::helpAndVersion()
     for (const QStringList &arguments : {QStringList{"--help"}, {"detect", "--help"}, {"--version"}}) {
         const Outcome told = run(arguments);
         QCOMPARE(told.code, 0);
-        QVERIFY(told.out.contains(arguments.last() == "--version" ? "faintline-cli " : "--threads") || told.out.contains("--events"));
+        QVERIFY(told.out.contains(arguments.last() == "--version" ? "faintline-cli " : "--threads")
+                || told.out.contains("--events"));
         QCOMPARE(told.err, QByteArray());
     }
     const QByteArray all = run({"--help"}).out;
@@ -48,7 +49,8 @@ void tst_cliTold::infoAsText()
 void tst_cliTold::infoAsJson()
 {
     writeBytes(pathOf("iq.sigmf-data"), QByteArray(400, '\0'));
-    writeBytes(pathOf("iq.sigmf-meta"), R"({"global": {"core:datatype": "ci16_le", "core:sample_rate": 50, "core:version": "1.0.0"},
+    writeBytes(pathOf("iq.sigmf-meta"),
+               R"({"global": {"core:datatype": "ci16_le", "core:sample_rate": 50, "core:version": "1.0.0"},
         "captures": [{"core:sample_start": 0, "core:frequency": 7e6, "core:datetime": "2024-07-26T00:00:00Z"}], "annotations": []})");
     const Outcome told = run({"info", "iq.sigmf-meta", "--json"});
     QCOMPARE(told.code, 0);
