@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <mutex>
 #include <utility>
@@ -76,6 +77,8 @@ namespace {
     public:
         LibraryUse() : m_lock(guard())
         {
+            static const bool isPrepared = isShared() || H5dont_atexit() >= 0;
+            (void)isPrepared;
             H5open();
             H5PLget_loading_state(&m_plugins);
             H5PLset_loading_state(0);
@@ -95,6 +98,12 @@ namespace {
         }
         LibraryUse(const LibraryUse &) = delete;
         LibraryUse &operator=(const LibraryUse &) = delete;
+
+        static bool &isShared()
+        {
+            static bool shared = false;
+            return shared;
+        }
 
     private:
         static std::mutex &guard()
@@ -148,6 +157,19 @@ namespace {
         checkFilters(plan, where);
     }
 
+    /// Lengths may lie: what was never written is no part of the file, and no filter packs numbers better than this.
+    void checkLength(hid_t dataset, std::span<const hsize_t> sizes, std::size_t elementBytes, const std::string &where)
+    {
+        constexpr double bestPacking = 4096.0;
+        constexpr double fewBytes = 1 << 20;
+        double claimed = static_cast<double>(elementBytes);
+        for (const hsize_t size : sizes)
+            claimed *= static_cast<double>(size);
+        if (claimed > bestPacking * std::max(fewBytes, static_cast<double>(H5Dget_storage_size(dataset))))
+            throw Error(where, "claims " + std::to_string(std::llround(claimed / fewBytes))
+                                   + " MiB of values, of which the file holds next to nothing");
+    }
+
     /// Whether a name leads on within the file.
     bool follows(hid_t file, const std::string &name, const std::string &path)
     {
@@ -160,6 +182,11 @@ namespace {
     }
 
 } // namespace
+
+void Hdf5File::shareLibrary()
+{
+    LibraryUse::isShared() = true;
+}
 
 bool Hdf5File::recognises(const std::string &path)
 {
@@ -210,6 +237,7 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
         || std::any_of(sizes.begin(), sizes.begin() + axes, [](hsize_t size) { return size < 1 || size > mostValues; }))
         throw Error(where, "holds no values, or more than can be");
     checkStorage(handle, H5Tget_size(type), where);
+    checkLength(handle, std::span(sizes).first(static_cast<std::size_t>(axes)), H5Tget_size(type), where);
 
     std::unique_ptr<Hdf5Dataset> dataset(new Hdf5Dataset(m_path, handle.release()));
     dataset->m_shape.assign(sizes.begin(), sizes.begin() + axes);

@@ -47,9 +47,9 @@ private:
 /// Only hard links are followed: no external and no soft ones. Datasets whose values lie in other files (external
 /// storage, virtual datasets) are refused. No plug-in is ever loaded, wherever the file or the environment say that
 /// they are: filters are those that are built into the library, and bitshuffle with or without LZ4, decoded here.
-/// Chunks of more than 256 MiB are refused. The library is used by one thread at a time (a lock of this class), so the
-/// classes are thread-safe, and left as it was found, for others of the process may use it. This is the only place that
-/// knows HDF5.
+/// Chunks of more than 256 MiB are refused, and lengths that what is stored cannot have been unpacked to. The library
+/// is used by one thread at a time (a lock of this class), so the classes are thread-safe, and left as it was found,
+/// for others of the process may use it. This is the only place that knows HDF5.
 class Hdf5File
 {
 public:
@@ -65,6 +65,11 @@ public:
 
     /// Whether a file begins as one.
     static bool recognises(const std::string &path);
+
+    /// For programs in which others use the library as well: its clean-up at exit stays on, which closes what they left
+    /// open. Otherwise it is off, for of damaged files it says more than one line. To be called before the first file
+    /// is opened.
+    static void shareLibrary();
 
 private:
     std::string m_path;

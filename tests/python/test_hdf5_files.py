@@ -105,7 +105,7 @@ class Hdf5Filterbanks(InFolder):
             data.attrs.update(AXES)
 
         def enormous(file):
-            file.create_dataset("data", (2**40, 1, 2**30), "f4", chunks=(1, 1, 2**20)).attrs.update(AXES)
+            file.create_dataset("data", (2**40, 1, 2**20), "f4", chunks=(1, 1, 2**20)).attrs.update(AXES)
 
         def texts(file):
             file.create_dataset("data", data=np.array([["a"]], "S5")).attrs.update(AXES)
@@ -131,7 +131,7 @@ class Hdf5Filterbanks(InFolder):
             outside: "other files",
             virtual: "put together",
             bomb: "256 MiB",
-            enormous: "channels",
+            enormous: "next to nothing",
             texts: "no numbers",
             flat: "frames, polarisations and channels",
             group: "no dataset",
