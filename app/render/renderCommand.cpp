@@ -151,7 +151,7 @@ namespace {
         const auto found = std::find(outputLayerNames.begin(), outputLayerNames.end(), options.layer);
         if (found == outputLayerNames.end())
             throw Error("--layer " + options.layer,
-                        "is not known; there are statistic, rate, bearing-rate, age, reset, inhibited");
+                        "unknown; choose one of statistic, rate, bearing-rate, age, reset, inhibited");
         OutputLayers &layers = window.workbench().layers();
         const auto layer = static_cast<OutputLayer>(found - outputLayerNames.begin());
         if (!layers.isOffered(layer))

@@ -279,10 +279,8 @@ void MainWindow::offerRecovery()
         return;
     const QString when = QFileInfo(left.first()).lastModified().toString(QStringLiteral("yyyy-MM-dd hh:mm"));
     m_messages->showMessage(MessageBar::Kind::Notice, tr("Unsaved work"),
-                            tr("of %1 was recovered after the program "
-                               "ended unexpectedly.")
-                                .arg(when),
-                            tr("Restore"), [this, session = left.first()] {
+                            tr("of %1 can be restored; the program ended unexpectedly.").arg(when), tr("Restore"),
+                            [this, session = left.first()] {
                                 m_welcome->stop();
                                 // What was left behind goes when it is kept again.
                                 connect(

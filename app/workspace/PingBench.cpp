@@ -163,7 +163,7 @@ QWidget *PingBench::buildBar()
     m_reading->setContentsMargins(8, 0, 8, 2);
     m_reading->setAccessibleName(tr("Read-out"));
     auto *inhibition = new QCheckBox(tr("Inhibited"));
-    inhibition->setToolTip(tr("Show the boxes around tracks that are inhibited"));
+    inhibition->setToolTip(tr("Show the inhibited boxes around tracks"));
     inhibition->setChecked(true);
     inhibition->setFocusPolicy(Qt::TabFocus);
     connect(inhibition, &QCheckBox::toggled, m_input, &PingMap::setInhibitionShown);

@@ -108,8 +108,8 @@ bool canLearnMotion(const Analysis &analysis)
 LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
 {
     if (!canLearnMotion(analysis))
-        throw Error("motion", "can be learned only from confirmed tracks of lines whose slope may change; no such "
-                              "track was found");
+        throw Error("motion",
+                    "can be learned only from strong tracks of lines whose slope may change; no such track was found");
     const std::vector<const Track *> tracks = sureTracks(analysis);
     const std::vector<PathStrip> strips = stripsOf(analysis, tracks, context.part(0.0, 0.2));
     LearnedMotion motion;

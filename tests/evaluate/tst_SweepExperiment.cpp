@@ -115,7 +115,7 @@ private slots:
         SweepExperiment large = sweep();
         large.trials = 1'000'000;
         large.values.assign(3000, 5.0);
-        QCOMPARE(whyNot(large), std::string("trials = 1000000: of each of 3000 values exceeds 10 million"));
+        QCOMPARE(whyNot(large), std::string("trials = 1000000: times 3000 values gives more than 10 million trials"));
     }
 
     void jsonRoundTrip()

@@ -329,7 +329,7 @@ void tst_ModelFile::modelRefusals_data()
     axis("cells as text", R"({"cells": "5"})", "axes[1].cells: must be a number");
     axis("unknown key in an axis", R"({"cells": 5, "rate": [0]})",
          "axes[1].rate: unknown; expected one of name, cells, cyclic");
-    axis("name", R"({"cells": 5, "name": 5})", "axes[1].name: must be a text");
+    axis("name", R"({"cells": 5, "name": 5})", "axes[1].name: must be a string");
     axis("cyclic", R"({"cells": 5, "cyclic": 1})", "axes[1].cyclic: must be true or false");
     axis("rates with a gap", R"({"cells": 5, "rates": [-1, 1]})",
          "axes[1].rates: must be consecutive integers, ascending");

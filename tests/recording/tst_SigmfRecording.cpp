@@ -141,7 +141,7 @@ void tst_SigmfRecording::badMetadata_data()
                              << "global.core:datatype: is missing; expected one of cf32";
     QTest::newRow("unknown type") << changed("ci16_le", "ci12_le")
                                   << "global.core:datatype: ci12_le is not a sample type; expected one of cf32";
-    QTest::newRow("type a number") << changed("\"ci16_le\"", "16") << "global.core:datatype: must be a text";
+    QTest::newRow("type a number") << changed("\"ci16_le\"", "16") << "global.core:datatype: must be a string";
     QTest::newRow("no rate") << changed("core:sample_rate", "rate")
                              << "core:sample_rate: is missing; frequencies require it";
     QTest::newRow("rate 0") << changed("48000.5", "0") << "core:sample_rate: must be a number in 1e-09 … 1e+15";

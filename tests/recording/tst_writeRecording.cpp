@@ -185,7 +185,7 @@ void tst_writeRecording::refusals()
     QVERIFY(contains(refusal("a.wav", 8000.5, 1),
                      "whole-number sample rate up to 2147483647 Hz, not 8000.5 Hz; write a .sigmf-meta pair"));
     QVERIFY(contains(refusal("a.wav", 1e10, 1), "whole-number sample rate"));
-    QVERIFY(contains(refusal("a.flac", 8000.0, 9), "cannot hold 9 channel(s)"));
+    QVERIFY(contains(refusal("a.flac", 8000.0, 9), "does not support 9 channel(s)"));
     QVERIFY(contains(refusal("no/such/folder/a.wav", 8000.0, 1), "cannot be written: No such file or directory"));
     QVERIFY(QDir(m_folder->path()).mkdir("folder.wav"));
     QVERIFY(contains(refusal("folder.wav", 8000.0, 1), "is a folder"));

@@ -295,7 +295,7 @@ void ExceedancePlot::nameCurves()
     name(*m_measured, tr("this recording"));
     name(*m_selection, tr("the measured box"));
     if (m_histogram->dataSize() > 0)
-        m_key->entries.push_back({tr("cells in the box"), QPen(m_histogram->brush().color()), true});
+        m_key->entries.push_back({tr("recorded cells"), QPen(m_histogram->brush().color()), true});
 }
 
 void ExceedancePlot::layAxes()

@@ -181,7 +181,8 @@ void checkExperiment(const SweepExperiment &experiment)
     constexpr std::size_t mostRuns = 10'000'000;
     if (experiment.values.size() > mostRuns / static_cast<std::size_t>(experiment.trials))
         throw fieldError("trials", std::to_string(experiment.trials),
-                         "times " + std::to_string(experiment.values.size()) + " values exceeds 10 million");
+                         "times " + std::to_string(experiment.values.size())
+                             + " values gives more than 10 million trials");
     for (std::size_t i = 0; i < experiment.values.size(); ++i)
         settingsAt(experiment, i);
     if (!experiment.recording.empty())
