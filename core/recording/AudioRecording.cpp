@@ -39,9 +39,15 @@ namespace {
         }
     }
 
+    /// What libsndfile says of a file that is of none of its formats.
+    bool isOfUnknownFormat(const std::string &said)
+    {
+        return said.find("not recognised") != std::string::npos || said.find("unknown format") != std::string::npos;
+    }
+
     std::string refusal(const std::string &said)
     {
-        if (said.find("not recognised") != std::string::npos || said.find("unknown format") != std::string::npos)
+        if (isOfUnknownFormat(said))
             return "has an unknown format; ";
         if (said.find("SF_INFO struct incomplete") != std::string::npos)
             return "the sample rate or channel count in its header is 0; ";
@@ -98,8 +104,7 @@ AudioRecording::~AudioRecording() = default;
 bool AudioRecording::recognises(const std::string &path)
 {
     std::string why;
-    return AudioDecoder::open(std::make_shared<FileBytes>(path), why)
-           || refusal(why).find("not in a format") == std::string::npos;
+    return AudioDecoder::open(std::make_shared<FileBytes>(path), why) || !isOfUnknownFormat(why);
 }
 
 std::unique_ptr<AudioDecoder> AudioRecording::openDecoder() const

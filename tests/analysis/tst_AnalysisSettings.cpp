@@ -137,7 +137,7 @@ void tst_AnalysisSettings::presetsAreSound()
 {
     for (const Preset &p : presets())
         checkSettings(p.settings);
-    QVERIFY(contains(errorOf([] { preset("none"); }), "there are lines"));
+    QVERIFY(contains(errorOf([] { preset("none"); }), "choose one of lines"));
 }
 
 QTEST_APPLESS_MAIN(tst_AnalysisSettings)

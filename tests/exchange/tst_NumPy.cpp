@@ -168,9 +168,9 @@ void tst_NumPy::refusals_data()
     row("Fortran order", file(dictionary("<f4", "(2, 3)", "True"), data), "is in Fortran order; save it in C order");
     row("big-endian", file(dictionary(">f4", "(2, 3)"), data),
         "holds '>f4'; expected float32 or float64, little-endian");
-    row("integers", file(dictionary("<i4", "(2, 3)"), data), "holds '<i4'; float32");
-    row("complex", file(dictionary("<c8", "(2, 3)"), data), "holds '<c8'; float32");
-    row("objects", file(dictionary("|O", "(2, 3)"), data), "holds '|O'; float32");
+    row("integers", file(dictionary("<i4", "(2, 3)"), data), "holds '<i4'; expected float32");
+    row("complex", file(dictionary("<c8", "(2, 3)"), data), "holds '<c8'; expected float32");
+    row("objects", file(dictionary("|O", "(2, 3)"), data), "holds '|O'; expected float32");
     row("structure", file("{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (2, 3)}", data),
         "float32 or float64");
     row("no type", file("{'fortran_order': False, 'shape': (2, 3)}", data), "has no 'descr'");

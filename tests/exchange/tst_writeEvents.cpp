@@ -209,7 +209,7 @@ void tst_writeEvents::refusals()
 {
     for (const char *name : {"e.xml", "e", "csv"})
         QVERIFY(contains(errorOf([&] { writeEvents(twoTracks(), path(name)); }),
-                         "the file name must end in .csv, .json, .txt (Audacity labels) or .sigmf-meta"));
+                         "must end in one of .csv, .json, .txt (Audacity labels) or .sigmf-meta"));
     QVERIFY(contains(errorOf([&] { writeTracks(twoTracks(), path("t.txt")); }), "must end in one of .csv or .json"));
     QVERIFY(!errorOf([&] { writeEvents(twoTracks(), path("no/folder.csv")); }).empty());
 }

@@ -241,7 +241,7 @@ class Spectrograms(InFolder):
                 self.assertIn(part, self.refusal(fl.open, self.write(power, grid)).what)
         path = self.write(power)
         path.write_bytes(path.read_bytes()[:-8])
-        self.assertIn("cut short", self.refusal(fl.open, path).why)
+        self.assertIn("is truncated", self.refusal(fl.open, path).why)
 
 
 if __name__ == "__main__":

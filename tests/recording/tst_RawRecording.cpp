@@ -80,7 +80,7 @@ void tst_RawRecording::typeNames()
     QCOMPARE(parseSampleType("ci16", "here").name(), std::string("ci16_le"));
     for (const char *wrong :
          {"", "c", "f32", "cf16", "ci16_", "ci16_xe", "xi16_le", "ci16_le ", "CI16_LE", "cf32_le_le"})
-        QVERIFY(contains(errorOf([&] { parseSampleType(wrong, "here"); }), "known are cf32, cf64, ci8"));
+        QVERIFY(contains(errorOf([&] { parseSampleType(wrong, "here"); }), "expected one of cf32, cf64, ci8"));
 }
 
 void tst_RawRecording::everyType_data()

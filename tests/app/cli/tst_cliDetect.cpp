@@ -305,7 +305,7 @@ void tst_cliDetect::pingsFromAScene()
 
     const Outcome wrong = run({"simulate", "pings.json", "--out", "P.wav"});
     QCOMPARE(wrong.code, 2);
-    QVERIFY(wrong.err.contains("P.wav: pings are written as frames"));
+    QVERIFY(wrong.err.contains("P.wav: must end in .npy"));
 }
 
 void tst_cliDetect::oddRecordings_data()
