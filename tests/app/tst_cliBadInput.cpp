@@ -374,7 +374,8 @@ void tst_cliBadInput::sigmfIsReadAndMadeAgain()
         writeBytes(pathOf(name), before + " ");
         const Outcome replayed = run({"replay", "judged.csv"});
         QCOMPARE(replayed.code, 2);
-        QVERIFY2(replayed.err.startsWith(QByteArray("error: ") + name + ": is not the input of"), replayed.err.constData());
+        QVERIFY2(replayed.err.startsWith(QByteArray("error: ") + name + ": is not the input of"),
+                 replayed.err.constData());
         writeBytes(pathOf(name), before);
     }
 }
