@@ -6,7 +6,6 @@
 #include "widgets/plot/WalkPlot.h"
 
 #include <QLabel>
-#include <QPainter>
 #include <QVBoxLayout>
 
 namespace faintline {
@@ -15,15 +14,6 @@ namespace {
 
     constexpr int pictureHeight = 112; // with their captions as high as the other cards'
     constexpr int walksShown = 12;     // of each hypothesis
-
-    QLabel *caption(const QString &text, const QFont &font)
-    {
-        auto *label = new QLabel(text);
-        label->setFont(font);
-        label->setWordWrap(true);
-        label->setAttribute(Qt::WA_TransparentForMouseEvents);
-        return label;
-    }
 
     /// Range and Doppler of the target in the scan that is shown.
     std::vector<QPointF> truthOn(const ScanCard::Result &result)
@@ -43,17 +33,12 @@ namespace {
 } // namespace
 
 ScanCard::ScanCard(QWidget *parent)
-    : QAbstractButton(parent), m_scan(new CellPicture), m_walks(new WalkPlot),
-      m_found(caption(tr("Simulating …"), Theme::font(12)))
+    : Card(tr("A radar that looks until it can decide"),
+           tr("The test leaves an empty sector as soon as it can decide, and follows a target that changes cells from "
+              "scan to scan."),
+           parent),
+      m_scan(new CellPicture), m_walks(new WalkPlot), m_found(caption(tr("Simulating …"), Theme::font(12)))
 {
-    const QString sentence = tr("The test leaves an empty sector as soon as it can decide, and follows a target that "
-                                "changes cells from scan to scan.");
-    setText(tr("A radar that looks until it can decide"));
-    setAccessibleDescription(sentence);
-    setCursor(Qt::PointingHandCursor);
-    setFocusPolicy(Qt::StrongFocus);
-    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::MinimumExpanding);
-    setAttribute(Qt::WA_Hover);
     makePicture(*m_scan);
     makePicture(*m_walks);
 
@@ -66,7 +51,7 @@ ScanCard::ScanCard(QWidget *parent)
     layout->addWidget(caption(tr("The evidence, scan by scan"), Theme::font(12)));
     layout->addWidget(m_walks);
     layout->addWidget(m_found);
-    layout->addWidget(caption(sentence, Theme::font()));
+    layout->addWidget(caption(accessibleDescription(), Theme::font()));
     layout->addStretch();
 }
 
@@ -110,22 +95,6 @@ void ScanCard::setResult(const Result &result)
                          .arg(accepted)
                          .arg(walksShown)
                          .arg(onTargets / walksShown, 0, 'f', 1));
-}
-
-QSize ScanCard::sizeHint() const
-{
-    return {320, layout()->sizeHint().height()};
-}
-
-void ScanCard::paintEvent(QPaintEvent *)
-{
-    const Theme::Colours &colours = Theme::colours(*this);
-    QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    const bool isLit = hasFocus() || underMouse();
-    painter.setPen(QPen(isLit ? colours.accent : colours.frame, isLit ? 2.0 : 1.0));
-    painter.setBrush(palette().color(QPalette::Base));
-    painter.drawRoundedRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0), 6.0, 6.0);
 }
 
 } // namespace faintline

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "app/control/SequentialTests.h"
-
-#include <QAbstractButton>
+#include "app/welcome/Card.h"
 
 #include <optional>
 #include <vector>
@@ -15,7 +14,7 @@ class CellPicture;
 class WalkPlot;
 
 /// The radar's scenario as a big button: a scan with its target, and tests that walk until they are sure.
-class ScanCard : public QAbstractButton
+class ScanCard : public Card
 {
     Q_OBJECT
 
@@ -33,11 +32,6 @@ public:
     static Result compute(const RunContext &context);
     void setResult(const Result &result);
     bool hasResult() const { return m_hasResult; }
-
-    QSize sizeHint() const override;
-
-protected:
-    void paintEvent(QPaintEvent *event) override;
 
 private:
     bool m_hasResult = false;

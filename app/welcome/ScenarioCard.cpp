@@ -5,7 +5,6 @@
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QLabel>
-#include <QPainter>
 #include <QVBoxLayout>
 
 #include <cmath>
@@ -15,15 +14,6 @@ namespace faintline {
 namespace {
 
     constexpr int pictureHeight = 132;
-
-    QLabel *caption(const QString &text, const QFont &font)
-    {
-        auto *label = new QLabel(text);
-        label->setFont(font);
-        label->setWordWrap(true);
-        label->setAttribute(Qt::WA_TransparentForMouseEvents);
-        return label;
-    }
 
     OverviewStrip *picture(Viewport &viewport)
     {
@@ -38,16 +28,9 @@ namespace {
 } // namespace
 
 ScenarioCard::ScenarioCard(const Scenario &scenario, QWidget *parent)
-    : QAbstractButton(parent), m_scenario(scenario), m_input(picture(m_viewport)), m_statistic(picture(m_viewport)),
-      m_found(caption(tr("Simulating …"), Theme::font(12)))
+    : Card(scenario.title, scenario.sentence, parent), m_scenario(scenario), m_input(picture(m_viewport)),
+      m_statistic(picture(m_viewport)), m_found(caption(tr("Simulating …"), Theme::font(12)))
 {
-    setText(scenario.title);
-    setAccessibleDescription(scenario.sentence);
-    setCursor(Qt::PointingHandCursor);
-    setFocusPolicy(Qt::StrongFocus);
-    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::MinimumExpanding);
-    setAttribute(Qt::WA_Hover);
-
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(14, 12, 14, 12);
     layout->setSpacing(4);
@@ -73,22 +56,6 @@ void ScenarioCard::setResult(const OpenedSource &opened, std::shared_ptr<const A
     m_statistic->setPicture(m_analysis->statisticAlong.front(), frequency);
     const int count = static_cast<int>(m_analysis->tracks.size());
     m_found->setText(count == 1 ? tr("1 event found") : tr("%1 events found").arg(count));
-}
-
-QSize ScenarioCard::sizeHint() const
-{
-    return {320, layout()->sizeHint().height()};
-}
-
-void ScenarioCard::paintEvent(QPaintEvent *)
-{
-    const Theme::Colours &colours = Theme::colours(*this);
-    QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    const bool isLit = hasFocus() || underMouse();
-    painter.setPen(QPen(isLit ? colours.accent : colours.frame, isLit ? 2.0 : 1.0));
-    painter.setBrush(palette().color(QPalette::Base));
-    painter.drawRoundedRect(QRectF(rect()).adjusted(1.0, 1.0, -1.0, -1.0), 6.0, 6.0);
 }
 
 } // namespace faintline

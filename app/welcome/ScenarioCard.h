@@ -3,9 +3,8 @@
 #include "analysis/analyse.h"
 #include "app/document/Source.h"
 #include "app/document/scenarios.h"
+#include "app/welcome/Card.h"
 #include "widgets/base/Viewport.h"
-
-#include <QAbstractButton>
 
 #include <memory>
 
@@ -16,7 +15,7 @@ namespace faintline {
 class OverviewStrip;
 
 /// A scenario as a big button: its input and its detector's statistic as pictures, and what is to be seen in them.
-class ScenarioCard : public QAbstractButton
+class ScenarioCard : public Card
 {
     Q_OBJECT
 
@@ -29,11 +28,6 @@ public:
     void setResult(const OpenedSource &opened, std::shared_ptr<const Analysis> analysis);
     const OpenedSource &opened() const { return m_opened; }
     const std::shared_ptr<const Analysis> &analysis() const { return m_analysis; } ///< null until there is a result
-
-    QSize sizeHint() const override;
-
-protected:
-    void paintEvent(QPaintEvent *event) override;
 
 private:
     Scenario m_scenario;
