@@ -1,5 +1,6 @@
 #include "app/panels/ExperimentForm.h"
 
+#include "app/panels/formInputs.h"
 #include "evaluate/experiments/peers.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
@@ -24,31 +25,6 @@ namespace {
 
     constexpr double mostSnrs = 60.0;
 
-    QDoubleSpinBox *number(double value, double low, double high, double step, int decimals, const QString &suffix,
-                           const QString &toolTip)
-    {
-        auto *box = new QDoubleSpinBox;
-        box->setRange(low, high);
-        box->setSingleStep(step);
-        box->setDecimals(decimals);
-        box->setValue(value);
-        box->setSuffix(suffix);
-        box->setToolTip(toolTip);
-        box->setAccessibleName(toolTip);
-        box->setMinimumWidth(40);
-        return box;
-    }
-
-    QSpinBox *count(int value, int low, int high, const QString &toolTip)
-    {
-        auto *box = new QSpinBox;
-        box->setRange(low, high);
-        box->setValue(value);
-        box->setToolTip(toolTip);
-        box->setAccessibleName(toolTip);
-        return box;
-    }
-
     /// Frames of a block and signals that fit: Billon's geometry, made longer for longer lines.
     void fitBlocks(LineExperiment &lines)
     {
@@ -62,19 +38,20 @@ namespace {
 } // namespace
 
 ExperimentForm::ExperimentForm(QWidget *parent)
-    : QWidget(parent), m_noise(new QComboBox), m_lowestDb(number(-5, -40, 40, 1, 1, tr(" dB"), tr("Lowest SNR"))),
-      m_highestDb(number(3, -40, 40, 1, 1, tr(" dB"), tr("Highest SNR"))),
-      m_stepDb(number(1, 0.1, 20, 0.5, 1, tr(" dB"), tr("Step between SNRs"))),
-      m_duration(number(100, 1, 5000, 10, 0, tr(" T_FT"), tr("Duration of a line, in windows"))),
-      m_drift(number(0, -5, 5, 0.05, 3, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
-      m_wander(number(0, 0, 20, 0.5, 2, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
-      m_wanderTime(number(15, 1, 1000, 1, 0, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
+    : QWidget(parent), m_noise(new QComboBox), m_lowestDb(numberInput(-5, -40, 40, 1, 1, tr(" dB"), tr("Lowest SNR"))),
+      m_highestDb(numberInput(3, -40, 40, 1, 1, tr(" dB"), tr("Highest SNR"))),
+      m_stepDb(numberInput(1, 0.1, 20, 0.5, 1, tr(" dB"), tr("Step between SNRs"))),
+      m_duration(numberInput(100, 1, 5000, 10, 0, tr(" T_FT"), tr("Duration of a line, in windows"))),
+      m_drift(numberInput(0, -5, 5, 0.05, 3, tr(" cells/T_FT"), tr("Steady drift, in resolution cells per window"))),
+      m_wander(
+          numberInput(0, 0, 20, 0.5, 2, tr(" cells"), tr("Standard deviation of the wander, in resolution cells"))),
+      m_wanderTime(numberInput(15, 1, 1000, 1, 0, tr(" T_FT"), tr("Correlation time of the wander, in windows"))),
       m_falseAlarms(
-          number(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour to which all detectors are set"))),
-      m_runs(count(20, 1, 100000,
-                   tr("Number of runs of 30 lines each in simulated noise, or of lines added one at a "
-                      "time to a recording"))),
-      m_seed(count(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
+          numberInput(1, 0.001, 1000, 1, 3, tr(" /h"), tr("False alarms per hour to which all detectors are set"))),
+      m_runs(countInput(20, 1, 100000,
+                        tr("Number of runs of 30 lines each in simulated noise, or of lines added one at a "
+                           "time to a recording"))),
+      m_seed(countInput(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
 {
     m_noise->addItem(tr("in simulated noise"));
     m_noise->addItem(tr("in this recording"));

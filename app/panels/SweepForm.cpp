@@ -1,5 +1,6 @@
 #include "app/panels/SweepForm.h"
 
+#include "app/panels/formInputs.h"
 #include "base/Error.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
@@ -24,30 +25,6 @@ namespace {
 
     constexpr double windowsOfALine = 60.0; ///< that a line lasts, at first
     constexpr double windowsOfMargin = 30.0;
-
-    QDoubleSpinBox *number(double value, double low, double high, int decimals, const QString &suffix,
-                           const QString &toolTip)
-    {
-        auto *box = new QDoubleSpinBox;
-        box->setRange(low, high);
-        box->setDecimals(decimals);
-        box->setValue(value);
-        box->setSuffix(suffix);
-        box->setToolTip(toolTip);
-        box->setAccessibleName(toolTip);
-        box->setMinimumWidth(40);
-        return box;
-    }
-
-    QSpinBox *count(int value, int low, int high, const QString &toolTip)
-    {
-        auto *box = new QSpinBox;
-        box->setRange(low, high);
-        box->setValue(value);
-        box->setToolTip(toolTip);
-        box->setAccessibleName(toolTip);
-        return box;
-    }
 
     QHBoxLayout *row(std::initializer_list<QWidget *> widgets)
     {
@@ -89,15 +66,16 @@ namespace {
 
 SweepForm::SweepForm(QWidget *parent)
     : QWidget(parent), m_parameter(new QComboBox), m_from(new QLineEdit), m_to(new QLineEdit),
-      m_steps(count(6, 2, 60, tr("Number of values"))), m_byFactors(new QCheckBox(tr("logarithmic"))),
-      m_noise(new QComboBox),
-      m_snr(number(0, -40, 40, 1, tr(" dB"), tr("SNR of a line, in a rectangular window of the current length"))),
-      m_duration(number(30, 0.001, 1e6, 1, tr(" s"), tr("Duration of a line"))),
-      m_margin(number(15, 0, 1e6, 1, tr(" s"), tr("Noise before and after a line, in which false alarms are counted"))),
-      m_drift(number(0, -1e6, 1e6, 3, tr(" Hz/s"), tr("Steady drift"))),
-      m_wander(number(0, 0, 1e6, 2, tr(" Hz"), tr("Standard deviation of the wander"))),
-      m_trials(count(40, 1, 100000, tr("Number of lines on which every value is tried"))),
-      m_seed(count(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
+      m_steps(countInput(6, 2, 60, tr("Number of values"))), m_byFactors(new QCheckBox(tr("logarithmic"))),
+      m_noise(new QComboBox), m_snr(numberInput(0, -40, 40, 1, 1, tr(" dB"),
+                                                tr("SNR of a line, in a rectangular window of the current length"))),
+      m_duration(numberInput(30, 0.001, 1e6, 1, 1, tr(" s"), tr("Duration of a line"))),
+      m_margin(numberInput(15, 0, 1e6, 1, 1, tr(" s"),
+                           tr("Noise before and after a line, in which false alarms are counted"))),
+      m_drift(numberInput(0, -1e6, 1e6, 1, 3, tr(" Hz/s"), tr("Steady drift"))),
+      m_wander(numberInput(0, 0, 1e6, 1, 2, tr(" Hz"), tr("Standard deviation of the wander"))),
+      m_trials(countInput(40, 1, 100000, tr("Number of lines on which every value is tried"))),
+      m_seed(countInput(1, 0, 2147483647, tr("Seed; the same seed gives identical results"))), m_meaning(plainLabel())
 {
     m_parameter->setAccessibleName(tr("Setting to vary"));
     m_parameter->setMaxVisibleItems(30);
