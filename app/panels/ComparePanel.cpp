@@ -130,20 +130,12 @@ ComparePanel::ComparePanel(Document &document, AnalysisController &controller, C
 
 QWidget *ComparePanel::buildPicture()
 {
-    auto *bar = new ColourBar;
-    bar->attach(m_picture);
     m_picture->setObjectName(QStringLiteral("difference"));
     m_picture->setViewport(&m_document.viewport());
     m_picture->setColourMap(Theme::kind(palette()) == Theme::Kind::Light ? QStringLiteral("blue-red")
                                                                          : QStringLiteral("ice-fire"));
     m_picture->setMinimumSize(150, 90);
-    auto *pane = new QWidget;
-    auto *layout = new QHBoxLayout(pane);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
-    layout->addWidget(m_picture, 1);
-    layout->addWidget(bar);
-    return pane;
+    return ColourBar::pane(m_picture);
 }
 
 QWidget *ComparePanel::buildWords()

@@ -26,19 +26,6 @@ namespace {
     constexpr int playerInterval = 33; // ms
     constexpr int playerSteps = 600;   // to play what is visible
 
-    QWidget *pane(WaterfallView *view)
-    {
-        auto *bar = new ColourBar;
-        bar->attach(view);
-        auto *result = new QWidget;
-        auto *layout = new QHBoxLayout(result);
-        layout->setContentsMargins(0, 0, 0, 0);
-        layout->setSpacing(0);
-        layout->addWidget(view, 1);
-        layout->addWidget(bar);
-        return result;
-    }
-
     QString orientationName(WaterfallView::Orientation orientation)
     {
         QString name =
@@ -101,9 +88,10 @@ namespace {
 Workbench::Workbench(Document &document, QWidget *parent)
     : Bench(document, Kind::Lines, parent), m_input(new WaterfallView(tr("Input (dB over noise)"))),
       m_output(new WaterfallView(tr("Statistic D (nat)"))), m_layers(new OutputLayers(document, *m_output, this)),
-      m_boxMeter(new BoxMeter(document, this)), m_inputPane(pane(m_input)), m_outputPane(pane(m_output)),
-      m_statistic(new StripPlot(tr("D (nat)"))), m_regulation(new StripPlot(tr("ln K (nat)"))),
-      m_pictures(new QSplitter(Qt::Horizontal)), m_rows(new QSplitter(Qt::Vertical))
+      m_boxMeter(new BoxMeter(document, this)), m_inputPane(ColourBar::pane(m_input)),
+      m_outputPane(ColourBar::pane(m_output)), m_statistic(new StripPlot(tr("D (nat)"))),
+      m_regulation(new StripPlot(tr("ln K (nat)"))), m_pictures(new QSplitter(Qt::Horizontal)),
+      m_rows(new QSplitter(Qt::Vertical))
 {
     m_pictures->addWidget(m_inputPane);
     m_pictures->addWidget(m_outputPane);

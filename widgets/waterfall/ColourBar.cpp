@@ -6,6 +6,7 @@
 #include "widgets/waterfall/WaterfallView.h"
 
 #include <QFontMetricsF>
+#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
@@ -63,6 +64,19 @@ void ColourBar::attach(WaterfallView *view)
     setMarker(view->threshold());
     setRange(view->range().low, view->range().high);
     follow();
+}
+
+QWidget *ColourBar::pane(WaterfallView *view)
+{
+    auto *bar = new ColourBar;
+    bar->attach(view);
+    auto *result = new QWidget;
+    auto *layout = new QHBoxLayout(result);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(view, 1);
+    layout->addWidget(bar);
+    return result;
 }
 
 void ColourBar::setColourMap(const ColourMap &map)

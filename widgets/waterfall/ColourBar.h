@@ -25,6 +25,8 @@ public:
 
     /// Shows and steers that view's range: the usual way, instead of all the setters and signals below.
     void attach(WaterfallView *view);
+    /// The view with a bar on its right that is attached to it.
+    static QWidget *pane(WaterfallView *view);
 
     void setColourMap(const ColourMap &map);
     void setRange(double low, double high);
