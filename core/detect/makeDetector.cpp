@@ -1,5 +1,6 @@
 #include "detect/makeDetector.h"
 
+#include "base/Overloaded.h"
 #include "detect/SumDetector.h"
 
 #include <algorithm>
@@ -9,13 +10,6 @@
 namespace faintline {
 
 namespace {
-
-    template <class... F>
-    struct Overloaded : F... {
-        using F::operator()...;
-    };
-    template <class... F>
-    Overloaded(F...) -> Overloaded<F...>; // clang 14 does not find it by itself
 
     Index framesOf(double windows, const FrameGeometry &geometry)
     {

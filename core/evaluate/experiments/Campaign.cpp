@@ -1,6 +1,7 @@
 #include "evaluate/experiments/Campaign.h"
 
 #include "base/Error.h"
+#include "base/Overloaded.h"
 #include "base/fileName.h"
 #include "base/wholeNumber.h"
 #include "recording/openRecording.h"
@@ -11,13 +12,6 @@
 namespace faintline {
 
 namespace {
-
-    template <class... F>
-    struct Overloaded : F... {
-        using F::operator()...;
-    };
-    template <class... F>
-    Overloaded(F...) -> Overloaded<F...>; // clang 14 does not find it by itself
 
     InjectionTrials trialsOf(const InjectionExperiment &experiment, const RunContext &context)
     {
