@@ -22,8 +22,8 @@ struct HeldFrames {
     NormalisedFramesPointer frames;
     Json truth;
     bool isPings = false; ///< a sonar's, whose settings start from the preset "sonar"
-    std::shared_ptr<const PowerFrames>
-        power{}; ///< of a file of power, which settings take a part of and normalise anew
+    /// Of a file of power, which settings take a part of and normalise anew.
+    std::shared_ptr<const PowerFrames> power{};
 };
 
 /// Opens what a path names: a recording, ready-made frames, or a scene to simulate. Throws Error.

@@ -13,7 +13,7 @@ namespace {
     {
         const py::object type = py::module_::import("faintline._error").attr("Error");
         const py::object instance = type(oneLine(error.where(), longestMessage), oneLine(error.why(), longestMessage),
-                                         error.kind() == Error::Kind::Mistake);
+                                         error.kind() == Error::Kind::Mistake, error.field());
         PyErr_SetObject(type.ptr(), instance.ptr());
     }
 

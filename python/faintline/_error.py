@@ -14,13 +14,16 @@ class Error(Exception):
         Both in one line, ``where: why``, as the command line shows it.
     is_mistake : bool
         True where the user can put it right (the command line ends with 2), False where the machine failed (1).
+    field : str
+        The full name of the setting that is wrong, as ``describe`` lists it; empty where it is none.
     """
 
-    def __init__(self, where: str, why: str, is_mistake: bool = True):
-        super().__init__(where, why, is_mistake)
+    def __init__(self, where: str, why: str, is_mistake: bool = True, field: str = ""):
+        super().__init__(where, why, is_mistake, field)
         self.where = where
         self.why = why
         self.is_mistake = is_mistake
+        self.field = field
 
     @property
     def what(self) -> str:

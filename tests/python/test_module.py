@@ -45,6 +45,8 @@ class Settings(InFolder):
                 self.assertIn(where, error.where)
                 self.assertIn(why, error.why)
         self.assertIn("several settings", self.refusal(fl.detect, x, ln_k=0.1).why)
+        self.assertEqual(self.refusal(fl.detect, x, window_seconds="long").field, "spectrogram.windowSeconds")
+        self.assertEqual(self.refusal(fl.open, "nothing.wav").field, "")
 
     def test_other_refusals(self):
         self.assertIn("rate", self.refusal(fl.detect, np.zeros(100)).where)
