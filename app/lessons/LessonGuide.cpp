@@ -5,6 +5,7 @@
 #include "app/lessons/LessonPanel.h"
 #include "app/lessons/PointerFrame.h"
 #include "app/lessons/lessonMeasures.h"
+#include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/views/WindowParts.h"
 #include "app/views/WindowViews.h"
@@ -204,9 +205,9 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
     if (name.isEmpty())
         return nullptr;
     if (name.startsWith(QLatin1String("setting "))) {
-        SettingsForm *form = m_window.findChild<SettingsForm *>();
+        SettingsForm *form = m_parts.pipeline().form();
         const QString setting = name.mid(8);
-        QWidget *editor = form ? form->editor(setting) : nullptr;
+        QWidget *editor = form->editor(setting);
         if (!editor)
             return nullptr;
         reveal(form);
@@ -218,9 +219,9 @@ QWidget *LessonGuide::widgetNamed(const QString &name)
     if (name == QLatin1String("profile"))
         return m_parts.workbench().statisticPlot();
     if (name == QLatin1String("pipeline"))
-        return m_window.findChild<SettingsForm *>();
+        return m_parts.pipeline().form();
     if (name == QLatin1String("readout"))
-        return m_window.findChild<ReadOut *>();
+        return &m_parts.readOut();
     return m_parts.views().named(name);
 }
 

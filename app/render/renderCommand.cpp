@@ -271,6 +271,15 @@ namespace {
         return view.grab().toImage().convertToFormat(QImage::Format_RGB32);
     }
 
+    /// A window that nobody sits in front of: it asks nothing, and shows no first estimates.
+    void showUnattended(MainWindow &window, QSize size)
+    {
+        window.setAsking(false);
+        window.controller().setShowsFirstEstimates(false);
+        window.resize(size);
+        window.show();
+    }
+
 } // namespace
 
 void render(const RenderOptions &options)
@@ -283,16 +292,11 @@ void render(const RenderOptions &options)
 
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
-    window.setAsking(false);
-    window.controller().setShowsFirstEstimates(false);
-    window.resize(options.size);
-    window.show();
+    showUnattended(window, options.size);
     if (isLesson(pathText(options.source))) {
         goThroughLesson(window, options);
     } else if (options.step) {
-        throw Error("--step " + std::to_string(*options.step), "requires a lesson; " + options.source
-                                                                   + " is not a "
-                                                                     "lesson");
+        throw Error("--step " + std::to_string(*options.step), "requires a lesson; " + options.source + " is not one");
     } else if (isScanScenario(pathText(options.source))) {
         checkViewsOfScans(options.views);
         testScans(window, options);
@@ -309,8 +313,8 @@ void render(const RenderOptions &options)
     for (const std::string &view : wholesFirst(options.views)) {
         window.pingBench().setPolar(view == "polar" || (view != "map" && wasPolar));
         QWidget &widget = *window.views().named(QString::fromStdString(view));
-        pictureOf(widget, options.size,
-                  options.isFocused); // at that size a layer may have more pixels to fill, and a picture smaller ones
+        // At that size a layer may have more pixels to fill, and a picture smaller ones.
+        pictureOf(widget, options.size, options.isFocused);
         settleLayers(window);
         settleCloseup(window);
         provenance["render"] = toJson(options, view);
@@ -327,10 +331,7 @@ void report(const RenderOptions &options)
                                         + "; a report requires a recording, pings or a session");
     Theme::apply(Theme::named(QString::fromStdString(options.theme)));
     MainWindow window;
-    window.setAsking(false);
-    window.controller().setShowsFirstEstimates(false);
-    window.resize(options.size);
-    window.show();
+    showUnattended(window, options.size);
     openAndSettle(window, options);
     ReportWriter writer(window.document(), window.views());
     QEventLoop loop;

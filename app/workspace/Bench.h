@@ -56,6 +56,16 @@ public:
     QByteArray saveSplitters() const;
     void restoreSplitters(const QByteArray &state);
 
+public slots:
+    virtual void selectEvent(int id) = 0; ///< marks it, puts the cursor on it and brings it into view
+    virtual void stepFrames(int frames) = 0;
+    virtual void setPlaying(bool isPlaying) = 0;
+
+signals:
+    void eventActivated(int id);
+    void thresholdStepRequested(int quarterNats);
+    void playingChanged(bool isPlaying);
+
 protected:
     virtual std::vector<QSplitter *> splitters() const = 0;
 
@@ -80,18 +90,8 @@ protected:
 
     Document &m_document;
 
-public slots:
-    virtual void selectEvent(int id) = 0; ///< marks it, puts the cursor on it and brings it into view
-    virtual void stepFrames(int frames) = 0;
-    virtual void setPlaying(bool isPlaying) = 0;
-
 private:
     Kind m_kind;
-
-signals:
-    void eventActivated(int id);
-    void thresholdStepRequested(int quarterNats);
-    void playingChanged(bool isPlaying);
 };
 
 } // namespace faintline
