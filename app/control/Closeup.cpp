@@ -10,8 +10,8 @@ namespace faintline {
 namespace {
 
     constexpr int pauseMs = 80;
-    constexpr std::size_t byteBudget =
-        memoryShares::closeup; ///< of each of the two: more frames than a screen has rows
+    /// Of each of the two: more frames than a screen has rows.
+    constexpr std::size_t byteBudget = memoryShares::closeup;
 
 } // namespace
 

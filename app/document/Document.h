@@ -92,8 +92,8 @@ public:
 signals:
     void opened();
     void settingsChanged();
-    void picturesGrew(
-        const faintline::PicturesSoFar &pictures); ///< of a long recording, while its first analysis is still under way
+    /// Of a long recording, while its first analysis is still under way.
+    void picturesGrew(const faintline::PicturesSoFar &pictures);
     void annotationsChanged();
     void analysisChanged();
     void provisionalChanged();

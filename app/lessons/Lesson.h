@@ -29,8 +29,8 @@ struct LessonStep {
 
     QString open; ///< scenario or recording; empty: what the step before had
     std::string preset;
-    std::vector<std::pair<std::string, FieldValue>>
-        settings;     ///< on top of those of the steps since something was opened
+    /// On top of those of the steps since something was opened.
+    std::vector<std::pair<std::string, FieldValue>> settings;
     QStringList show; ///< views brought to the front
     std::optional<Span> zoomSeconds, zoomHz;
     bool showsAll = false;

@@ -17,8 +17,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr int twoColumnsFrom =
-        1500; ///< pixels; in a narrower window all panels share a column, so that the pictures have the room
+    /// Pixels; in a narrower window all panels share a column, so that the pictures have the room.
+    constexpr int twoColumnsFrom = 1500;
     constexpr int narrowestColumn = 280;
 
     Qt::DockWidgetArea areaOf(Panels::Place place)

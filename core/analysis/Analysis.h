@@ -56,10 +56,10 @@ struct Analysis : AnalysisPlan {
     /// Of frames on several axes: what was kept from the detector in each of them, and for which track.
     std::vector<std::vector<DetectionChain::Inhibition>> inhibitions;
     std::vector<Track> tracks; ///< ordered by detection, then cell
-    std::vector<Track>
-        conventional;       ///< of frames on several axes: what thresholding each frame by itself would have found
-    std::vector<float> lnK; ///< per frame
-    NoiseBand lnKBand;      ///< where it stays on noise, under a law that regulates it (regulation.h)
+    /// Of frames on several axes: what thresholding each frame by itself would have found.
+    std::vector<Track> conventional;
+    std::vector<float> lnK;               ///< per frame
+    NoiseBand lnKBand;                    ///< where it stays on noise, under a law that regulates it (regulation.h)
     std::vector<float> continuedFraction; ///< per frame
     std::vector<double> statisticCounts; ///< cells whose D lies in [i/4 - 4, (i+1)/4 - 4) nat: the data's own histogram
 

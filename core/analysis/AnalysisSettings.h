@@ -37,8 +37,8 @@ struct ModelSettings {
     int slopesPerBin = 8; ///< neighbouring slopes differ by 1/slopesPerBin bin per frame
     std::vector<double> slopeChange{0.9,
                                     0.05}; ///< h(0), h(1), …, of a change by one slope, two, …; h(0) + 2 Σ h(i) = 1
-    std::vector<double> rangeRateChange =
-        std::vector<double>(5, 1.0 / 9.0); ///< h of manoeuvring targets, as Parsons has it
+    /// h of manoeuvring targets, as Parsons has it.
+    std::vector<double> rangeRateChange = std::vector<double>(5, 1.0 / 9.0);
     std::vector<double> bearingRateChange{0.5, 0.25};
     Rounding rounding = Rounding::HalfDown;
     LikelihoodKind likelihood = LikelihoodKind::Rice;

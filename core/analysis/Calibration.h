@@ -30,8 +30,8 @@ namespace faintline {
 /// reckoning that error in ordered twice as many as came.
 struct Calibration {
     bool isFirstEstimate = false; ///< made quickly, to be refined
-    double lnK =
-        0.0; ///< ln K in force; for other detectors, of the sequential Markov detector that guides their tracks
+    /// ln K in force; for other detectors, of the sequential Markov detector that guides their tracks.
+    double lnK = 0.0;
     double continuedFraction = 0.0; ///< realised, of all states
     double anchorNats = 0.0;        ///< u
     double eventRate = 0.0;         ///< events per cell and frame at threshold u

@@ -54,8 +54,8 @@ std::vector<Axis> stateAxes(const Analysis &analysis, std::size_t model = 0);
 struct StateSlice {
     std::size_t rows = 0;
     std::size_t columns = 1;
-    std::vector<std::optional<Index>>
-        places; ///< one per axis; nothing: the maximum over it. Of rows and columns they do not count
+    /// One per axis; nothing: the maximum over it. Of rows and columns they do not count.
+    std::vector<std::optional<Index>> places;
 };
 
 /// rows × columns values; -∞ where no state can be reached.

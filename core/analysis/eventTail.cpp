@@ -20,8 +20,8 @@ namespace {
     /// continued along a line is counted at two thresholds far apart.
     constexpr std::array<double, 2> ratesBeforeSplitting{1e-3, 2e-5};
     constexpr std::array<double, 2> ratesOfLine{2e-5, 2.5e-6};
-    constexpr double leastExpected =
-        300.0; ///< maxima at 2·10⁻⁵, of which a line takes a third; in small volumes the rates are higher
+    /// Maxima at 2·10⁻⁵, of which a line takes a third; in small volumes the rates are higher.
+    constexpr double leastExpected = 300.0;
     constexpr double leastEvents = 20.0;
 
 } // namespace

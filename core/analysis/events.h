@@ -15,18 +15,18 @@ struct Event {
     double endSeconds = 0.0;
     std::vector<double> position; ///< at detection, one per axis (Hz; or m, degrees)
     double driftPerSecond = 0.0;  ///< straight-line slope of the track along the last axis
-    double statistic =
-        0.0; ///< in the detector's unit: the path's largest where it is its score, else that of the detection
+    /// In the detector's unit: the path's largest where it is its score, else that of the detection.
+    double statistic = 0.0;
     bool isConfirmed = false;
     bool isOpen = false;
     std::vector<double> ratesPerSecond; ///< as driftPerSecond, along every axis
     std::size_t model = 0;              ///< of a bank, the one that found it
 
     // Of tracks that were looked at from both ends (secondLook.h); NaN of others:
-    double snrDb =
-        std::numeric_limits<double>::quiet_NaN(); ///< mean power along the track over the noise's in one frame
-    double bandWidth = std::numeric_limits<
-        double>::quiet_NaN(); ///< of the 5-95 % band of its position, mean, in units of the last axis
+    /// Mean power along the track over the noise's in one frame.
+    double snrDb = std::numeric_limits<double>::quiet_NaN();
+    /// Of the 5-95 % band of its position, mean, in units of the last axis.
+    double bandWidth = std::numeric_limits<double>::quiet_NaN();
     /// That noise alone brings an event as significant as this in this recording: 1 -
     /// exp(-rate(statistic)·cells·frames).
     double noiseProbability = std::numeric_limits<double>::quiet_NaN();

@@ -35,8 +35,8 @@ struct Explanation {
     /// cell.
     std::optional<Index> otherState;
     double otherMargin = 0.0;
-    std::optional<int>
-        inhibitedFor; ///< the track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later
+    /// The track for which the cell was kept from the detector in this frame; 0: a blind place, -1: one dropped later.
+    std::optional<int> inhibitedFor;
     bool isTracked = false; ///< a tracker follows this cell; its path runs on without reset
 };
 

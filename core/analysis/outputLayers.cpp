@@ -12,8 +12,8 @@ namespace {
 
     constexpr float unreached = -std::numeric_limits<float>::infinity();
     constexpr std::int32_t notKnown = 1 << 30; ///< an age: so many frames and those since it was said
-    constexpr Index ageOfSome =
-        512; ///< of noise's paths, of which most are reset after a few frames, the oldest of many
+    /// Of noise's paths, of which most are reset after a few frames, the oldest of many.
+    constexpr Index ageOfSome = 512;
 
     /// Of a rate of one cell a frame along an axis.
     double rateUnit(const Analysis &analysis, std::size_t axis)

@@ -23,8 +23,8 @@ struct CellLayers {
     std::vector<float> statistic;     ///< D, as the run showed it
     std::vector<unsigned char> model; ///< of a bank, the one whose state is best
     std::vector<std::int32_t> plane;  ///< of the best state; the lowest among equals
-    std::vector<std::int32_t>
-        age; ///< frames since the last reset of the best path, where asked for; 0: it was reset in this frame
+    /// Frames since the last reset of the best path, where asked for; 0: it was reset in this frame.
+    std::vector<std::int32_t> age;
     std::vector<float> resetFraction; ///< of the cell's states, those that were reset in this frame
     std::vector<char> isInhibited;    ///< inhibited in this frame for a track, or excluded
 };
@@ -61,8 +61,8 @@ public:
     const CellLayers &at(Index frame, const RunContext &context = {}) { return at(frame, context, {}); }
 
 private:
-    using TrackerAges =
-        std::map<int, std::unordered_map<Index, std::int32_t>>; ///< by the track's number, then the state
+    /// By the track's number, then the state.
+    using TrackerAges = std::map<int, std::unordered_map<Index, std::int32_t>>;
     struct Ages {
         std::vector<std::vector<std::int32_t>> states; ///< of each model
         TrackerAges trackers;

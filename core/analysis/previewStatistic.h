@@ -27,8 +27,8 @@ std::shared_ptr<const KeptFrames> keepFrames(NormalisedFramesPointer source, Ind
 
 /// What a changed detector makes of a few frames, before anything has been calibrated for it.
 struct StatisticPreview {
-    std::shared_ptr<const PeakPyramid>
-        statistic;    ///< D of the frames shown, its time axis begins with the first of them
+    /// D of the frames shown, its time axis begins with the first of them.
+    std::shared_ptr<const PeakPyramid> statistic;
     double lnK = 0.0; ///< in force; of detectors without K as before
 };
 

@@ -20,13 +20,13 @@ namespace memoryShares {
     inline constexpr std::size_t documentBytes = 432 * mebibyte;
 
     inline constexpr std::size_t picture = 64 * mebibyte; ///< of the input, and as much of the statistic; 1.33 a cell
-    inline constexpr std::size_t background =
-        64 * mebibyte; ///< of the noise; twice while it is estimated, before the pictures are there
+    /// Of the noise; twice while it is estimated, before the pictures are there.
+    inline constexpr std::size_t background = 64 * mebibyte;
     inline constexpr std::size_t checkpoints = 32 * mebibyte; ///< of the chain, kept of a run to replay a part of it
-    inline constexpr std::size_t pathRecord =
-        32 * mebibyte; ///< of frames a path is traced back through, and as much of checkpoints
-    inline constexpr std::size_t closeup =
-        24 * mebibyte; ///< of what is visible: of the input, of the statistic, of its preview
+    /// Of frames a path is traced back through, and as much of checkpoints.
+    inline constexpr std::size_t pathRecord = 32 * mebibyte;
+    /// Of what is visible: of the input, of the statistic, of its preview.
+    inline constexpr std::size_t closeup = 24 * mebibyte;
     inline constexpr std::size_t previewFrames = 24 * mebibyte; ///< kept while a detector is being tuned
     inline constexpr std::size_t stateReplay = 24 * mebibyte;   ///< all states of the frames that were looked at
     inline constexpr std::size_t layerReplay = 24 * mebibyte;   ///< ages of all paths and where they come from

@@ -15,8 +15,8 @@ struct IntegratorSettings {
     static constexpr std::array<std::string_view, 2> shapeNames{"boxcar", "exponential"};
 
     Shape shape = Shape::Boxcar;
-    double durationWindows =
-        100.0; ///< length, or time constant, in windows of the spectrogram (frames on ready-made frames)
+    /// Length, or time constant, in windows of the spectrogram (frames on ready-made frames).
+    double durationWindows = 100.0;
 
     static const std::vector<Field<IntegratorSettings>> &fields();
     bool operator==(const IntegratorSettings &) const = default;

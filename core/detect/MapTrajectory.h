@@ -49,8 +49,8 @@ private:
     std::vector<double> m_initial;
     Recursion<MaxPlus<double>> m_recursion;
     std::vector<double> m_lambda;
-    std::map<std::pair<Index, Index>, std::vector<StateSpace::Predecessor>>
-        m_predecessors; ///< of states trajectories came through, by phase
+    /// Of states trajectories came through, by phase.
+    std::map<std::pair<Index, Index>, std::vector<StateSpace::Predecessor>> m_predecessors;
 };
 
 } // namespace faintline

@@ -25,8 +25,8 @@ public:
     struct Regulation {
         double lnK = 0.0;               ///< what the law gave for the last frame
         double continuedFraction = 0.0; ///< of the states, those whose path went on rather than being reset
-        double stepLnK =
-            0.0; ///< what was added on the way into the last frame (under Mean, the ln K of the frame before)
+        /// What was added on the way into the last frame (under Mean, the ln K of the frame before).
+        double stepLnK = 0.0;
     };
     virtual Regulation regulation(std::size_t model = 0) const = 0;
 

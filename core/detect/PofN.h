@@ -42,8 +42,8 @@ private:
     Index m_rowLength; ///< cells along the last axis
     Index m_width;
     PofNSettings m_settings;
-    std::vector<std::vector<float>>
-        m_maxima; ///< of the last N frames, padded; the oldest one, m_next, is overwritten next
+    /// Of the last N frames, padded; the oldest one, m_next, is overwritten next.
+    std::vector<std::vector<float>> m_maxima;
     std::size_t m_next = 0;
     std::vector<float> m_means;    ///< of the P largest, padded to whole vectors
     std::vector<float> m_smallest; ///< of them

@@ -14,8 +14,8 @@ namespace {
 
     constexpr Index tileCells = 1024;     ///< of each plane of a tile
     constexpr Index longTileCells = 2048; ///< the same where a single axis needs no second step
-    constexpr Index fewestCells =
-        256; ///< the same where planes are so many that the next tile's would not fit into the cache beside them
+    /// The same where planes are so many that the next tile's would not fit into the cache beside them.
+    constexpr Index fewestCells = 256;
     constexpr Index tileBytes = 1 << 19; ///< of all planes of a tile, read and written
     constexpr Index vectorCells = 32;
     constexpr Index manyFrames = 16;        ///< gone through at a time: then the memory has become as good as free

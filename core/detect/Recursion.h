@@ -120,8 +120,8 @@ private:
         Index after;
         Index edge; ///< cells at either end with departures of their own; those between share one
         struct Phase {
-            std::vector<Real>
-                weights; ///< of every rate: the cells of the low end, one between them, those of the high end
+            /// Of every rate: the cells of the low end, one between them, those of the high end.
+            std::vector<Real> weights;
             std::vector<Turn> turns;
         };
         std::vector<Phase> phases;
@@ -132,8 +132,8 @@ private:
     };
 
     struct Shift {
-        Index
-            from; ///< first axis: a rate, or a maximum (numbered on from the rates); later axes: a plane, or a shifted copy
+        /// First axis: a rate, or a maximum (numbered on from the rates); later axes: a plane, or a shifted copy.
+        Index from;
         Index cells;
         Real weight; ///< ln P or P
     };
@@ -153,8 +153,8 @@ private:
         Index cells;
         Index inner; ///< cells of the axes after
         bool cyclic;
-        std::vector<std::vector<Shift>>
-            shifts;                  ///< of each target plane, lowest source rate first; empty: nothing moves
+        /// Of each target plane, lowest source rate first; empty: nothing moves.
+        std::vector<std::vector<Shift>> shifts;
         std::vector<Shift> copies{}; ///< of a later axis: planes that are wanted shifted, numbered on from the planes
     };
 
@@ -212,8 +212,8 @@ private:
     bool m_isCyclic;        ///< the first axis
     bool m_isSingle = true; ///< no later axis moves
     std::vector<Phase> m_phases;
-    std::vector<std::vector<Slide>>
-        m_slides;          ///< before each target rate, in the order they are made in; of a single phase
+    /// Before each target rate, in the order they are made in; of a single phase.
+    std::vector<std::vector<Slide>> m_slides;
     Index m_slideRing = 0; ///< rates whose maxima are kept at a time; 0: there are none
     Index m_slotSize = 0;
     std::vector<Index> m_largest; ///< shift that each maximum is wanted at

@@ -89,8 +89,8 @@ struct SprtResult {
     Index stages = 0;             ///< taken; the decision fell after the last of them
     bool isForced = false;        ///< at the cut-off stage, between the boundaries
     std::vector<double> lnLambda; ///< after every stage taken
-    std::vector<std::vector<Index>>
-        trajectory; ///< most probable cell of every stage, one index per frame axis; only where H1 was accepted
+    /// Most probable cell of every stage, one index per frame axis; only where H1 was accepted.
+    std::vector<std::vector<Index>> trajectory;
     double lnMapScore = 0.0; ///< ln of the trajectory's probability times its likelihood ratio
 };
 

@@ -51,8 +51,8 @@ struct FrameJoin {
     float floor = 0.0f; ///< 0, or -∞ for no reset
     Counting counting = Counting::States;
     bool isFresh = false; ///< D begins at -∞; else at what it holds
-    std::span<const float *const>
-        ahead{}; ///< rows that will be wanted soon: their cell i is fetched while cell i is joined
+    /// Rows that will be wanted soon: their cell i is fetched while cell i is joined.
+    std::span<const float *const> ahead{};
 };
 
 /// The maximum over the sources of every target, joined with the frame at once, cell by cell for all targets, so that λ

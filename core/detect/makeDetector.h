@@ -35,8 +35,8 @@ struct EnergySettings {
 
 /// The Shiryaev-Roberts detector: SumDetector with a reset, all paths count.
 struct ShiryaevRobertsSettings {
-    double lnK =
-        -0.1; ///< 0: the classical procedure, whose statistic grows without end on noise where the law loses no probability
+    /// 0: the classical procedure, whose statistic grows without end on noise where the law loses no probability.
+    double lnK = -0.1;
 
     static const std::vector<Field<ShiryaevRobertsSettings>> &fields();
     bool operator==(const ShiryaevRobertsSettings &) const = default;
@@ -65,8 +65,8 @@ DetectorSettings detectorOfKind(std::size_t index);
 struct FrameGeometry {
     double framesPerWindow = 1.0; ///< k_t
     double binsPerCell = 1.0;     ///< k_f
-    Index blockPhase =
-        0; ///< frames of a block that have gone by before the first frame, for detectors that decide in blocks
+    /// Frames of a block that have gone by before the first frame, for detectors that decide in blocks.
+    Index blockPhase = 0;
 };
 
 /// Whether the statistic is the score of a path, in nats, which a tracker follows on. The tracks of the others start

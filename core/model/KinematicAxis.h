@@ -45,8 +45,8 @@ struct KinematicAxis {
     Rounding rounding = Rounding::HalfDown;
     bool renormalised = false; ///< the moves that exist share the probability of those that do not
     int ratesPerCell = 1;      ///< q: neighbouring rates differ by 1/q cell per step
-    std::vector<double>
-        transition{}; ///< P(from, to), cells × cells row by row, of a bounded axis without rates; empty: a law
+    /// P(from, to), cells × cells row by row, of a bounded axis without rates; empty: a law.
+    std::vector<double> transition{};
 
     /// One way to move: from a rate to a rate (indices 0 … rateCount-1) by whole cells, with ln probability.
     struct Move {

@@ -40,14 +40,14 @@ struct NormaliserSettings {
 struct NoiseBackground {
     Axis time;      ///< block centres, s
     Axis frequency; ///< cells, Hz
-    std::vector<float>
-        lnPower; ///< time.count × frequency.count, natural logarithm of mean noise power, in the spectrogram's unit
+    /// time.count × frequency.count, natural logarithm of mean noise power, in the spectrogram's unit.
+    std::vector<float> lnPower;
     double lnUnit = 0.0;        ///< ln of that unit, in squares of the samples' own (Spectrogram::scaleExponent)
     Axis levelTime;             ///< of the detector's frames, up to four a window; s
     Index bandCount = 0;        ///< sub-bands of equal width; 0 where the band is too narrow to tell
     std::vector<float> lnLevel; ///< levelTime.count × bandCount, to be added to lnPower
-    std::vector<NoiseStretch>
-        stretches{}; ///< in the order of time: instead of lnPower, where it is several noises in turn
+    /// In the order of time: instead of lnPower, where it is several noises in turn.
+    std::vector<NoiseStretch> stretches{};
 
     /// ln power that stands for "nothing was recorded".
     static constexpr float silence = -200.0f;

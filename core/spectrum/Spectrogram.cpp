@@ -12,8 +12,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr Index runSamples =
-        1 << 17; ///< read at a time: little enough to be in the cache when they are transformed
+    /// Read at a time: little enough to be in the cache when they are transformed.
+    constexpr Index runSamples = 1 << 17;
 
     FAINTLINE_MULTIVERSION
     void applyWindow(const float *samples, const float *window, std::size_t n, float *out)

@@ -21,8 +21,8 @@ namespace {
     constexpr Index fewestFramesPerBlock = 64;
     constexpr int sketchFrames = 64;
     constexpr Index largestBlockCount = 1024;
-    constexpr Index largestValueCount =
-        memoryShares::background / sizeof(float); ///< nine hours at 48 kHz; beyond that blocks are longer
+    /// Nine hours at 48 kHz; beyond that blocks are longer.
+    constexpr Index largestValueCount = memoryShares::background / sizeof(float);
 
     /// The frames between two windows that the detector looks at besides, up to three: spectra of windows that begin a
     /// hop later each.

@@ -24,8 +24,8 @@ struct ChainSettings {
     /// Nat, where the statistic is not the score of the paths that trackers follow (GuidedDetector): what a tracker's
     /// level is held against, and begins with at least, because its signal has been detected.
     std::optional<double> trackThreshold;
-    double shoulder =
-        0.0; ///< cells above this around a crossing belong to the same excursion and are forgotten with it
+    /// Cells above this around a crossing belong to the same excursion and are forgotten with it.
+    double shoulder = 0.0;
     std::vector<Index> linkCells;    ///< crossings this near belong to one cluster, per axis
     std::vector<Index> inhibitCells; ///< half the box inhibited around a track, per axis
     std::vector<Index> forgetCells;  ///< half the box reset around a new track, per axis; may be empty: as inhibitCells
@@ -153,8 +153,8 @@ private:
     std::vector<CellBox> m_boxes;
     std::vector<CellBox> m_newBoxes; ///< of them, those of tracks started in the last frame
     std::vector<int> m_boxTracks;    ///< the track of each box
-    std::size_t m_excursions =
-        0; ///< the first of the boxes: what was forgotten before the last frame with the tracks that had just begun
+    /// The first of the boxes: what was forgotten before the last frame with the tracks that had just begun.
+    std::size_t m_excursions = 0;
     std::deque<Seen> m_seen;
     Index m_firstSeen = 0;
     std::size_t m_seenLimit;

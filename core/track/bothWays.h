@@ -23,8 +23,8 @@ struct BothWays {
     Presence presence;
     std::vector<double> positions; ///< below a cell
     std::vector<double> levels;    ///< signal power over the noise's, mean along the path over ±12 frames
-    std::vector<double>
-        gains; ///< what the detector's account says of the mean path in each frame: λ + ln K + ln h(0), nat
+    /// What the detector's account says of the mean path in each frame: λ + ln K + ln h(0), nat.
+    std::vector<double> gains;
 };
 
 /// Half-width of a strip that this look needs, in bins.

@@ -23,8 +23,8 @@ public:
 
     PingMarks marks;
     Theme::Colours colours;
-    double turn =
-        0.0; ///< of the bearing axis where its ends lie apart on the canvas: lines over them are cut; 0: they do not
+    /// Of the bearing axis where its ends lie apart on the canvas: lines over them are cut; 0: they do not.
+    double turn = 0.0;
     bool hasTracks = true;
     bool hasTruth = true;
     bool hasBoxes = true;

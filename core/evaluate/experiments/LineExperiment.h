@@ -91,8 +91,8 @@ std::vector<RunOutcome> runExperiment(const LineExperiment &experiment, const st
 
 /// One signal of one run made again, by itself.
 struct LineTrial {
-    std::shared_ptr<const FrameArray>
-        frames;              ///< its block, y with noise of mean 1; bins as frequency in cells, frames as windows
+    /// Its block, y with noise of mean 1; bins as frequency in cells, frames as windows.
+    std::shared_ptr<const FrameArray> frames;
     Index firstFrame = 0;    ///< of the line, in the block
     std::vector<Index> path; ///< its bin in the block, one per frame of its duration
 };
