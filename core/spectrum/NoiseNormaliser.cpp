@@ -18,20 +18,17 @@ namespace {
 
     // What every frame goes through, cell by cell and bin by bin.
 
-    /// ln power → 1/power, 0 in silence.
-    FAINTLINE_MULTIVERSION
-    void invertPower(float *values, std::size_t cells)
+    inline float overPower(float y, float ln)
     {
-        for (std::size_t cell = 0; cell < cells; ++cell) {
-            const float inverse = fastExp(-values[cell]);
-            values[cell] = values[cell] <= 0.5f * NoiseBackground::silence ? 0.0f : inverse;
-        }
+        const float ratio = y * fastExp(-ln);
+        const float most = ratio < largestRatio ? ratio : largestRatio;
+        return ln <= 0.5f * NoiseBackground::silence ? 0.0f : most;
     }
 
-    /// y ← y/B, 1/B interpolated between cells; one value more than there are cells is given.
+    /// y ← y/B, ln B interpolated between cells: at a band's edge B falls by 20 dB from one cell to the next. One value
+    /// more than there are cells is given.
     FAINTLINE_MULTIVERSION
-    void divideByBackground(float *y, std::size_t bins, const float *inverse, double start, double perBin,
-                            double lastCell)
+    void divideByBackground(float *y, std::size_t bins, const float *ln, double start, double perBin, double lastCell)
     {
         for (std::size_t bin = 0; bin < bins; ++bin) {
             double position = start + static_cast<double>(static_cast<std::int32_t>(bin)) * perBin;
@@ -39,19 +36,16 @@ namespace {
             position = position < lastCell ? position : lastCell;
             const auto lower = static_cast<std::int32_t>(position);
             const auto fraction = static_cast<float>(position - static_cast<double>(lower));
-            const float ratio = y[bin] * (inverse[lower] + fraction * (inverse[lower + 1] - inverse[lower]));
-            y[bin] = ratio < largestRatio ? ratio : largestRatio;
+            y[bin] = overPower(y[bin], ln[lower] + fraction * (ln[lower + 1] - ln[lower]));
         }
     }
 
     /// The same where bins are cells.
     FAINTLINE_MULTIVERSION
-    void divideBinByBin(float *y, std::size_t bins, const float *inverse)
+    void divideBinByBin(float *y, std::size_t bins, const float *ln)
     {
-        for (std::size_t bin = 0; bin < bins; ++bin) {
-            const float ratio = y[bin] * inverse[bin];
-            y[bin] = ratio < largestRatio ? ratio : largestRatio;
-        }
+        for (std::size_t bin = 0; bin < bins; ++bin)
+            y[bin] = overPower(y[bin], ln[bin]);
     }
 
     FAINTLINE_MULTIVERSION
@@ -77,26 +71,25 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
 {
     m_spectrogram->read(first, count, out);
     const auto cells = static_cast<std::size_t>(grid().size());
-    std::vector<float> inverse;
+    std::vector<float> ln;
     for (Index i = 0; i < count; ++i)
-        normalise(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells), inverse);
+        normalise(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells), ln);
 }
 
-void NormalisedSpectrogram::normalise(Index frame, std::span<float> values, std::vector<float> &inverse) const
+void NormalisedSpectrogram::normalise(Index frame, std::span<float> values, std::vector<float> &ln) const
 {
     const NoiseBackground &b = *m_background;
     const auto cells = static_cast<std::size_t>(b.frequency.count);
-    inverse.resize(cells + 1);
-    b.readLnPower(time().value(static_cast<double>(frame)), std::span(inverse).first(cells));
-    invertPower(inverse.data(), cells);
-    inverse[cells] = inverse[cells - 1];
+    ln.resize(cells + 1);
+    b.readLnPower(time().value(static_cast<double>(frame)), std::span(ln).first(cells));
+    ln[cells] = ln[cells - 1];
     const Axis &axis = grid().axes[0];
     const double start = b.frequency.position(axis.first);
     const double perBin = axis.step / b.frequency.step;
     if (start == 0.0 && perBin == 1.0 && values.size() <= cells)
-        divideBinByBin(values.data(), values.size(), inverse.data());
+        divideBinByBin(values.data(), values.size(), ln.data());
     else
-        divideByBackground(values.data(), values.size(), inverse.data(), start, perBin,
+        divideByBackground(values.data(), values.size(), ln.data(), start, perBin,
                            static_cast<double>(b.frequency.count - 1));
     if (m_settings.followLevel)
         guardAgainstClicks(values);

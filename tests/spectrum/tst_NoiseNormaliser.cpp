@@ -503,7 +503,7 @@ void tst_NoiseNormaliser::nothingAboveABandEdge()
              said("below", n.mean(0, n.frameCount, 0, n.binAt(240.0))));
     // On the way down, 20 dB a cell, and in the emptiness: noise, or less than that, but never a line.
     for (Index bin = n.binAt(240.0); bin < n.bins; ++bin)
-        QVERIFY2(n.meanOfBin(bin) < 6.0, said("mean of a bin", n.meanOfBin(bin)));
+        QVERIFY2(n.meanOfBin(bin) < 1.6, said("mean of a bin", n.meanOfBin(bin)));
 }
 
 void tst_NoiseNormaliser::digitalSilence()
