@@ -13,6 +13,9 @@ namespace {
     constexpr Index checkpointFrames = 32; ///< from one to the next
     constexpr int framesUntilDuplicate = 3;
     constexpr double skirtLevel = 8.0; ///< y that noise seldom reaches
+    /// By so much more than to noise of its own level a constant leaks: where noise falls steeply from 0 Hz on, its side
+    /// lobes lie on less of it.
+    constexpr double excludedMargin = 10.0;
     constexpr Index largestSkirtSteps = 16;
 
     /// Frames to remember: the newest one where nobody looks back.
@@ -89,7 +92,7 @@ void DetectionChain::update(Index frame, std::span<const float> y, std::span<flo
         m_boxTracks.push_back(tracker.track().id);
     }
     for (const std::vector<Index> &place : m_settings.excluded) {
-        m_boxes.push_back(boxRound(place, y));
+        m_boxes.push_back(boxRound(place, y, excludedMargin));
         m_boxTracks.push_back(0);
     }
     const std::size_t leftAlone = m_settings.inhibits ? 0 : m_excursions + m_trackers.size();
@@ -186,11 +189,14 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     if (m_trackers.empty())
         return;
     m_models.front().likelihood.apply(y, m_lambda);
+    for (const std::vector<Index> &place : m_settings.excluded)
+        boxRound(place, y, excludedMargin).forEachCell(m_grid, [this](Index cell) {
+            m_lambda[static_cast<std::size_t>(cell)] = nothingSeen();
+        });
     std::vector<HmmTracker> going;
     std::vector<std::vector<Index>> places; // as of the last frame: some trackers are about to move or end
     for (const HmmTracker &tracker : m_trackers)
         places.push_back(tracker.coordinates());
-    places.insert(places.end(), m_settings.excluded.begin(), m_settings.excluded.end());
     const PlaceIndex index(m_grid, std::move(places));
     for (std::size_t i = 0; i < m_trackers.size(); ++i) {
         HmmTracker &tracker = m_trackers[i];
@@ -205,6 +211,11 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     }
     m_trackers = std::move(going);
     endDuplicates();
+}
+
+float DetectionChain::nothingSeen() const
+{
+    return static_cast<float>(m_models.front().likelihood.at(0.0));
 }
 
 std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceIndex &places, std::size_t own)
@@ -222,7 +233,6 @@ std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceI
     };
     const std::vector<Index> &mine = places[own];
     const Index farthest = m_trackerModels.front()->largestExtent;
-    const auto nothing = static_cast<float>(m_models.front().likelihood.at(0.0));
     std::vector<std::pair<Index, float>> hidden;
     places.forEachNear(mine, farthest, [&](std::size_t other) {
         const std::vector<Index> &centre = places[other];
@@ -234,7 +244,7 @@ std::vector<std::pair<Index, float>> DetectionChain::maskNeighbours(const PlaceI
                 return;
             float &value = m_lambda[static_cast<std::size_t>(cell)];
             hidden.emplace_back(cell, value);
-            value = nothing;
+            value = nothingSeen();
         });
     });
     // Undone backward, a cell hidden twice gets its first value back.
@@ -280,14 +290,14 @@ void DetectionChain::endDuplicates()
     }
 }
 
-CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<const float> y) const
+CellBox DetectionChain::boxRound(const std::vector<Index> &centre, std::span<const float> y, double margin) const
 {
     CellBox box{centre, m_settings.inhibitCells};
     const Index middle = m_grid.cell(centre);
     const double level =
         static_cast<double>(std::max(0.0f, y[static_cast<std::size_t>(middle)])); // 0 where nothing was observed
     if (m_settings.leakageExtent)
-        box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.leakageExtent(level));
+        box.halfWidth.back() = std::max(box.halfWidth.back(), m_settings.leakageExtent(margin * level));
     if (m_settings.skirtStep <= 0 || level < skirtLevel)
         return box;
     // Beyond the window's own side lobes a modulated line has skirts: its hill, down to where it stops falling.

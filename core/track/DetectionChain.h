@@ -135,9 +135,10 @@ private:
     void keepExcursions();
     void keepFromDetector(std::span<const CellBox> boxes, std::vector<float> &y);
     void updateTrackers(Index frame, std::span<const float> y);
+    float nothingSeen() const;
     std::vector<std::pair<Index, float>> maskNeighbours(const PlaceIndex &places, std::size_t own);
     void endDuplicates();
-    CellBox boxRound(const std::vector<Index> &centre, std::span<const float> y) const;
+    CellBox boxRound(const std::vector<Index> &centre, std::span<const float> y, double margin = 1.0) const;
     void startTrack(Index frame, const Cluster &cluster, std::span<const float> y);
     Index bestState(Index cell) const;
     double scoreOf(Index state, std::size_t model) const;

@@ -88,6 +88,7 @@ private slots:
     void twoLinesTwoTracks();
     void aStrongNeighbourIsNotStolen();
     void nothingIsSeenAtBlindPlaces();
+    void noTrackWandersOntoABlindPlace();
     void noTrackWithoutFeedback();
     void statisticIsAboveThresholdWhileTracked();
     void lineOffTheGridEnds();
@@ -189,6 +190,21 @@ void tst_DetectionChain::nothingIsSeenAtBlindPlaces()
     QCOMPARE(tracks.size(), std::size_t(1));
     for (const TrackPoint &point : tracks[0].points)
         QVERIFY(std::abs(point.cell - 7) <= 2);
+}
+
+void tst_DetectionChain::noTrackWandersOntoABlindPlace()
+{
+    // A line that ends ten cells away from a stronger one at a blind place, whose foot reaches six cells far.
+    std::vector<std::function<Index(Index)>> lines;
+    for (Index cell = 0; cell <= 6; ++cell)
+        lines.push_back([cell](Index) { return cell; });
+    lines.push_back([](Index t) { return t < 150 ? Index(10) : t < 160 ? Index(160 - t) : Index(-1); });
+    ChainSettings chain = settings(line64, 15.0);
+    chain.inhibitCells = {6};
+    chain.excluded = {{0}};
+    const auto tracks = run({64, 400, lines}, chain, line64);
+    QCOMPARE(tracks.size(), std::size_t(1));
+    QVERIFY(tracks[0].endFrame < 180);
 }
 
 void tst_DetectionChain::noTrackWithoutFeedback()
