@@ -5,6 +5,7 @@
 #include "spectrum/Window.h"
 #include "track/bothWays.h"
 #include "track/explanation.h"
+#include "track/levelBeside.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,7 @@ namespace {
     constexpr double levelCells = 0.75;    ///< where a signal's own maximum lies, on either side
     constexpr Index skirtBins = 96;        ///< on either side of strong tracks
     constexpr double strongGrowth = 2.0;   ///< nats a frame
+    constexpr double leastShare = 0.08;    ///< of a path's statistic, over the floor
     constexpr Index longestPiece = 4096;   ///< frames of a track that are looked at together
     constexpr Index pieceOverlap = 64;     ///< frames of the neighbouring pieces that are looked at too
     constexpr std::size_t stripBytes = std::size_t(16) << 20; ///< that are read at a time
@@ -164,7 +166,8 @@ namespace {
                     goesOn(points.back(), slopeOf(points, points.size() - count, count), frame);
             }
             const bool isStrong = piece.track->peakStatistic > strongGrowth * static_cast<double>(points.size());
-            strip.halfWidth = std::max(bothWaysHalfWidth(m_model.binsPerCell), isStrong ? skirtBins : 0);
+            strip.halfWidth = std::max({bothWaysHalfWidth(m_model.binsPerCell),
+                                        levelBesideHalfWidth(m_model.binsPerCell), isStrong ? skirtBins : 0});
             return strip;
         }
 
@@ -184,15 +187,49 @@ namespace {
             return isRaised;
         }
 
+        /// What a path's score loses where y is `less` instead, nat: the strongest bin counts, of three on its way.
+        double lossAlongPath(const PathStrip &strip, const PathStrip &less) const
+        {
+            double loss = 0.0;
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                const Index centre = strip.centres[static_cast<std::size_t>(at)];
+                const auto lambda = [&](const PathStrip &of) {
+                    const float y =
+                        std::max({of.valueAt(at, centre), of.valueAt(at, centre - 1), of.valueAt(at, centre + 1)});
+                    return std::isnan(y) ? 0.0 : m_model.likelihood.at(static_cast<double>(y));
+                };
+                loss += lambda(strip) - lambda(less);
+            }
+            return loss;
+        }
+
+        /// What it loses over what is beside it: in a burst, a cloud or a hum a path is no signal of its own.
+        double lossAlone(const PathStrip &strip) const
+        {
+            const std::vector<double> levels = levelBeside(strip, m_model.binsPerCell);
+            PathStrip alone = strip;
+            for (Index at = 0; at < alone.frameCount(); ++at)
+                for (float &y : std::span(alone.row(at), static_cast<std::size_t>(alone.width())))
+                    y /= static_cast<float>(levels[static_cast<std::size_t>(at)]);
+            return lossAlongPath(strip, alone);
+        }
+
         /// Divides the strip by the floor; answers whether a signal is left that the detector would still have found.
         bool takeFloorOff(const Track &track, PathStrip &strip) const
         {
             const PathStrip before = strip;
-            if (!divideByFloor(strip))
-                return true;
-            const double left = strongestIn(strip, m_model);
-            return left >= m_analysis.threshold
-                   || track.peakStatistic - (strongestIn(before, m_model) - left) >= m_analysis.threshold;
+            double statistic = track.peakStatistic;
+            if (divideByFloor(strip)) {
+                const double left = strongestIn(strip, m_model);
+                const bool isMore = left >= leastShare * statistic; // more than a ghost of the stronger track
+                statistic -= strongestIn(before, m_model) - left;
+                if (isMore)
+                    statistic = std::max(left, statistic);
+                if (statistic < m_analysis.threshold)
+                    return false;
+            }
+            const double loss = lossAlone(strip);
+            return loss <= 0.0 || statistic - loss >= m_analysis.threshold;
         }
 
         void lookAt(Piece &piece)

@@ -18,7 +18,9 @@ bool looksTwice(const Analysis &analysis);
 /// the strongest first, is looked at in a strip of frames around its path (bothWays.h):
 ///
 ///   1. y is divided by the floor that stronger tracks raise (explanation.h);
-///   2. a track that the detector would not have found over that floor was theirs: it goes;
+///   2. a track that the detector would not have found over that floor was theirs: it goes; so does one of which less
+///      than the threshold is left over the level of what it runs through (levelBeside.h): it was a path through a
+///      burst, a cloud or a hum;
 ///   3. the stretches where the signal is present stay, joined over up to 24 frames: the one in which the path's statistic gained most, and
 ///      every other whose own evidence reaches the threshold, which is then its statistic;
 ///   4. what stays is explained: it raises the floor for weaker ones.

@@ -1,9 +1,13 @@
 #include "analysis/analyse.h"
+#include "base/Random.h"
 #include "recording/SimulatedRecording.h"
+
+#include "support/recordings.h"
 
 #include <QtTest>
 
 #include <cmath>
+#include <numbers>
 
 using namespace faintline;
 
@@ -63,6 +67,7 @@ private slots:
     void anyThresholdWillDo_data();
     void anyThresholdWillDo();
     void notUnderTheLinearLikelihood();
+    void aCloudIsNoLine();
 };
 
 void tst_secondLook::placeAndBand_data()
@@ -231,6 +236,47 @@ void tst_secondLook::notUnderTheLinearLikelihood()
     QVERIFY(!analysis->tracks.empty());
     for (const Track &track : analysis->tracks)
         QVERIFY(track.smoothed.empty());
+}
+
+void tst_secondLook::aCloudIsNoLine()
+{
+    // Ten seconds of noise in 40 Hz, ten cells, ten times the power of what is there all the time; and a line that goes
+    // through it, plainly above.
+    const auto tracksOf = [](bool withLine, bool bothWays) {
+        Random random(5, 0);
+        std::vector<float> samples(static_cast<std::size_t>(120.0 * rateHz));
+        random.normals(samples, 1.0f);
+        std::vector<float> cloud(samples.size());
+        for (int tone = 0; tone < 400; ++tone) { // as many as are a narrow band of noise
+            const double hz = 80.0 + 40.0 * random.uniform();
+            const double phase = 2.0 * std::numbers::pi * random.uniform();
+            for (std::size_t n = 0; n < cloud.size(); ++n)
+                cloud[n] +=
+                    static_cast<float>(std::cos(2.0 * std::numbers::pi * hz * static_cast<double>(n) / rateHz + phase));
+        }
+        const double amplitude = std::sqrt(10.0 * 2.0 * 40.0 / (0.5 * rateHz) / 400.0);
+        for (std::size_t n = 0; n < samples.size(); ++n) {
+            const double t = static_cast<double>(n) / rateHz;
+            if (t >= 50.0 && t < 60.0)
+                samples[n] += static_cast<float>(amplitude) * cloud[n];
+            if (withLine)
+                samples[n] += static_cast<float>(2.5 * std::cos(2.0 * std::numbers::pi * 100.0 * t));
+        }
+        AnalysisSettings settings;
+        settings.spectrogram.windowSeconds = windowSeconds;
+        settings.track.bothWays = bothWays;
+        return analyse(std::make_shared<test::MemoryRecording>(std::move(samples), rateHz, false), settings)->tracks;
+    };
+    constexpr bool twice = true;
+    constexpr bool once = false;
+    const auto paths = static_cast<int>(tracksOf(false, once).size());
+    const auto lines = static_cast<int>(tracksOf(false, twice).size());
+    QVERIFY2(paths >= 4, qPrintable(QString::number(paths)));
+    QVERIFY2(3 * lines <= paths, qPrintable(QString("%1 of %2").arg(lines).arg(paths)));
+    const std::vector<Track> tracks = tracksOf(true, twice);
+    const auto longest = std::max_element(
+        tracks.begin(), tracks.end(), [](const Track &a, const Track &b) { return a.points.size() < b.points.size(); });
+    QVERIFY(longest != tracks.end() && longest->points.size() > 900);
 }
 
 QTEST_APPLESS_MAIN(tst_secondLook)

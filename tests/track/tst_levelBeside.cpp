@@ -1,0 +1,113 @@
+#include "base/Random.h"
+#include "track/levelBeside.h"
+
+#include <QtTest>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+using namespace faintline;
+
+namespace {
+
+constexpr double binsPerCell = 2.0;
+
+/// Noise of mean 1 beside a path that moves by a bin every second frame.
+PathStrip noise(Index frames, std::uint64_t seed)
+{
+    PathStrip strip;
+    strip.halfWidth = levelBesideHalfWidth(binsPerCell);
+    for (Index at = 0; at < frames; ++at)
+        strip.centres.push_back(100 + at / 2);
+    Random random(seed, 0);
+    strip.y.resize(static_cast<std::size_t>(frames * strip.width()));
+    for (float &y : strip.y)
+        y = static_cast<float>(random.exponential());
+    return strip;
+}
+
+/// Raises the bins of the strip from..to, counted from the path, in some of its frames.
+void raise(PathStrip &strip, Index firstFrame, Index endFrame, Index from, Index to, float factor)
+{
+    for (Index at = firstFrame; at < endFrame; ++at)
+        for (Index bin = from; bin <= to; ++bin)
+            strip.row(at)[strip.halfWidth + bin] *= factor;
+}
+
+double mean(const std::vector<double> &values, Index from, Index to)
+{
+    return std::accumulate(values.begin() + from, values.begin() + to, 0.0) / static_cast<double>(to - from);
+}
+
+} // namespace
+
+/// What a path runs through, on strips of known levels.
+class tst_levelBeside : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void noiseIsNotRaised();
+    void aCloudIsMeasured();
+    void oneSideIsEnough();
+    void theLineItselfDoesNotCount();
+    void linesBesideDoNotCount();
+    void whatWasNotObserved();
+};
+
+void tst_levelBeside::noiseIsNotRaised()
+{
+    double sum = 0.0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const std::vector<double> levels = levelBeside(noise(200, seed), binsPerCell);
+        QVERIFY(*std::min_element(levels.begin(), levels.end()) >= 1.0);
+        sum += mean(levels, 0, 200) / 20.0;
+    }
+    QVERIFY2(sum < 1.05, qPrintable(QString::number(sum)));
+}
+
+void tst_levelBeside::aCloudIsMeasured()
+{
+    PathStrip strip = noise(300, 1);
+    raise(strip, 100, 200, -strip.halfWidth, strip.halfWidth, 4.0f);
+    const std::vector<double> levels = levelBeside(strip, binsPerCell);
+    const double inside = mean(levels, 110, 190);
+    QVERIFY2(inside > 2.7 && inside < 5.0, qPrintable(QString::number(inside)));
+    QVERIFY(mean(levels, 0, 25) < 1.2);
+    QVERIFY(mean(levels, 275, 300) < 1.2);
+}
+
+void tst_levelBeside::oneSideIsEnough()
+{
+    PathStrip strip = noise(300, 2);
+    raise(strip, 0, 300, 1, strip.halfWidth, 4.0f); // the path runs along the cloud's edge
+    QVERIFY(mean(levelBeside(strip, binsPerCell), 0, 300) > 2.5);
+}
+
+void tst_levelBeside::theLineItselfDoesNotCount()
+{
+    PathStrip strip = noise(200, 3);
+    raise(strip, 0, 200, -4, 4, 1e4f); // its main lobe, two resolution cells on either side
+    QVERIFY(mean(levelBeside(strip, binsPerCell), 0, 200) < 1.1);
+}
+
+void tst_levelBeside::linesBesideDoNotCount()
+{
+    PathStrip strip = noise(200, 4);
+    raise(strip, 0, 200, 7, 10, 100.0f);
+    raise(strip, 0, 200, -10, -7, 100.0f);
+    const double level = mean(levelBeside(strip, binsPerCell), 0, 200);
+    QVERIFY2(level < 2.1, qPrintable(QString::number(level))); // not a hundred: 35 of the 60 % that are noise
+}
+
+void tst_levelBeside::whatWasNotObserved()
+{
+    PathStrip strip = noise(50, 5);
+    std::fill(strip.y.begin(), strip.y.end(), std::numeric_limits<float>::quiet_NaN());
+    for (const double level : levelBeside(strip, binsPerCell))
+        QCOMPARE(level, 1.0);
+}
+
+QTEST_APPLESS_MAIN(tst_levelBeside)
+#include "tst_levelBeside.moc"
