@@ -94,6 +94,14 @@ namespace {
                         e.isConfirmed ? "" : ", not confirmed", e.isOpen ? ", present at the end" : "",
                         analysis.isBank() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
         }
+        const std::vector<AreaEvent> areas = areaEvents(analysis);
+        if (areas.empty())
+            return;
+        std::printf("%zu area(s) of raised level without a line\n", areas.size());
+        const std::string cellUnit = oneLine(analysis.grid().axes.back().unit);
+        for (const AreaEvent &area : areas)
+            std::printf("       %.6g … %.6g s, %.8g … %.8g %s, %.1f dB or more above the noise\n", area.onsetSeconds,
+                        area.endSeconds, area.low, area.high, cellUnit.c_str(), area.levelDb);
     }
 
     /// Simulated pings know their targets: what was found of them.

@@ -183,8 +183,10 @@ void Workbench::showAnalysis()
     m_output->setThreshold(analysis.threshold); // before the picture: the automatic range takes it into account
     m_input->setPicture(analysis.input, frequency);
     showStatistic();
-    for (WaterfallView *view : {m_input, m_output})
+    for (WaterfallView *view : {m_input, m_output}) {
         view->setTruth(m_document.truth().lines);
+        view->setAreas(areaEvents(analysis));
+    }
 
     std::vector<float> resetFraction(analysis.continuedFraction.size());
     std::transform(analysis.continuedFraction.begin(), analysis.continuedFraction.end(), resetFraction.begin(),

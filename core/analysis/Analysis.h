@@ -8,6 +8,7 @@
 #include "recording/Recording.h"
 #include "spectrum/NormalisedFrames.h"
 #include "spectrum/PeakPyramid.h"
+#include "track/Area.h"
 #include "track/DetectionChain.h"
 #include "track/Track.h"
 
@@ -56,6 +57,7 @@ struct Analysis : AnalysisPlan {
     /// Of frames on several axes: what was kept from the detector in each of them, and for which track.
     std::vector<std::vector<DetectionChain::Inhibition>> inhibitions;
     std::vector<Track> tracks; ///< ordered by detection, then cell
+    std::vector<Area> areas;   ///< of raised level without lines, ordered by time; of those that looksTwice
     /// Of frames on several axes: what thresholding each frame by itself would have found.
     std::vector<Track> conventional;
     std::vector<float> lnK;               ///< per frame

@@ -168,8 +168,12 @@ namespace {
         chain->finish();
         pictures.finish();
         pings.finish();
-        analysis.tracks = looksTwice(analysis) ? lookTwice(analysis, chain->takeJoinedTracks(), context.part(0.9, 1.0))
-                                               : chain->takeJoinedTracks();
+        analysis.tracks = chain->takeJoinedTracks();
+        if (!looksTwice(analysis))
+            return;
+        SecondView seen = lookTwice(analysis, std::move(analysis.tracks), context.part(0.9, 1.0));
+        analysis.tracks = std::move(seen.tracks);
+        analysis.areas = std::move(seen.areas);
     }
 
 } // namespace

@@ -59,6 +59,21 @@ namespace {
 
 } // namespace
 
+std::vector<AreaEvent> areaEvents(const Analysis &analysis)
+{
+    const Axis &time = analysis.time();
+    const Axis &axis = analysis.grid().axes.back();
+    std::vector<AreaEvent> result;
+    constexpr double leastDb = 1.0;
+    for (const Area &area : analysis.areas)
+        if (const double levelDb = dbFromRatio(area.level); levelDb >= leastDb)
+            result.push_back({time.value(static_cast<double>(area.firstFrame)),
+                              time.value(static_cast<double>(area.lastFrame)),
+                              axis.value(static_cast<double>(area.firstCell)),
+                              axis.value(static_cast<double>(area.lastCell)), levelDb});
+    return result;
+}
+
 double statisticOf(const Track &track, const Analysis &analysis)
 {
     return isScoreOfPaths(analysis.settings.detector) ? track.peakStatistic : track.detectStatistic;

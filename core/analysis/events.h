@@ -32,6 +32,18 @@ struct Event {
     double noiseProbability = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// A burst, a cloud or another signal that is no line, in physical units; a view of an area.
+struct AreaEvent {
+    double onsetSeconds = 0.0;
+    double endSeconds = 0.0;
+    double low = 0.0; ///< along the last axis
+    double high = 0.0;
+    double levelDb = 0.0; ///< at least, over the noise
+};
+
+/// The areas of an analysis that are raised by 1 dB or more, ordered by onset, then frequency.
+std::vector<AreaEvent> areaEvents(const Analysis &analysis);
+
 /// A track's statistic as its event has it.
 double statisticOf(const Track &track, const Analysis &analysis);
 

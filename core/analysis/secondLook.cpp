@@ -89,7 +89,7 @@ namespace {
             m_model.binsPerCell = m_spectrogram.binsPerCell();
         }
 
-        std::vector<Track> run(std::vector<Track> found)
+        SecondView run(std::vector<Track> found)
         {
             std::stable_sort(found.begin(), found.end(),
                              [](const Track &a, const Track &b) { return a.peakStatistic > b.peakStatistic; });
@@ -124,7 +124,7 @@ namespace {
             });
             for (std::size_t i = 0; i < m_tracks.size(); ++i)
                 m_tracks[i].id = static_cast<int>(i) + 1;
-            return std::move(m_tracks);
+            return {std::move(m_tracks), joinAreas(std::move(m_areas))};
         }
 
     private:
@@ -203,10 +203,10 @@ namespace {
             return loss;
         }
 
-        /// What it loses over what is beside it: in a burst, a cloud or a hum a path is no signal of its own.
-        double lossAlone(const PathStrip &strip) const
+        /// What it loses over what is beside it, of these levels: in a burst, a cloud or a hum a path is no signal of
+        /// its own.
+        double lossOver(const std::vector<double> &levels, const PathStrip &strip) const
         {
-            const std::vector<double> levels = levelBeside(strip, m_model.binsPerCell);
             PathStrip alone = strip;
             for (Index at = 0; at < alone.frameCount(); ++at)
                 for (float &y : std::span(alone.row(at), static_cast<std::size_t>(alone.width())))
@@ -214,8 +214,21 @@ namespace {
             return lossAlongPath(strip, alone);
         }
 
+        /// Where the levels beside a path are raised, as far as they were looked at.
+        void addAreas(const PathStrip &strip, const std::vector<double> &levels)
+        {
+            const Index half = levelBesideHalfWidth(m_model.binsPerCell);
+            for (Index at = 0; at < strip.frameCount(); ++at) {
+                const auto i = static_cast<std::size_t>(at);
+                if (levels[i] > 1.0)
+                    m_areas.push_back({strip.firstFrame + at, strip.firstFrame + at,
+                                       std::clamp<Index>(strip.centres[i] - half, 0, m_cells - 1),
+                                       std::clamp<Index>(strip.centres[i] + half, 0, m_cells - 1), levels[i]});
+            }
+        }
+
         /// Divides the strip by the floor; answers whether a signal is left that the detector would still have found.
-        bool takeFloorOff(const Track &track, PathStrip &strip) const
+        bool takeFloorOff(const Track &track, PathStrip &strip)
         {
             const PathStrip before = strip;
             double statistic = track.peakStatistic;
@@ -228,8 +241,12 @@ namespace {
                 if (statistic < m_analysis.threshold)
                     return false;
             }
-            const double loss = lossAlone(strip);
-            return loss <= 0.0 || statistic - loss >= m_analysis.threshold;
+            const std::vector<double> levels = levelBeside(strip, m_model.binsPerCell);
+            const double loss = lossOver(levels, strip);
+            if (loss <= 0.0 || statistic - loss >= m_analysis.threshold)
+                return true;
+            addAreas(strip, levels);
+            return false;
         }
 
         void lookAt(Piece &piece)
@@ -402,6 +419,7 @@ namespace {
         BothWaysModel m_model;
         std::vector<Candidate> m_candidates; ///< of the track that is being looked at
         std::vector<Track> m_tracks;
+        std::vector<Area> m_areas;
     };
 
 } // namespace
@@ -413,7 +431,7 @@ bool looksTwice(const Analysis &analysis)
            && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.frames->spectrogram();
 }
 
-std::vector<Track> lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context)
+SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context)
 {
     return SecondLook(analysis, context).run(std::move(found));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/Analysis.h"
+#include "track/Area.h"
 
 #include <vector>
 
@@ -11,6 +12,12 @@ namespace faintline {
 /// of a track's own.
 bool looksTwice(const Analysis &analysis);
 
+/// What the look from both ends makes of the chain's tracks.
+struct SecondView {
+    std::vector<Track> tracks; ///< lines, by detection
+    std::vector<Area> areas;   ///< by time
+};
+
 /// What was found, seen from both ends: each signal only while it was there, and where it was to a fraction of a bin.
 ///
 /// The chain decides causally what is found; its statistic stays as it is, and so do times of detection, but for those
@@ -20,13 +27,13 @@ bool looksTwice(const Analysis &analysis);
 ///   1. y is divided by the floor that stronger tracks raise (explanation.h);
 ///   2. a track that the detector would not have found over that floor was theirs: it goes; so does one of which less
 ///      than the threshold is left over the level of what it runs through (levelBeside.h): it was a path through a
-///      burst, a cloud or a hum;
+///      burst, a cloud or a hum, which becomes an area;
 ///   3. the stretches where the signal is present stay, joined over up to 24 frames: the one in which the path's statistic gained most, and
 ///      every other whose own evidence reaches the threshold, which is then its statistic;
 ///   4. what stays is explained: it raises the floor for weaker ones.
 ///
 /// `found`: by detection, as is the answer, numbered anew. Reads all frames once; memory goes with the tracks' length.
 /// Deterministic.
-std::vector<Track> lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context);
+SecondView lookTwice(const Analysis &analysis, std::vector<Track> found, const RunContext &context);
 
 } // namespace faintline

@@ -119,6 +119,14 @@ namespace {
         json["events"] = Json::array();
         for (const Event &e : events(analysis))
             json["events"].push_back(eventJson(e, analysis.grid()));
+        if (looksTwice(analysis))
+            json["areas"] = Json::array();
+        for (const AreaEvent &area : areaEvents(analysis))
+            json["areas"].push_back({{"t_onset", area.onsetSeconds},
+                                     {"t_end", area.endSeconds},
+                                     {"f_low", area.low},
+                                     {"f_high", area.high},
+                                     {"level_db", area.levelDb}});
         return json.dump(2) + "\n";
     }
 
@@ -137,6 +145,11 @@ namespace {
             text += formatNumber(e.onsetSeconds) + "\t" + formatNumber(e.endSeconds) + "\t"
                     + formatNumber(e.position.back()) + " Hz, " + shownStatistic(e, analysis) + "\n";
         return text;
+    }
+
+    std::string roundedDb(double db)
+    {
+        return formatNumber(std::round(10.0 * db) / 10.0);
     }
 
     std::string sigmfAnnotations(const Analysis &analysis)
@@ -175,10 +188,22 @@ namespace {
             std::string comment =
                 "statistic " + formatNumber(e.statistic) + " " + std::string(statisticUnit(analysis.settings.detector));
             if (!std::isnan(e.snrDb))
-                comment += ", SNR " + formatNumber(std::round(10.0 * e.snrDb) / 10.0) + " dB in one window";
+                comment += ", SNR " + roundedDb(e.snrDb) + " dB in one window";
             annotation["core:comment"] = comment;
             json["annotations"].push_back(annotation);
         }
+        for (const AreaEvent &area : areaEvents(analysis))
+            json["annotations"].push_back(
+                {{"core:sample_start", std::llround(area.onsetSeconds * rate)},
+                 {"core:sample_count", std::max(1LL, std::llround((area.endSeconds - area.onsetSeconds) * rate))},
+                 {"core:freq_lower_edge", centre + area.low},
+                 {"core:freq_upper_edge", centre + area.high},
+                 {"core:label", "area"},
+                 {"core:comment", "no line: level raised by at least " + roundedDb(area.levelDb) + " dB"}});
+        // The specification wants them in order of their start.
+        std::stable_sort(json["annotations"].begin(), json["annotations"].end(), [](const Json &a, const Json &b) {
+            return a["core:sample_start"].get<long long>() < b["core:sample_start"].get<long long>();
+        });
         return json.dump(2) + "\n";
     }
 

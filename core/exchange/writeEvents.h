@@ -14,6 +14,8 @@ namespace faintline {
 /// names it), confirmed, open; on several axes AXIS_per_s of each. Numbers in the C locale, shortest form that reads
 /// back the same. Of lines whose tracks were looked at from both ends also snr_db (mean, in one window), band_hz (width
 /// of the position's 5-95 % band) and noise_probability (that noise alone brings such an event in this recording).
+/// Areas, which are no events, stand in the .json ("areas": t_onset, t_end, f_low, f_high, level_db) and in the
+/// .sigmf-meta with the label "area".
 /// Files appear only when complete. Throws Error for an unknown extension or a full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
 

@@ -1,4 +1,5 @@
 #include "analysis/analyse.h"
+#include "analysis/events.h"
 #include "base/Random.h"
 #include "recording/SimulatedRecording.h"
 
@@ -242,7 +243,7 @@ void tst_secondLook::aCloudIsNoLine()
 {
     // Ten seconds of noise in 40 Hz, ten cells, ten times the power of what is there all the time; and a line that goes
     // through it, plainly above.
-    const auto tracksOf = [](bool withLine, bool bothWays) {
+    const auto found = [](bool withLine, bool bothWays) {
         Random random(5, 0);
         std::vector<float> samples(static_cast<std::size_t>(120.0 * rateHz));
         random.normals(samples, 1.0f);
@@ -265,15 +266,24 @@ void tst_secondLook::aCloudIsNoLine()
         AnalysisSettings settings;
         settings.spectrogram.windowSeconds = windowSeconds;
         settings.track.bothWays = bothWays;
-        return analyse(std::make_shared<test::MemoryRecording>(std::move(samples), rateHz, false), settings)->tracks;
+        return analyse(std::make_shared<test::MemoryRecording>(std::move(samples), rateHz, false), settings);
     };
     constexpr bool twice = true;
     constexpr bool once = false;
-    const auto paths = static_cast<int>(tracksOf(false, once).size());
-    const auto lines = static_cast<int>(tracksOf(false, twice).size());
+    const auto paths = static_cast<int>(found(false, once)->tracks.size());
+    const auto seen = found(false, twice);
+    const auto lines = static_cast<int>(seen->tracks.size());
     QVERIFY2(paths >= 4, qPrintable(QString::number(paths)));
     QVERIFY2(3 * lines <= paths, qPrintable(QString("%1 of %2").arg(lines).arg(paths)));
-    const std::vector<Track> tracks = tracksOf(true, twice);
+    const std::vector<AreaEvent> areas = areaEvents(*seen);
+    QVERIFY(!areas.empty());
+    const AreaEvent largest = *std::max_element(areas.begin(), areas.end(), [](const AreaEvent &a, const AreaEvent &b) {
+        return a.endSeconds - a.onsetSeconds < b.endSeconds - b.onsetSeconds;
+    });
+    QVERIFY(largest.onsetSeconds < 55.0 && largest.endSeconds > 55.0);
+    QVERIFY(largest.low < 100.0 && largest.high > 100.0);
+    QVERIFY2(largest.levelDb > 3.0 && largest.levelDb < 11.0, qPrintable(QString::number(largest.levelDb)));
+    const std::vector<Track> tracks = found(true, twice)->tracks;
     const auto longest = std::max_element(
         tracks.begin(), tracks.end(), [](const Track &a, const Track &b) { return a.points.size() < b.points.size(); });
     QVERIFY(longest != tracks.end() && longest->points.size() > 900);

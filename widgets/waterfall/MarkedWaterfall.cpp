@@ -72,6 +72,12 @@ void MarkedWaterfall::setTracks(const std::vector<Track> &tracks, const Axis &ti
     updateMarks();
 }
 
+void MarkedWaterfall::setAreas(const std::vector<AreaEvent> &areas)
+{
+    m_overlay->areas = OverlayItem::boxesOf(areas);
+    replot();
+}
+
 void MarkedWaterfall::setTruth(const std::vector<TruthLine> &lines)
 {
     m_overlay->truth = OverlayItem::linesOf(lines);

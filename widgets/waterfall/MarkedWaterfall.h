@@ -53,6 +53,7 @@ public slots:
     void setEvents(const std::vector<faintline::Event> &events);
     /// `time`: of the frames the tracks were made from.
     void setTracks(const std::vector<faintline::Track> &tracks, const faintline::Axis &time);
+    void setAreas(const std::vector<faintline::AreaEvent> &areas); ///< shown with the events
     void setTruth(const std::vector<faintline::TruthLine> &lines);
     void setSelectedEvent(int id);                    ///< 0: none
     void setFaintEvents(const std::vector<int> &ids); ///< rejected ones

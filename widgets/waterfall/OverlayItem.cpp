@@ -2,6 +2,7 @@
 
 #include <qwt_scale_map.h>
 
+#include <QCoreApplication>
 #include <QFontMetricsF>
 #include <QPainter>
 
@@ -131,6 +132,16 @@ std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<Track> &fo
     return lines;
 }
 
+std::vector<OverlayItem::Box> OverlayItem::boxesOf(const std::vector<AreaEvent> &areas)
+{
+    std::vector<Box> boxes;
+    for (const AreaEvent &area : areas)
+        boxes.push_back({{{area.onsetSeconds, area.endSeconds}, {area.low, area.high}},
+                         QCoreApplication::translate("OverlayItem", "area"),
+                         false});
+    return boxes;
+}
+
 std::vector<OverlayItem::Line> OverlayItem::linesOf(const std::vector<TruthLine> &known)
 {
     std::vector<Line> lines;
@@ -209,7 +220,9 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
         drawSelectedBand(canvas);
         drawLines(canvas, tracks, linePen(colours.track, 1.0));
     }
-    drawBoxes(canvas);
+    if (hasEvents)
+        drawBoxes(canvas, areas, linePen(colours.track, 1.0, Qt::DotLine));
+    drawBoxes(canvas, boxes, linePen(colours.cursor, 1.0));
     drawHarmonics(canvas);
     drawSidebands(canvas);
     drawCursor(canvas);
@@ -273,9 +286,9 @@ bool OverlayItem::isFaint(int event) const
            && std::find(faintEvents.begin(), faintEvents.end(), event) != faintEvents.end();
 }
 
-void OverlayItem::drawBoxes(const Canvas &canvas) const
+void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<Box> &some, const QPen &pen) const
 {
-    for (const Box &box : boxes) {
+    for (const Box &box : some) {
         const QRectF rect =
             rectOf(box.box, canvas.x, canvas.y, isTimeVertical).intersected(canvas.rect.adjusted(-9, -9, 9, 9));
         if (!rect.isValid())
@@ -285,9 +298,9 @@ void OverlayItem::drawBoxes(const Canvas &canvas) const
                        {rect.topRight(), rect.bottomRight()},
                        {rect.bottomRight(), rect.bottomLeft()},
                        {rect.bottomLeft(), rect.topLeft()}},
-                      linePen(colours.cursor, 1.0));
+                      pen);
         if (!box.text.isEmpty())
-            canvas.label(rect.topLeft() + QPointF(2.0, 2.0), box.text, colours.cursor);
+            canvas.label(rect.topLeft() + QPointF(2.0, 2.0), box.text, pen.color());
     }
     canvas.painter.setOpacity(1.0);
 }

@@ -47,6 +47,7 @@ public:
     std::vector<Line> tracks;
     std::vector<Line> truth;
     std::vector<Box> boxes;
+    std::vector<Box> areas;       ///< of raised level, without a line
     std::vector<int> faintEvents; ///< rejected ones: there, but not in the way
     bool hasEvents = true, hasTracks = true, hasTruth = true;
     int selectedEvent = 0;
@@ -63,6 +64,7 @@ public:
 
     static std::vector<Line> linesOf(const std::vector<Track> &followed, const Axis &time, const Axis &frequency);
     static std::vector<Line> linesOf(const std::vector<TruthLine> &known);
+    static std::vector<Box> boxesOf(const std::vector<AreaEvent> &areas);
     /// Boxes around the events' tracks where there are any, otherwise along their straight lines; at least a bin and a
     /// frame wide.
     static std::vector<Mark> marksOf(const std::vector<Event> &events, const std::vector<Line> &lines,
@@ -80,7 +82,7 @@ private:
     void drawLines(const Canvas &canvas, const std::vector<Line> &lines, const QPen &pen) const;
     void drawSelectedBand(const Canvas &canvas) const;
     void drawEvents(const Canvas &canvas) const;
-    void drawBoxes(const Canvas &canvas) const;
+    void drawBoxes(const Canvas &canvas, const std::vector<Box> &some, const QPen &pen) const;
     bool isFaint(int event) const;
     void drawHarmonics(const Canvas &canvas) const;
     void drawSidebands(const Canvas &canvas) const;
