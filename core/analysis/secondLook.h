@@ -9,7 +9,7 @@ namespace faintline {
 /// Whether complete tracks are looked at a second time: those of the sequential Markov detector's paths through a
 /// spectrogram, if asked for. Not under the linear likelihood, which rescales scores for a fixed level and says nothing
 /// of a track's own.
-bool looksTwice(const Analysis &analysis);
+bool looksTwice(const AnalysisPlan &analysis);
 
 /// What was found, seen from both ends: each signal only while it was there, and where it was to a fraction of a bin.
 ///
