@@ -5,6 +5,8 @@
 #include "exchange/writeEvents.h"
 #include "live/EventCommand.h"
 #include "live/PipeSource.h"
+#include "live/RtlTcpSource.h"
+#include "live/UdpSource.h"
 #include "live/eventLines.h"
 #include "live/listen.h"
 
@@ -27,6 +29,11 @@ namespace {
         double rotateMinutes = 0.0;
         double updateSeconds = 10.0;
         std::vector<std::string> onEvent;
+        std::string udp;
+        std::string udpSequence;
+        std::string rtlTcp;
+        ReceiverSettings receiver;
+        std::optional<double> gainDb;
     };
 
     /// Where lines of JSON go: standard output or the end of a file, each at once.
@@ -74,11 +81,27 @@ namespace {
     std::unique_ptr<SampleSource> sourceOf(const ListenOptions &options, const std::stop_token &stop)
     {
         const OpenOptions &open = options.analysis.open;
+        const int given = !options.analysis.file.empty() + !options.udp.empty() + !options.rtlTcp.empty();
+        if (given != 1)
+            throw Error("listen", "requires one source: FILE (- is standard input), --udp or --rtl-tcp");
+        if (!options.rtlTcp.empty()) {
+            ReceiverSettings receiver = options.receiver;
+            receiver.sampleRateHz = open.rawRateHz;
+            receiver.gainDb = options.gainDb;
+            if (!(receiver.frequencyHz > 0.0) || !(receiver.sampleRateHz > 0.0))
+                throw Error("--rtl-tcp", "requires --frequency and --raw-rate, both in Hz");
+            return std::make_unique<RtlTcpSource>(options.rtlTcp, receiver);
+        }
         std::optional<StreamFormat> raw;
         if (!open.rawType.empty()) {
             if (!(open.rawRateHz > 0.0))
                 throw Error("--raw-type", "requires the sample rate in Hz (such as --raw-rate 48000)");
             raw = StreamFormat{parseSampleType(open.rawType, "--raw-type"), open.rawRateHz, open.rawChannels, 0.0, {}};
+        }
+        if (!options.udp.empty()) {
+            if (!raw)
+                throw Error("--udp", "requires --raw-type and --raw-rate");
+            return std::make_unique<UdpSource>(options.udp, *raw, parseSequenceNumbers(options.udpSequence));
         }
         return std::make_unique<PipeSource>(options.analysis.file, raw, stop);
     }
@@ -202,8 +225,9 @@ void addListen(CLI::App &app, Common &common)
     const auto options = std::make_shared<ListenOptions>();
     CLI::App *command = app.add_subcommand("listen", "Detect in samples while they come in, with a causal background");
     options->analysis.addTo(*command, common);
-    command->get_option("FILE")->description("Standard input (-) or a FIFO: a WAV stream, or raw samples with "
-                                             "--raw-type and --raw-rate");
+    command->get_option("FILE")
+        ->description("Standard input (-) or a FIFO: a WAV stream, or raw samples with --raw-type and --raw-rate")
+        ->required(false);
     command->remove_option(command->get_option("--raw-header"));
     addOutput(*command, common, "--out", options->out,
               "Append the changes of events, one JSON object a line, to a file; without it they go to standard output");
@@ -222,6 +246,16 @@ void addListen(CLI::App &app, Common &common)
                      "Program, with arguments, to run at each change of an event; the line of JSON becomes its last "
                      "argument; no shell is used")
         ->expected(1, 64);
+    command->add_option("--udp", options->udp, "Listen to UDP datagrams of raw samples: PORT or ADDRESS:PORT");
+    command->add_option("--udp-sequence", options->udpSequence,
+                        "Number at the beginning of each datagram: u16le, u16be, u32le, u32be, u64le or u64be");
+    command->add_option("--rtl-tcp", options->rtlTcp, "Listen to the receiver of an rtl_tcp server: HOST or HOST:PORT");
+    command->add_option("--frequency", options->receiver.frequencyHz, "Frequency of the receiver, Hz")
+        ->check(CLI::Range(0.0, 4294967295.0));
+    command->add_option("--gain", options->gainDb, "Gain of the receiver, dB; automatic without it")
+        ->check(CLI::Range(-100.0, 100.0));
+    command->add_option("--ppm", options->receiver.correctionPpm, "Correction of the receiver's frequency, ppm")
+        ->check(CLI::Range(-1000, 1000));
     command->callback([options, &common] { listen(*options, common); });
 }
 
