@@ -69,6 +69,7 @@ void addInject(CLI::App &app, Common &common);
 void addSequential(CLI::App &app, Common &common);
 void addCompare(CLI::App &app, Common &common);
 void addReplay(CLI::App &app, Common &common);
+void addListen(CLI::App &app, Common &common);
 
 /// Does what a command line asks for. Throws CLI::ParseError, Error, Cancelled.
 void runCommandLine(const std::vector<std::string> &arguments, Common common);

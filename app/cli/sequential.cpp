@@ -7,6 +7,7 @@
 #include "detect/Sprt.h"
 #include "detect/averagedStages.h"
 #include "exchange/ModelFile.h"
+#include "spectrum/normalise.h"
 
 #include <CLI/CLI.hpp>
 
@@ -54,8 +55,7 @@ namespace {
         const AnalysisSettings settings = options.analysis.settings();
         const auto spectrogram =
             std::make_shared<const Spectrogram>(options.analysis.recording(), settings.spectrogram, settings.selection);
-        const auto frames = std::make_shared<NormalisedSpectrogram>(
-            spectrogram, estimateBackground(*spectrogram, settings.noise, context), settings.noise);
+        const NormalisedFramesPointer frames = normalise(spectrogram, settings.noise, context);
         const Index bins = frames->grid().size();
         Stages stages;
         if (options.model.empty()) {

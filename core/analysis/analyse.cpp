@@ -2,9 +2,9 @@
 
 #include "analysis/ProgressPublisher.h"
 #include "analysis/chain.h"
+#include "analysis/plan.h"
 #include "analysis/regulation.h"
 #include "analysis/secondLook.h"
-#include "analysis/usable.h"
 #include "base/memoryShares.h"
 #include "spectrum/FrameStream.h"
 #include "spectrum/NoiseNormaliser.h"
@@ -176,6 +176,14 @@ namespace {
         analysis.areas = std::move(seen.areas);
     }
 
+    /// A recording that is not over has no length to choose a window by.
+    void checkWindow(const AnalysisSettings &settings)
+    {
+        if (settings.noise.causal && settings.spectrogram.windowSeconds == 0.0)
+            throw fieldError("spectrogram.windowSeconds", "0",
+                             "is chosen from the whole recording; with noise.causal=true, give the window in seconds");
+    }
+
 } // namespace
 
 std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSettings &settings,
@@ -183,6 +191,7 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
                                   const PictureSink &pictures, CalibrationDepth calibrationDepth, AnalysisDepth depth)
 {
     checkSettings(settings);
+    checkWindow(settings);
     auto analysis = std::make_shared<Analysis>();
     analysis->settings = settings;
     analysis->recording = recording;
@@ -199,15 +208,9 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
         const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
         publisher = ProgressPublisher(pictures, spectrogram->time(), spectrogram->frequency(), settings);
         publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
-        analysis->background = estimateBackground(*spectrogram, settings.noise, context.part(0.01, 0.2));
-        checkUsable(*spectrogram, *analysis->background, context.part(0.2, 0.2));
-        analysis->frames = std::make_shared<NormalisedSpectrogram>(spectrogram, analysis->background, settings.noise);
+        normalisePlan(*analysis, spectrogram, context.part(0.01, 0.2));
     }
-    analysis->model = makeModel(settings.model, analysis->grid());
-    analysis->calibration =
-        calibrateBand(settings, analysis->grid().axes.back().count, context.part(0.2, 0.5), calibrationDepth);
-    analysis->cellFramesPerHour = static_cast<double>(analysis->grid().size()) * 3600.0 / analysis->time().step;
-    analysis->threshold = thresholdNats(settings.decide, *analysis->calibration, analysis->cellFramesPerHour);
+    calibratePlan(*analysis, context.part(0.2, 0.5), calibrationDepth);
     run(*analysis, context.part(0.5, 1.0), sink, publisher, depth);
     return analysis;
 }

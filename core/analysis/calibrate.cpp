@@ -1,7 +1,7 @@
 #include "analysis/calibrateOn.h"
 #include "analysis/keptCalibration.h"
 #include "recording/SimulatedRecording.h"
-#include "spectrum/NoiseNormaliser.h"
+#include "spectrum/normalise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,7 @@ namespace {
         scene.seed = 1000 + number;
         const auto spectrogram =
             std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), bare.spectrogram);
-        return std::make_shared<NormalisedSpectrogram>(spectrogram, estimateBackground(*spectrogram, bare.noise),
-                                                       bare.noise);
+        return normalise(spectrogram, bare.noise);
     }
 
 } // namespace

@@ -16,6 +16,7 @@ namespace {
     constexpr double noiseOnShoulder = 1e-3; ///< of the cells of a frame that decides
     constexpr Index manyStates = 1'000'000;  ///< of so many, tracing a path back over tens of frames takes seconds
     constexpr Index onsetFramesOfMany = 16;
+    constexpr Index longestRunUpLive = 512;
 
     std::vector<Index> perAxis(const std::vector<double> &values, const Grid &grid)
     {
@@ -104,6 +105,11 @@ namespace {
             chain.forgetCells = inBins(settings.decide.forgetCells);
         if (plan.model.space.stateCount() > manyStates)
             chain.onsetFrames = onsetFramesOfMany;
+        if (settings.noise.causal) {
+            // A live run tells of an event once nothing can become part of it any more: tracks have to begin somewhere.
+            chain.onsetFrames = chain.onsetFrames > 0 ? chain.onsetFrames : longestRunUpLive;
+            chain.keepsNumbers = true;
+        }
         chain.resets = settings.decide.resets;
         chain.inhibits = settings.decide.inhibits;
         return chain;

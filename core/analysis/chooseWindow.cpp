@@ -176,8 +176,8 @@ bool leavesWindowToRecording(const AnalysisSettings &settings)
 {
     const ModelSettings &model = settings.model;
     return settings.spectrogram.windowSeconds == 0.0 && std::holds_alternative<SmdSettings>(settings.detector)
-           && settings.track.bothWays && model.motion == Motion::Slopes && model.likelihood != LikelihoodKind::Linear
-           && model == withLaw(model, ModelSettings());
+           && settings.track.bothWays && !settings.noise.causal && model.motion == Motion::Slopes
+           && model.likelihood != LikelihoodKind::Linear && model == withLaw(model, ModelSettings());
 }
 
 AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)

@@ -41,7 +41,7 @@ namespace {
     }
 
     /// What only the look from both ends knows.
-    void describe(Event &event, const Track &track, const Analysis &analysis)
+    void describe(Event &event, const Track &track, const AnalysisPlan &analysis)
     {
         const auto count = static_cast<double>(track.points.size());
         double level = 0.0;
@@ -74,7 +74,7 @@ std::vector<AreaEvent> areaEvents(const Analysis &analysis)
     return result;
 }
 
-double statisticOf(const Track &track, const Analysis &analysis)
+double statisticOf(const Track &track, const AnalysisPlan &analysis)
 {
     return isScoreOfPaths(analysis.settings.detector) ? track.peakStatistic : track.detectStatistic;
 }
@@ -84,10 +84,10 @@ std::vector<Event> events(const Analysis &analysis)
     return events(analysis, analysis.tracks);
 }
 
-std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tracks)
+std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tracks)
 {
-    const Axis &time = analysis.time();
-    const Grid &grid = analysis.grid();
+    const Axis &time = plan.time();
+    const Grid &grid = plan.grid();
     std::vector<Event> result;
     for (const Track &track : tracks) {
         Event event;
@@ -103,17 +103,22 @@ std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tr
             event.ratesPerSecond.push_back(driftOf(track, time, grid, axis));
         event.driftPerSecond = event.ratesPerSecond.back();
         event.model = track.model;
-        event.statistic = statisticOf(track, analysis);
+        event.statistic = statisticOf(track, plan);
         event.isConfirmed = track.isConfirmed;
         event.isOpen = track.isOpen;
         if (!track.smoothed.empty())
-            describe(event, track, analysis);
+            describe(event, track, plan);
         result.push_back(std::move(event));
     }
-    std::stable_sort(result.begin(), result.end(), [](const Event &a, const Event &b) {
+    sortEvents(result);
+    return result;
+}
+
+void sortEvents(std::vector<Event> &events)
+{
+    std::stable_sort(events.begin(), events.end(), [](const Event &a, const Event &b) {
         return a.onsetSeconds != b.onsetSeconds ? a.onsetSeconds < b.onsetSeconds : a.position < b.position;
     });
-    return result;
 }
 
 } // namespace faintline

@@ -45,11 +45,13 @@ struct AreaEvent {
 std::vector<AreaEvent> areaEvents(const Analysis &analysis);
 
 /// A track's statistic as its event has it.
-double statisticOf(const Track &track, const Analysis &analysis);
+double statisticOf(const Track &track, const AnalysisPlan &analysis);
 
 /// The events of an analysis at its threshold, ordered by onset, then frequency.
 std::vector<Event> events(const Analysis &analysis);
 /// The same of other tracks on its frames, such as the conventional ones.
-std::vector<Event> events(const Analysis &analysis, const std::vector<Track> &tracks);
+std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tracks);
+/// By onset, then frequency: the order of the above.
+void sortEvents(std::vector<Event> &events);
 
 } // namespace faintline

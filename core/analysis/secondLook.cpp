@@ -424,10 +424,10 @@ namespace {
 
 } // namespace
 
-bool looksTwice(const Analysis &analysis)
+bool looksTwice(const AnalysisPlan &analysis)
 {
-    return analysis.settings.track.bothWays && analysis.grid().axes.size() == 1 && !analysis.isBank()
-           && std::holds_alternative<SmdSettings>(analysis.settings.detector)
+    return analysis.settings.track.bothWays && !analysis.settings.noise.causal && analysis.grid().axes.size() == 1
+           && !analysis.isBank() && std::holds_alternative<SmdSettings>(analysis.settings.detector)
            && analysis.settings.model.likelihood != LikelihoodKind::Linear && analysis.frames->spectrogram();
 }
 

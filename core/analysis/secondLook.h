@@ -10,7 +10,7 @@ namespace faintline {
 /// Whether complete tracks are looked at a second time: those of the sequential Markov detector's paths through a
 /// spectrogram, if asked for. Not under the linear likelihood, which rescales scores for a fixed level and says nothing
 /// of a track's own.
-bool looksTwice(const Analysis &analysis);
+bool looksTwice(const AnalysisPlan &analysis);
 
 /// What the look from both ends makes of the chain's tracks.
 struct SecondView {

@@ -65,71 +65,6 @@ namespace {
         return {e.snrDb, e.bandWidth, e.noiseProbability};
     }
 
-    std::string eventsCsv(const Analysis &analysis)
-    {
-        std::vector<std::string> names{
-            "event",          "t_onset",   "t_detect",  "t_end", joined(positionNames(analysis.grid())),
-            "drift_hz_per_s", "statistic", "confirmed", "open"};
-        const std::vector<std::string> rates = rateNames(analysis.grid());
-        names.insert(names.end(), rates.begin(), rates.end());
-        const bool isSeenTwice = looksTwice(analysis);
-        if (isSeenTwice)
-            names.insert(names.end(), smoothedNames.begin(), smoothedNames.end());
-        std::string text = joined(names) + "\n";
-        for (const Event &e : events(analysis)) {
-            const std::vector<std::string> cells{
-                std::to_string(e.id),       formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
-                formatNumber(e.endSeconds), joined(e.position),           formatNumber(e.driftPerSecond),
-                formatNumber(e.statistic),  e.isConfirmed ? "1" : "0",    e.isOpen ? "1" : "0"};
-            text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond))
-                    + (isSeenTwice ? "," + joined(smoothedOf(e)) : "") + "\n";
-        }
-        return text;
-    }
-
-    Json eventJson(const Event &e, const Grid &grid)
-    {
-        Json json;
-        json["event"] = e.id;
-        json["t_onset"] = e.onsetSeconds;
-        json["t_detect"] = e.detectSeconds;
-        json["t_end"] = e.endSeconds;
-        const std::vector<std::string> names = positionNames(grid);
-        for (std::size_t axis = 0; axis < names.size(); ++axis)
-            json[names[axis]] = e.position[axis];
-        json["drift_hz_per_s"] = e.driftPerSecond;
-        const std::vector<std::string> rates = rateNames(grid);
-        for (std::size_t axis = 0; axis < rates.size(); ++axis)
-            json[rates[axis]] = e.ratesPerSecond[axis];
-        json["statistic"] = e.statistic;
-        json["confirmed"] = e.isConfirmed;
-        json["open"] = e.isOpen;
-        for (std::size_t i = 0; i < smoothedNames.size() && !std::isnan(e.snrDb); ++i)
-            json[smoothedNames[i]] = smoothedOf(e)[i];
-        return json;
-    }
-
-    std::string eventsJson(const Analysis &analysis)
-    {
-        Json json;
-        json["threshold"] = analysis.threshold;
-        json["statisticUnit"] = statisticUnit(analysis.settings.detector);
-        json["lnK"] = analysis.calibration->lnK;
-        json["settings"] = parseJson(settingsToJson(analysis.settings), "settings");
-        json["events"] = Json::array();
-        for (const Event &e : events(analysis))
-            json["events"].push_back(eventJson(e, analysis.grid()));
-        if (looksTwice(analysis))
-            json["areas"] = Json::array();
-        for (const AreaEvent &area : areaEvents(analysis))
-            json["areas"].push_back({{"t_onset", area.onsetSeconds},
-                                     {"t_end", area.endSeconds},
-                                     {"f_low", area.low},
-                                     {"f_high", area.high},
-                                     {"level_db", area.levelDb}});
-        return json.dump(2) + "\n";
-    }
-
     /// Rounded as it is shown, with its unit.
     std::string shownStatistic(const Event &e, const Analysis &analysis)
     {
@@ -275,13 +210,78 @@ void checkTracksPath(const std::string &path)
     checkExtension(path, {".csv", ".json"}, ".csv or .json");
 }
 
+std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events)
+{
+    std::vector<std::string> names{
+        "event",          "t_onset",   "t_detect",  "t_end", joined(positionNames(plan.grid())),
+        "drift_hz_per_s", "statistic", "confirmed", "open"};
+    const std::vector<std::string> rates = rateNames(plan.grid());
+    names.insert(names.end(), rates.begin(), rates.end());
+    const bool isSeenTwice = looksTwice(plan);
+    if (isSeenTwice)
+        names.insert(names.end(), smoothedNames.begin(), smoothedNames.end());
+    std::string text = joined(names) + "\n";
+    for (const Event &e : events) {
+        const std::vector<std::string> cells{
+            std::to_string(e.id),       formatNumber(e.onsetSeconds), formatNumber(e.detectSeconds),
+            formatNumber(e.endSeconds), joined(e.position),           formatNumber(e.driftPerSecond),
+            formatNumber(e.statistic),  e.isConfirmed ? "1" : "0",    e.isOpen ? "1" : "0"};
+        text += joined(cells) + (rates.empty() ? "" : "," + joined(e.ratesPerSecond))
+                + (isSeenTwice ? "," + joined(smoothedOf(e)) : "") + "\n";
+    }
+    return text;
+}
+
+Json eventJson(const Event &e, const Grid &grid)
+{
+    Json json;
+    json["event"] = e.id;
+    json["t_onset"] = e.onsetSeconds;
+    json["t_detect"] = e.detectSeconds;
+    json["t_end"] = e.endSeconds;
+    const std::vector<std::string> names = positionNames(grid);
+    for (std::size_t axis = 0; axis < names.size(); ++axis)
+        json[names[axis]] = e.position[axis];
+    json["drift_hz_per_s"] = e.driftPerSecond;
+    const std::vector<std::string> rates = rateNames(grid);
+    for (std::size_t axis = 0; axis < rates.size(); ++axis)
+        json[rates[axis]] = e.ratesPerSecond[axis];
+    json["statistic"] = e.statistic;
+    json["confirmed"] = e.isConfirmed;
+    json["open"] = e.isOpen;
+    for (std::size_t i = 0; i < smoothedNames.size() && !std::isnan(e.snrDb); ++i)
+        json[smoothedNames[i]] = smoothedOf(e)[i];
+    return json;
+}
+
+std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &events, const std::vector<AreaEvent> &areas)
+{
+    Json json;
+    json["threshold"] = plan.threshold;
+    json["statisticUnit"] = statisticUnit(plan.settings.detector);
+    json["lnK"] = plan.calibration->lnK;
+    json["settings"] = parseJson(settingsToJson(plan.settings), "settings");
+    json["events"] = Json::array();
+    for (const Event &e : events)
+        json["events"].push_back(eventJson(e, plan.grid()));
+    if (looksTwice(plan))
+        json["areas"] = Json::array();
+    for (const AreaEvent &area : areas)
+        json["areas"].push_back({{"t_onset", area.onsetSeconds},
+                                 {"t_end", area.endSeconds},
+                                 {"f_low", area.low},
+                                 {"f_high", area.high},
+                                 {"level_db", area.levelDb}});
+    return json.dump(2) + "\n";
+}
+
 void writeEvents(const Analysis &analysis, const std::string &path)
 {
     checkEventsPath(path);
     if (path.ends_with(".csv"))
-        writeTextFile(path, eventsCsv(analysis));
+        writeTextFile(path, eventsCsv(analysis, events(analysis)));
     else if (path.ends_with(".json"))
-        writeTextFile(path, eventsJson(analysis));
+        writeTextFile(path, eventsJson(analysis, events(analysis), areaEvents(analysis)));
     else if (path.ends_with(".txt"))
         writeTextFile(path, audacityLabels(analysis));
     else

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/analyse.h"
+#include "base/json.h"
 
 #include <string>
 
@@ -18,6 +19,13 @@ namespace faintline {
 /// .sigmf-meta with the label "area".
 /// Files appear only when complete. Throws Error for an unknown extension or a full disk.
 void writeEvents(const Analysis &analysis, const std::string &path);
+
+/// The same as text of a .csv or .json file, of events that were collected one by one.
+std::string eventsCsv(const AnalysisPlan &plan, const std::vector<Event> &events);
+std::string eventsJson(const AnalysisPlan &plan, const std::vector<Event> &events,
+                       const std::vector<AreaEvent> &areas = {});
+/// One event as it stands there.
+Json eventJson(const Event &event, const Grid &grid);
 
 /// Throws Error if `writeEvents` or `writeTracks` does not know the extension of a name; call it before a long run.
 void checkEventsPath(const std::string &path);

@@ -64,23 +64,25 @@ RawRecording::RawRecording(const std::string &path, const RawLayout &layout) : m
 
 void RawRecording::read(int channel, Index first, Index count, std::span<float> out) const
 {
-    fill(first, count, out, [&](Index from, std::span<float> inside) {
-        const Index floats = m_info.floatsPerSample();
-        const Index samples = std::ssize(inside) / floats;
-        const Index perRead = std::max<Index>(1, readBytes / m_frameBytes);
-        std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(samples, perRead) * m_frameBytes));
-        for (Index done = 0; done < samples;) {
-            const Index run = std::min(perRead, samples - done);
-            const std::span<std::byte> wanted = std::span(bytes).first(static_cast<std::size_t>(run * m_frameBytes));
-            if (m_file.readAt(m_layout.headerBytes + (from + done) * m_frameBytes, wanted) < wanted.size())
-                throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
-            convertSamples(
-                m_layout.type, wanted.subspan(static_cast<std::size_t>(channel * m_layout.type.sampleBytes())),
-                m_frameBytes,
-                inside.subspan(static_cast<std::size_t>(done * floats), static_cast<std::size_t>(run * floats)));
-            done += run;
-        }
-    });
+    fill(first, count, out, [&](Index from, std::span<float> inside) { readFile(channel, from, inside); });
+}
+
+void RawRecording::readFile(int channel, Index first, std::span<float> out) const
+{
+    const Index floats = m_info.floatsPerSample();
+    const Index samples = std::ssize(out) / floats;
+    const Index perRead = std::max<Index>(1, readBytes / m_frameBytes);
+    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(samples, perRead) * m_frameBytes));
+    for (Index done = 0; done < samples;) {
+        const Index run = std::min(perRead, samples - done);
+        const std::span<std::byte> wanted = std::span(bytes).first(static_cast<std::size_t>(run * m_frameBytes));
+        if (m_file.readAt(m_layout.headerBytes + (first + done) * m_frameBytes, wanted) < wanted.size())
+            throw Error(m_info.path, "was truncated while open", Error::Kind::Failure);
+        convertSamples(m_layout.type, wanted.subspan(static_cast<std::size_t>(channel * m_layout.type.sampleBytes())),
+                       m_frameBytes,
+                       out.subspan(static_cast<std::size_t>(done * floats), static_cast<std::size_t>(run * floats)));
+        done += run;
+    }
 }
 
 std::optional<std::string> rawTypeOfExtension(const std::string &path)

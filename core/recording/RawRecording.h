@@ -34,6 +34,10 @@ public:
         return m_layout.type.number == SampleType::Number::Float ? measuredScaleExponent(channel) : 0;
     }
 
+protected:
+    /// Samples of the file from one on, all of which are there.
+    void readFile(int channel, Index first, std::span<float> out) const;
+
 private:
     FileBytes m_file;
     RawLayout m_layout;

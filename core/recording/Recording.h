@@ -52,6 +52,10 @@ public:
     /// known to be about 1.
     virtual int scaleExponent(int /*channel*/) const { return 0; }
 
+    /// Whether all of these samples were heard: false where any of them lies in a gap, which reads as 0. A recording
+    /// that knows of no gaps has none.
+    virtual bool isWhole(Index /*first*/, Index /*count*/) const { return true; }
+
     /// Floats that were not finite in all reads so far (one that was read twice counts twice): 0 for a sound recording.
     Index nonFiniteCount() const { return m_nonFiniteCount.load(std::memory_order_relaxed); }
 

@@ -2,18 +2,25 @@
 
 #include "recording/RawRecording.h"
 
+#include <vector>
+
 namespace faintline {
 
 /// A SigMF recording: samples in one file (.sigmf-data), what they are in another (.sigmf-meta, JSON).
 ///
 /// Read are core:datatype, sample_rate, num_channels, offset, dataset, trailing_bytes and the first capture's
-/// sample_start, frequency, datetime and header_bytes; a note tells where later captures differ.
+/// sample_start, frequency, datetime and header_bytes; a note tells where later captures differ. Where captures'
+/// global_index grows by more than their sample_start, samples are missing: they keep their place in time, read as 0,
+/// and isWhole tells.
 /// Source: the SigMF specification, 1.2.
 class SigmfRecording final : public RawRecording
 {
 public:
     /// Takes either file's name; `iq` pairs real channels. Throws Error naming the file and key at fault.
     explicit SigmfRecording(const std::string &path, bool iq = false);
+
+    void read(int channel, Index first, Index count, std::span<float> out) const override;
+    bool isWhole(Index first, Index count) const override;
 
     /// Whether a name is one of the two.
     static bool isNamedSo(const std::string &path);
@@ -26,6 +33,18 @@ private:
     struct Meta;
     SigmfRecording(const std::string &path, const Meta &meta, bool iq);
     static Meta readMeta(const std::string &path);
+    static void addStretch(Meta &meta, Index start, Index globalIndex);
+
+    /// Samples of the file that lie together in time.
+    struct Stretch {
+        Index inTime; ///< the first one's place
+        Index inFile;
+    };
+    std::vector<Stretch>::const_iterator stretchOf(Index sample) const;
+    Index endOf(std::vector<Stretch>::const_iterator stretch) const; ///< in time
+
+    std::vector<Stretch> m_stretches; ///< ascending; none where nothing is missing
+    Index m_fileSamples = 0;
 };
 
 } // namespace faintline

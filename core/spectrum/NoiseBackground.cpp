@@ -90,6 +90,9 @@ const std::vector<Field<NormaliserSettings>> &NormaliserSettings::fields()
               "changes."),
         field(&S::followLevel, "followLevel",
               "Divide out sudden level changes of a whole band, such as bursts, gain steps and clicks."),
+        field(&S::causal, "causal",
+              "Estimate the background from the past alone, as a live run does; only the first block is estimated as a "
+              "whole. Tracks are then not followed backward."),
     };
     return table;
 }

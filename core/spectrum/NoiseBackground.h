@@ -17,6 +17,7 @@ struct NormaliserSettings {
     int halfWidthCells = 20;    ///< half the frequency window, in resolution cells
     double blockWindows = 48.0; ///< length of one time block, in T_FT
     bool followLevel = true; ///< divide out broad-band level changes shorter than a block (bursts, gain steps, clicks)
+    bool causal = false;     ///< from the past alone (CausalSpectrogram)
 
     static const std::vector<Field<NormaliserSettings>> &fields();
     bool operator==(const NormaliserSettings &) const = default;

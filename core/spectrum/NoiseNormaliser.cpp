@@ -1,63 +1,8 @@
 #include "spectrum/NoiseNormaliser.h"
 
-#include "base/fastmath.h"
-#include "base/multiversion.h"
-#include "spectrum/levels.h"
-#include "spectrum/medians.h"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
+#include "spectrum/normaliseFrame.h"
 
 namespace faintline {
-
-namespace {
-
-    constexpr float largestRatio = 1e30f;
-
-    // What every frame goes through, cell by cell and bin by bin.
-
-    inline float overPower(float y, float ln)
-    {
-        const float ratio = y * fastExp(-ln);
-        const float most = ratio < largestRatio ? ratio : largestRatio;
-        return ln <= 0.5f * NoiseBackground::silence ? 0.0f : most;
-    }
-
-    /// y ← y/B, ln B interpolated between cells: at a band's edge B falls by 20 dB from one cell to the next. One value
-    /// more than there are cells is given.
-    FAINTLINE_MULTIVERSION
-    void divideByBackground(float *y, std::size_t bins, const float *ln, double start, double perBin, double lastCell)
-    {
-        for (std::size_t bin = 0; bin < bins; ++bin) {
-            double position = start + static_cast<double>(static_cast<std::int32_t>(bin)) * perBin;
-            position = position > 0.0 ? position : 0.0;
-            position = position < lastCell ? position : lastCell;
-            const auto lower = static_cast<std::int32_t>(position);
-            const auto fraction = static_cast<float>(position - static_cast<double>(lower));
-            y[bin] = overPower(y[bin], ln[lower] + fraction * (ln[lower + 1] - ln[lower]));
-        }
-    }
-
-    /// The same where bins are cells.
-    FAINTLINE_MULTIVERSION
-    void divideBinByBin(float *y, std::size_t bins, const float *ln)
-    {
-        for (std::size_t bin = 0; bin < bins; ++bin)
-            y[bin] = overPower(y[bin], ln[bin]);
-    }
-
-    FAINTLINE_MULTIVERSION
-    Index countAbove(const float *values, Index count, float limit)
-    {
-        std::int32_t above = 0;
-        for (Index i = 0; i < count; ++i)
-            above += values[i] > limit ? 1 : 0;
-        return above;
-    }
-
-} // namespace
 
 NormalisedSpectrogram::NormalisedSpectrogram(std::shared_ptr<const Spectrogram> spectrogram,
                                              std::shared_ptr<const NoiseBackground> background,
@@ -73,57 +18,8 @@ void NormalisedSpectrogram::read(Index first, Index count, std::span<float> out)
     const auto cells = static_cast<std::size_t>(grid().size());
     std::vector<float> ln;
     for (Index i = 0; i < count; ++i)
-        normalise(first + i, out.subspan(static_cast<std::size_t>(i) * cells, cells), ln);
-}
-
-void NormalisedSpectrogram::normalise(Index frame, std::span<float> values, std::vector<float> &ln) const
-{
-    const NoiseBackground &b = *m_background;
-    const auto cells = static_cast<std::size_t>(b.frequency.count);
-    ln.resize(cells + 1);
-    b.readLnPower(time().value(static_cast<double>(frame)), std::span(ln).first(cells));
-    ln[cells] = ln[cells - 1];
-    const Axis &axis = grid().axes[0];
-    const double start = b.frequency.position(axis.first);
-    const double perBin = axis.step / b.frequency.step;
-    if (start == 0.0 && perBin == 1.0 && values.size() <= cells)
-        divideBinByBin(values.data(), values.size(), ln.data());
-    else
-        divideByBackground(values.data(), values.size(), ln.data(), start, perBin,
-                           static_cast<double>(b.frequency.count - 1));
-    if (m_settings.followLevel)
-        guardAgainstClicks(values);
-}
-
-void NormalisedSpectrogram::guardAgainstClicks(std::span<float> values) const
-{
-    // What is shorter than the spacing of the levels. In most frames counting is enough: the median of a sub-band
-    // exceeds a limit where more than half of its values do.
-    const double binsPerCell = m_spectrogram->binsPerCell();
-    const auto bands =
-        static_cast<std::size_t>(NoiseBackground::subBandCount(static_cast<double>(values.size()) / binsPerCell));
-    constexpr Index half = 20;
-    const double allowed = 1.0 + 4.0 * inverseLn2 / std::sqrt(2.0 * half + 1.0);
-    const auto limit = static_cast<float>(allowed * std::numbers::ln2_v<double>);
-    bool isLoud = false;
-    for (std::size_t band = 0; band < bands; ++band) {
-        const auto from = static_cast<std::ptrdiff_t>(band * values.size() / bands);
-        const auto to = static_cast<std::ptrdiff_t>((band + 1) * values.size() / bands);
-        isLoud = isLoud || 2 * countAbove(values.data() + from, to - from, limit) > to - from;
-    }
-    if (!isLoud)
-        return;
-    // The frame's own running median over frequency, which keeps the edges of what is loud.
-    const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(binsPerCell)));
-    std::vector<float> ln;
-    for (std::size_t bin = 0; bin < values.size(); bin += stride)
-        ln.push_back(std::log(std::max(values[bin], 1e-6f)));
-    const std::vector<float> medians = runningMedian(ln, half);
-    for (std::size_t bin = 0; bin < values.size(); ++bin) {
-        const float excess = std::exp(medians[bin / stride]) / limit;
-        if (excess > 1.0f)
-            values[bin] /= excess;
-    }
+        normaliseFrame(*m_spectrogram, *m_background, time().value(static_cast<double>(first + i)),
+                       m_settings.followLevel, out.subspan(static_cast<std::size_t>(i) * cells, cells), ln);
 }
 
 } // namespace faintline

@@ -23,9 +23,6 @@ public:
     const NoiseBackground &background() const { return *m_background; }
 
 private:
-    void normalise(Index frame, std::span<float> values, std::vector<float> &ln) const;
-    void guardAgainstClicks(std::span<float> values) const;
-
     std::shared_ptr<const Spectrogram> m_spectrogram;
     std::shared_ptr<const NoiseBackground> m_background;
     NormaliserSettings m_settings;

@@ -155,6 +155,8 @@ NormalisedPower::NormalisedPower(std::shared_ptr<const PowerFrames> power, const
 {
     const std::string &path = m_power->info().path;
     const Axis &frequency = grid().axes.front();
+    if (settings.causal)
+        throw fieldError("noise.causal", "true", "requires samples; " + path + " holds power over time and frequency");
     if (part.cells > mostCells)
         throw Error(path,
                     "has " + std::to_string(part.cells)

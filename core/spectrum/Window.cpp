@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace faintline {
 
@@ -103,6 +104,17 @@ double cellLikeness(const std::vector<float> &window)
     for (const float w : window)
         fourth += std::pow(static_cast<double>(w), 4.0);
     return fourth * static_cast<double>(window.size());
+}
+
+double overlapFactor(const std::vector<float> &window, int steps)
+{
+    double likenesses = 1.0;
+    for (std::ptrdiff_t shift = 1; shift < steps; ++shift) {
+        const std::ptrdiff_t lag = shift * std::ssize(window) / steps;
+        const double product = std::inner_product(window.begin() + lag, window.end(), window.begin(), 0.0);
+        likenesses += 2.0 * product * product;
+    }
+    return std::sqrt(likenesses);
 }
 
 double mainLobeHalfWidth(WindowShape shape)

@@ -21,6 +21,10 @@ std::vector<float> sampleWindow(WindowShape shape, int length);
 /// = 1, which is 1 for a rectangle and 35/18 for Hann's.
 double cellLikeness(const std::vector<float> &window);
 
+/// By how much the scatter of a mean over many successive frames, `steps` of them a window, exceeds that over as many
+/// independent ones.
+double overlapFactor(const std::vector<float> &window, int steps);
+
 /// Half the width of the main lobe, from its peak to its first zero, in resolution cells 1/T_FT.
 double mainLobeHalfWidth(WindowShape shape);
 

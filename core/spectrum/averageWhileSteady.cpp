@@ -40,76 +40,119 @@ namespace {
         }
     }
 
+    constexpr Index reach = 6; ///< blocks on either side
+
+    /// What all blocks' averages share.
+    class SteadyAverage
+    {
+    public:
+        SteadyAverage(const std::vector<float> &columns, const std::vector<float> &rows, Index cells, Index half,
+                      double framesUsed)
+            : m_columns(columns), m_rows(rows), m_cells(cells), m_half(half),
+              m_blocks(std::ssize(rows) / std::max<Index>(1, cells)), m_framesUsed(framesUsed),
+              m_lnMost(static_cast<float>(std::log(mostNoiseRatio(framesUsed)))),
+              m_tolerance(static_cast<std::size_t>(cells)), m_sum(m_tolerance.size()), m_count(m_tolerance.size()),
+              m_counts(m_tolerance.size()), m_goesOn(m_tolerance.size())
+        {
+            for (Index cell = 0; cell < cells; ++cell) {
+                const double inward =
+                    static_cast<double>(std::min({cell, cells - 1 - cell, half})) / static_cast<double>(half);
+                const double effective = pivotCells + (2.0 * static_cast<double>(half) + 1.0 - pivotCells) * inward;
+                m_tolerance[static_cast<std::size_t>(cell)] =
+                    static_cast<float>(4.0 * inverseLn2 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
+            }
+        }
+
+        Index blocks() const { return m_blocks; }
+
+        /// The background of one block, averaged with those on either side of it.
+        std::vector<float> backgroundOf(Index block)
+        {
+            const float *own = m_rows.data() + block * m_cells;
+            std::fill(m_sum.begin(), m_sum.end(), 0.0f);
+            std::fill(m_count.begin(), m_count.end(), 0.0f);
+            std::fill(m_goesOn.begin(), m_goesOn.end(), 1);
+            add(block, 0.0f, own);
+            double blocksAveraged = 1.0;
+            for (Index direction : {-1, 1}) {
+                std::fill(m_goesOn.begin(), m_goesOn.end(), 1);
+                for (Index i = 1; i <= reach; ++i) {
+                    const Index other = block + direction * i;
+                    if (other < 0 || other >= m_blocks)
+                        break;
+                    const float *smooth = m_rows.data() + other * m_cells;
+                    const float level = levelBetween(smooth, own, m_cells, m_framesUsed);
+                    if (std::abs(level) > 1.0f)
+                        break;
+                    for (std::size_t cell = 0; cell < m_tolerance.size(); ++cell)
+                        m_goesOn[cell] =
+                            m_goesOn[cell] && std::abs(smooth[cell] - level - own[cell]) <= m_tolerance[cell];
+                    add(other, level, own);
+                    blocksAveraged += 1.0;
+                }
+            }
+            std::vector<float> column(m_tolerance.size());
+            const float *medians = m_columns.data() + block * m_cells;
+            for (std::size_t cell = 0; cell < column.size(); ++cell)
+                column[cell] = m_count[cell] > 0.0f ? own[cell] + std::log(m_sum[cell] / m_count[cell]) : medians[cell];
+            std::vector<float> background = runningMedian(column, m_half);
+            refine(column, background, m_half,
+                   std::max(leastNoiseRatio, mostNoiseRatio(m_framesUsed * blocksAveraged)));
+            const float least = *std::min_element(own, own + m_cells); // the floor of rounding
+            for (float &value : background)
+                value = std::max(value, least);
+            return background;
+        }
+
+    private:
+        void add(Index other, float level, const float *own)
+        {
+            const float *values = m_columns.data() + other * m_cells;
+            const float *smooth = m_rows.data() + other * m_cells;
+            for (std::size_t cell = 0; cell < m_counts.size(); ++cell)
+                m_counts[cell] = m_goesOn[cell] && std::abs(values[cell] - smooth[cell]) < m_lnMost ? 1.0f : 0.0f;
+            addRatios(values, level, own, m_counts.data(), m_counts.size(), m_sum.data(), m_count.data());
+        }
+
+        const std::vector<float> &m_columns;
+        const std::vector<float> &m_rows;
+        Index m_cells;
+        Index m_half;
+        Index m_blocks;
+        double m_framesUsed;
+        float m_lnMost;
+        std::vector<float> m_tolerance;
+        std::vector<float> m_sum;
+        std::vector<float> m_count;
+        std::vector<float> m_counts;
+        std::vector<char> m_goesOn;
+    };
+
 } // namespace
 
 void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &rows, Index cells, Index half,
                         double framesUsed)
 {
-    constexpr Index reach = 6;
-    const Index blocks = std::ssize(rows) / std::max<Index>(1, cells);
-    std::vector<float> tolerance(static_cast<std::size_t>(cells));
-    for (Index cell = 0; cell < cells; ++cell) {
-        const double inward = static_cast<double>(std::min({cell, cells - 1 - cell, half})) / static_cast<double>(half);
-        const double effective = pivotCells + (2.0 * static_cast<double>(half) + 1.0 - pivotCells) * inward;
-        tolerance[static_cast<std::size_t>(cell)] =
-            static_cast<float>(4.0 * inverseLn2 * std::sqrt(2.0 / (framesUsed * effective / 2.0)));
-    }
-    const double mostRatio = mostNoiseRatio(framesUsed);
-    const auto lnMost = static_cast<float>(std::log(mostRatio));
-    std::vector<float> sum(tolerance.size());
-    std::vector<float> count(tolerance.size());
-    std::vector<float> counts(tolerance.size());
-    std::vector<char> goesOn(tolerance.size());
+    SteadyAverage average(columns, rows, cells, half, framesUsed);
     std::deque<std::vector<float>> finished; // the last blocks, whose own medians are still asked for
-    for (Index block = 0; block < blocks; ++block) {
-        const float *own = rows.data() + block * cells;
-        std::fill(sum.begin(), sum.end(), 0.0f);
-        std::fill(count.begin(), count.end(), 0.0f);
-        const auto add = [&](Index other, float level) {
-            const float *values = columns.data() + other * cells;
-            const float *smooth = rows.data() + other * cells;
-            for (std::size_t cell = 0; cell < counts.size(); ++cell)
-                counts[cell] = goesOn[cell] && std::abs(values[cell] - smooth[cell]) < lnMost ? 1.0f : 0.0f;
-            addRatios(values, level, own, counts.data(), counts.size(), sum.data(), count.data());
-        };
-        std::fill(goesOn.begin(), goesOn.end(), 1);
-        add(block, 0.0f);
-        double blocksAveraged = 1.0;
-        for (Index direction : {-1, 1}) {
-            std::fill(goesOn.begin(), goesOn.end(), 1);
-            for (Index i = 1; i <= reach; ++i) {
-                const Index other = block + direction * i;
-                if (other < 0 || other >= blocks)
-                    break;
-                const float *smooth = rows.data() + other * cells;
-                const float level = levelBetween(smooth, own, cells, framesUsed);
-                if (std::abs(level) > 1.0f)
-                    break;
-                for (std::size_t cell = 0; cell < tolerance.size(); ++cell)
-                    goesOn[cell] = goesOn[cell] && std::abs(smooth[cell] - level - own[cell]) <= tolerance[cell];
-                add(other, level);
-                blocksAveraged += 1.0;
-            }
-        }
-        std::vector<float> column(tolerance.size());
-        const float *medians = columns.data() + block * cells;
-        for (std::size_t cell = 0; cell < column.size(); ++cell)
-            column[cell] = count[cell] > 0.0f ? own[cell] + std::log(sum[cell] / count[cell]) : medians[cell];
-        std::vector<float> background = runningMedian(column, half);
-        refine(column, background, half, std::max(leastNoiseRatio, mostNoiseRatio(framesUsed * blocksAveraged)));
-        const float least = *std::min_element(own, own + cells); // the floor of rounding
-        for (float &value : background)
-            value = std::max(value, least);
-        finished.push_back(std::move(background));
+    for (Index block = 0; block < average.blocks(); ++block) {
+        finished.push_back(average.backgroundOf(block));
         if (std::ssize(finished) > reach) {
             std::copy(finished.front().begin(), finished.front().end(), columns.begin() + (block - reach) * cells);
             finished.pop_front();
         }
     }
-    for (Index block = blocks - std::ssize(finished); block < blocks; ++block) {
+    for (Index block = average.blocks() - std::ssize(finished); block < average.blocks(); ++block) {
         std::copy(finished.front().begin(), finished.front().end(), columns.begin() + block * cells);
         finished.pop_front();
     }
+}
+
+std::vector<float> averageOfLatest(const std::vector<float> &columns, const std::vector<float> &rows, Index cells,
+                                   Index half, double framesUsed)
+{
+    SteadyAverage average(columns, rows, cells, half, framesUsed);
+    return average.backgroundOf(average.blocks() - 1);
 }
 
 } // namespace faintline

@@ -19,4 +19,8 @@ namespace faintline {
 void averageWhileSteady(std::vector<float> &columns, const std::vector<float> &rows, Index cells, Index half,
                         double framesUsed);
 
+/// The same of the last block alone: a background from what came before, with the six blocks before it at most.
+std::vector<float> averageOfLatest(const std::vector<float> &columns, const std::vector<float> &rows, Index cells,
+                                   Index half, double framesUsed);
+
 } // namespace faintline

@@ -34,28 +34,6 @@ namespace {
         return std::log(mean) + static_cast<float>(0.5 * scatter * scatter);
     }
 
-    /// Mean of one row over another, of the cells of noise in each sub-band and in the whole band, ln.
-    std::vector<double> between(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise,
-                                Index cells, Index bands)
-    {
-        std::vector<double> result(static_cast<std::size_t>(bands + 1), 0.0);
-        std::vector<double> counts(result.size(), 0.0);
-        for (Index band = 0; band < bands; ++band)
-            for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
-                if (isNoise[cell]) {
-                    result[static_cast<std::size_t>(band)] += static_cast<double>(upper[cell] - lower[cell]);
-                    counts[static_cast<std::size_t>(band)] += 1.0;
-                }
-        result.back() = std::accumulate(result.begin(), result.end(), 0.0);
-        counts.back() = std::accumulate(counts.begin(), counts.end(), 0.0);
-        for (std::size_t column = 0; column < result.size(); ++column)
-            result[column] = counts[column] > 0.0 ? result[column] / counts[column] : 0.0;
-        for (std::size_t column = 0; column < result.size(); ++column)
-            if (counts[column] == 0.0) // its level is the common one
-                result[column] = result.back();
-        return result;
-    }
-
     /// Gives silence the level of what was before it, or of what comes first.
     void bridgeSilence(std::vector<float> &series)
     {
@@ -202,6 +180,27 @@ void removeOffsets(std::vector<float> &levels, const std::vector<LevelOffsets> &
             levels[i] -= taken[static_cast<std::size_t>(blockOfLevel[i / columns])][i % columns];
 }
 
+std::vector<double> meanOver(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise,
+                             Index cells, Index bands)
+{
+    std::vector<double> result(static_cast<std::size_t>(bands + 1), 0.0);
+    std::vector<double> counts(result.size(), 0.0);
+    for (Index band = 0; band < bands; ++band)
+        for (Index cell = firstCell(band, bands, cells); cell < endCell(band, bands, cells); ++cell)
+            if (isNoise[cell]) {
+                result[static_cast<std::size_t>(band)] += static_cast<double>(upper[cell] - lower[cell]);
+                counts[static_cast<std::size_t>(band)] += 1.0;
+            }
+    result.back() = std::accumulate(result.begin(), result.end(), 0.0);
+    counts.back() = std::accumulate(counts.begin(), counts.end(), 0.0);
+    for (std::size_t column = 0; column < result.size(); ++column)
+        result[column] = counts[column] > 0.0 ? result[column] / counts[column] : 0.0;
+    for (std::size_t column = 0; column < result.size(); ++column)
+        if (counts[column] == 0.0) // its level is the common one
+            result[column] = result.back();
+    return result;
+}
+
 void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const NoiseBackground &background,
                       const std::vector<Index> &blockOfLevel)
 {
@@ -216,8 +215,8 @@ void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const N
         if (block != known)
             for (Index side = -1; side <= 1; ++side)
                 over[static_cast<std::size_t>(side + 1)] =
-                    between(own, background.lnPower.data() + std::clamp<Index>(block + side, 0, last) * cells,
-                            rows.isNoise.begin() + block * cells, cells, background.bandCount);
+                    meanOver(own, background.lnPower.data() + std::clamp<Index>(block + side, 0, last) * cells,
+                             rows.isNoise.begin() + block * cells, cells, background.bandCount);
         known = block;
         if (own[0] <= silence)
             continue;

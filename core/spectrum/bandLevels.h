@@ -52,6 +52,11 @@ struct BlockRows {
 void moveToBackground(std::vector<float> &levels, const BlockRows &rows, const NoiseBackground &background,
                       const std::vector<Index> &blockOfLevel);
 
+/// Mean of one row of ln powers over another, of the cells of noise in each of `bands` sub-bands and, last, in the whole
+/// band.
+std::vector<double> meanOver(const float *upper, const float *lower, std::vector<bool>::const_iterator isNoise,
+                             Index cells, Index bands);
+
 /// From the levels measured to those that count, per sub-band: what the common level does beyond its errors, then what
 /// a sub-band does besides.
 std::vector<float> finishLevels(const std::vector<float> &levels, const NoiseBackground &background, double overlap,

@@ -5,12 +5,12 @@
 #include "spectrum/averageWhileSteady.h"
 #include "spectrum/bandLevels.h"
 #include "spectrum/blockBackground.h"
+#include "spectrum/coarseFrames.h"
 #include "spectrum/unevenness.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace faintline {
 
@@ -43,19 +43,6 @@ namespace {
         return result;
     }
 
-    /// By how much the scatter of a mean over many successive frames exceeds that over as many independent ones.
-    double overlapFactor(const Spectrogram &windows, Index steps)
-    {
-        const std::vector<float> window = sampleWindow(windows.settings().window, windows.windowSamples());
-        double likenesses = 1.0;
-        for (Index shift = 1; shift < steps; ++shift) {
-            const Index lag = shift * windows.windowSamples() / steps;
-            const double product = std::inner_product(window.begin() + lag, window.end(), window.begin(), 0.0);
-            likenesses += 2.0 * product * product;
-        }
-        return std::sqrt(likenesses);
-    }
-
 } // namespace
 
 std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spectrogram,
@@ -63,19 +50,9 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
                                                           BackgroundDepth depth)
 {
     const bool isSketch = depth == BackgroundDepth::Sketch;
-    SpectrogramSettings coarse = spectrogram.settings();
-    coarse.windowSeconds = spectrogram.windowSeconds();
-    coarse.stepsPerWindow = 1;
-    coarse.binsPerCell = 1;
-    // The band's neighbourhood belongs to the estimate: a narrow band has no noise of its own to speak of.
-    SelectionSettings wide = spectrogram.selection();
-    if (wide.lowHz < wide.highHz) {
-        const double margin = 2.0 * settings.halfWidthCells / coarse.windowSeconds;
-        wide.lowHz -= margin;
-        wide.highHz += margin;
-    }
-    const Spectrogram frames(spectrogram.recordingPointer(), coarse, wide);
-    const double likeness = cellLikeness(sampleWindow(coarse.window, frames.windowSamples()));
+    const Spectrogram frames = coarseFrames(spectrogram, settings, 1);
+    const std::vector<float> window = sampleWindow(frames.settings().window, frames.windowSamples());
+    const double likeness = cellLikeness(window);
 
     const Index frameCount = frames.time().count;
     const Index cells = frames.frequency().count;
@@ -170,7 +147,7 @@ std::shared_ptr<const NoiseBackground> estimateBackground(const Spectrogram &spe
         removeOffsets(levels, offsets, blockOfLevel);
         moveToBackground(levels, rows, *background, blockOfLevel);
     }
-    const double overlap = overlapFactor(frames, steps);
+    const double overlap = overlapFactor(window, static_cast<int>(steps));
     background->lnLevel = finishLevels(levels, *background, overlap, likeness);
     if (background->bandCount == 0 || stride > 1)
         return background;

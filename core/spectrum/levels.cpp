@@ -154,4 +154,40 @@ std::vector<float> beyondScatter(const std::vector<float> &series, double scatte
     return result;
 }
 
+float latestBeyondScatter(std::span<const float> series, double scatter)
+{
+    // As in beyondScatter, with all neighbours on one side; what is short is seen by the newest detail itself.
+    struct Neighbourhood {
+        std::ptrdiff_t before;
+        double chance;
+    };
+    constexpr std::array<Neighbourhood, 2> neighbourhoods{{{0, 8.0}, {24, 1.8}}};
+    const std::ptrdiff_t n = std::ssize(series);
+    std::vector<double> rest(series.begin(), series.end());
+    std::vector<double> detail(rest.size());
+    double kept = 0.0;
+    for (int scale = 0; scale < scales && (std::ptrdiff_t(2) << scale) <= n; ++scale) {
+        const std::ptrdiff_t lag = std::ptrdiff_t(1) << scale;
+        const std::ptrdiff_t first = 2 * lag - 1; // value whose mean lies in the series
+        for (std::ptrdiff_t i = n - 1; i >= first; --i) {
+            const auto at = static_cast<std::size_t>(i);
+            detail[at] = 0.5 * (rest[at] - rest[static_cast<std::size_t>(i - lag)]);
+            rest[at] -= detail[at];
+        }
+        const double variance = scatter * scatter / static_cast<double>(2 * lag);
+        double factor = 0.0;
+        for (const Neighbourhood &near : neighbourhoods) {
+            const std::ptrdiff_t from = std::max(first, n - 1 - near.before * lag);
+            double mean = 0.0;
+            for (std::ptrdiff_t i = from; i < n; ++i)
+                mean += detail[static_cast<std::size_t>(i)] * detail[static_cast<std::size_t>(i)];
+            mean /= static_cast<double>(n - from);
+            if (mean > near.chance * variance)
+                factor = std::max(factor, 1.0 - variance / mean);
+        }
+        kept += factor * detail.back();
+    }
+    return static_cast<float>(kept + rest.back());
+}
+
 } // namespace faintline

@@ -45,4 +45,13 @@ float truncatedMean(std::span<const float> cells, float guess);
 /// some hundred operations a value.
 std::vector<float> beyondScatter(const std::vector<float> &series, double scatter);
 
+/// The last of a series of levels, as far as it is beyond its scatter, from that value and those before it alone: the
+/// same with a one-sided transform,
+///
+///   c_{j+1}(i) = ½ c_j(i) + ½ c_j(i - 2ʲ),  d_j = c_j - c_{j+1},
+///
+/// in which c_j is the mean of the last 2ʲ values. A steady level is averaged over 128 values, if there are as many.
+/// Source: Murtagh, Starck and Renaud, On neuro-wavelet modeling, Decision Support Systems 37 (2004), section 3.
+float latestBeyondScatter(std::span<const float> series, double scatter);
+
 } // namespace faintline

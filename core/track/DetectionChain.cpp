@@ -1,7 +1,6 @@
 #include "track/DetectionChain.h"
 
 #include "base/memoryShares.h"
-#include "track/joinTracks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -477,15 +476,29 @@ void DetectionChain::finish()
     std::sort(m_ended.begin(), m_ended.end(), [](const Track &a, const Track &b) { return a.id < b.id; });
 }
 
-std::vector<Track> DetectionChain::takeJoinedTracks()
+std::vector<Track> DetectionChain::takeEnded()
+{
+    return std::exchange(m_ended, {});
+}
+
+Index DetectionChain::longestRunUp() const
+{
+    return m_settings.onsetFrames > 0 ? std::min(m_settings.onsetFrames, longestPath()) : longestPath();
+}
+
+JoinRule DetectionChain::joinRule() const
 {
     std::vector<Index> reach = m_trackerModels.front()->reach;
     for (const auto &model : m_trackerModels)
         for (std::size_t axis = 0; axis < reach.size(); ++axis)
             reach[axis] = std::max(reach[axis], model->reach[axis]);
-    return joinTracks(std::exchange(m_ended, {}), m_grid,
-                      {m_trackerModels.front()->threshold, m_settings.track.smoothingFrames, m_settings.linkCells,
-                       reach, m_trackerModels.front()->halfWidth});
+    return {m_trackerModels.front()->threshold, m_settings.track.smoothingFrames, m_settings.linkCells, reach,
+            m_trackerModels.front()->halfWidth, m_settings.keepsNumbers};
+}
+
+std::vector<Track> DetectionChain::takeJoinedTracks()
+{
+    return joinTracks(takeEnded(), m_grid, joinRule());
 }
 
 } // namespace faintline

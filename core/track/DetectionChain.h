@@ -7,6 +7,7 @@
 #include "track/HmmTracker.h"
 #include "track/PlaceIndex.h"
 #include "track/Track.h"
+#include "track/joinTracks.h"
 
 #include <deque>
 #include <functional>
@@ -36,9 +37,10 @@ struct ChainSettings {
     /// How far back the beginning of a new track is looked for; 0: as far as its path goes. 1: no traceback, no past is
     /// kept.
     Index onsetFrames = 0;
-    bool feedback = true; ///< false: detector only, no reset, no inhibition, no tracks
-    bool resets = true;   ///< the detector forgets what a track has taken over
-    bool inhibits = true; ///< y is inhibited around the tracks
+    bool feedback = true;      ///< false: detector only, no reset, no inhibition, no tracks
+    bool resets = true;        ///< the detector forgets what a track has taken over
+    bool inhibits = true;      ///< y is inhibited around the tracks
+    bool keepsNumbers = false; ///< of tracks that are joined, the first one's number stays, and no other takes a gap's
     /// Half-width along the last axis over which a signal of power y leaks into its neighbours; may be empty.
     std::function<Index(double y)> leakageExtent;
     /// Bins of one resolution cell along the last axis: a strong signal's skirts are followed outward in such steps; 0:
@@ -86,6 +88,12 @@ public:
     void finish();
 
     const std::vector<Track> &tracks() const { return m_ended; }
+    /// Those that have ended since they were last taken, in the order of their ends; handed over. Under what rule they
+    /// are joined once there are no more of them.
+    std::vector<Track> takeEnded();
+    JoinRule joinRule() const;
+    /// A track begins at most so many frames before its detection, that one included.
+    Index longestRunUp() const;
     /// The same after the end, those that are pieces of one signal joined; handed over, so that there are none left.
     std::vector<Track> takeJoinedTracks();
     const std::vector<HmmTracker> &trackers() const { return m_trackers; }

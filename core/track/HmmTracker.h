@@ -99,6 +99,9 @@ public:
     const Track &track() const { return m_track; }
     Index age() const { return m_age; } ///< frames since detection, that one included
 
+    /// The track goes on to this frame at least, whatever comes: its end is put where its level's final fall begins.
+    Index earliestEnd() const { return m_track.detectFrame + m_fallFrame; }
+
     /// A track that this one was beside in one frame after the other, up to now.
     struct Beside {
         int track = 0;

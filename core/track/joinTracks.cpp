@@ -91,29 +91,38 @@ namespace {
 
 } // namespace
 
+int joinTrack(std::vector<Track> &joined, Track track, const Grid &grid, const JoinRule &rule)
+{
+    Track *best = nullptr;
+    Joint joint;
+    for (Track &earlier : joined) {
+        if (earlier.endFrame >= track.detectFrame || isOutOfReach(earlier.endFrame, track.onsetFrame, rule))
+            continue;
+        const Joint candidate = jointOf(earlier, track, grid, rule);
+        const bool isBetter = !best || candidate.gapFrames < joint.gapFrames
+                              || (candidate.gapFrames == joint.gapFrames && candidate.distance < joint.distance);
+        if (candidate.isFound && isBetter) {
+            best = &earlier;
+            joint = candidate;
+        }
+    }
+    if (best) {
+        append(*best, track, joint, grid);
+        return best->id;
+    }
+    const int id = track.id;
+    const auto behind =
+        std::find_if(joined.rbegin(), joined.rend(), [id](const Track &earlier) { return earlier.id <= id; });
+    joined.insert(behind.base(), std::move(track));
+    return id;
+}
+
 std::vector<Track> joinTracks(std::vector<Track> tracks, const Grid &grid, const JoinRule &rule)
 {
     std::vector<Track> joined;
-    for (Track &track : tracks) {
-        Track *best = nullptr;
-        Joint joint;
-        for (Track &earlier : joined) {
-            if (earlier.endFrame >= track.detectFrame || earlier.endFrame + rule.largestGapFrames < track.onsetFrame)
-                continue;
-            const Joint candidate = jointOf(earlier, track, grid, rule);
-            const bool isBetter = !best || candidate.gapFrames < joint.gapFrames
-                                  || (candidate.gapFrames == joint.gapFrames && candidate.distance < joint.distance);
-            if (candidate.isFound && isBetter) {
-                best = &earlier;
-                joint = candidate;
-            }
-        }
-        if (best)
-            append(*best, track, joint, grid);
-        else
-            joined.push_back(std::move(track));
-    }
-    for (std::size_t i = 0; i < joined.size(); ++i)
+    for (Track &track : tracks)
+        joinTrack(joined, std::move(track), grid, rule);
+    for (std::size_t i = 0; i < joined.size() && !rule.keepsNumbers; ++i)
         joined[i].id = static_cast<int>(i) + 1;
     return joined;
 }

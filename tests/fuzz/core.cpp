@@ -16,6 +16,7 @@
 #include "exchange/NumPy.h"
 #include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
+#include "live/wavHeader.h"
 #include "recording/PingTruth.h"
 #include "recording/ScanScene.h"
 #include "recording/SimulatedRecording.h"
@@ -24,6 +25,7 @@
 #include "spectrum/SimulatedPings.h"
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stop_token>
@@ -89,6 +91,20 @@ void readWindowExport(const Input &input)
     }
 }
 
+void readStream(const Input &input)
+{
+    std::size_t at = 0;
+    readWavHeader(
+        [&](std::span<std::byte> bytes) {
+            if (input.text.size() - at < bytes.size())
+                return false;
+            std::memcpy(bytes.data(), input.text.data() + at, bytes.size());
+            at += bytes.size();
+            return true;
+        },
+        "stream");
+}
+
 void readNames(const Input &input)
 {
     if (fileNameFromText(textFromFileName(input.text)) != input.text)
@@ -135,6 +151,7 @@ const std::vector<Parser> &faintline::fuzz::parsers()
         {"calibration", ".json", readCalibration},
         {"json", ".json", [](const Input &input) { parseJson(input.text, "json"); }},
         {"names", ".txt", readNames},
+        {"wavStream", ".wav", readStream},
         {"provenance", ".json", [](const Input &input) { cli::readProvenance(input.path); }},
         {"windowExport", ".json", readWindowExport},
     };

@@ -19,6 +19,8 @@ private slots:
     void eitherNameOpens();
     void offsetMovesTheStart();
     void captureWithAnotherFrequency();
+    void gapsKeepTheirPlaces_data();
+    void gapsKeepTheirPlaces();
     void datasetOfAnotherName();
     void realPairsAsIq();
     void badMetadata_data();
@@ -98,6 +100,59 @@ void tst_SigmfRecording::captureWithAnotherFrequency()
     const SigmfRecording recording(write(meta));
     QCOMPARE(recording.info().centreHz, 77500.0);
     QVERIFY(contains(recording.info().notes.at(0), "From sample 1 on, another capture has the centre frequency 99 Hz"));
+}
+
+// Bytes 0 … 19 as samples, 0 where nothing was heard. What makes no sense is told and left out.
+void tst_SigmfRecording::gapsKeepTheirPlaces_data()
+{
+    QTest::addColumn<QByteArray>("captures");
+    QTest::addColumn<QByteArray>("expected"); // a letter a sample, a dot for a gap
+    QTest::addColumn<int>("notes");
+    const auto capture = [](const char *start, const char *global) {
+        return QByteArray(R"({"core:sample_start": )") + start + R"(, "core:global_index": )" + global + "}";
+    };
+    QTest::newRow("no index") << QByteArray(R"({"core:sample_start": 0}, {"core:sample_start": 5})")
+                              << QByteArray("abcdefghijklmnopqrst") << 0;
+    QTest::newRow("no gap") << capture("0", "1000") + "," + capture("7", "1007") << QByteArray("abcdefghijklmnopqrst")
+                            << 0;
+    QTest::newRow("two gaps") << capture("0", "1000") + "," + capture("3", "1005") + "," + capture("10", "1013")
+                              << QByteArray("abc..defghij.klmnopqrst") << 1;
+    QTest::newRow("one after the other") << capture("0", "0") + "," + capture("3", "4") + "," + capture("3", "6")
+                                         << QByteArray("abc...defghijklmnopqrst") << 1;
+    QTest::newRow("from the second capture on")
+        << QByteArray(R"({"core:sample_start": 0},)") + capture("2", "9") + "," + capture("4", "13")
+        << QByteArray("abcd..efghijklmnopqrst") << 1;
+    QTest::newRow("behind the end of the file")
+        << capture("0", "0") + "," + capture("20", "25") << QByteArray("abcdefghijklmnopqrst") << 0;
+    QTest::newRow("backward") << capture("0", "50") + "," + capture("7", "40") << QByteArray("abcdefghijklmnopqrst")
+                              << 1;
+    QTest::newRow("in a thousand years") << capture("0", "0") + "," + capture("7", "9000000000000000")
+                                         << QByteArray("abcdefghijklmnopqrst") << 1;
+    QTest::newRow("no number") << capture("0", "\"zero\"") + "," + capture("7", "-5")
+                               << QByteArray("abcdefghijklmnopqrst") << 0;
+}
+
+void tst_SigmfRecording::gapsKeepTheirPlaces()
+{
+    QFETCH(QByteArray, captures);
+    QFETCH(QByteArray, expected);
+    QFETCH(int, notes);
+    writeBytes(path("a.sigmf-data"), "abcdefghijklmnopqrst");
+    const SigmfRecording recording(
+        write(R"({"global": {"core:datatype": "ri8", "core:sample_rate": 100}, "captures": [)" + captures + "]}"));
+    QCOMPARE(static_cast<int>(recording.info().notes.size()), notes);
+    QCOMPARE(recording.info().sampleCount, Index(expected.size()));
+    QByteArray heard;
+    for (const float value : readAll(recording))
+        heard.append(value == 0.0f ? '.' : static_cast<char>(std::lround(value * 128.0f)));
+    QCOMPARE(heard, expected);
+    QVERIFY(readInPieces(recording, 4) == readAll(recording));
+    for (Index first = 0; first < expected.size(); ++first)
+        for (Index count = 1; first + count <= expected.size(); ++count)
+            QCOMPARE(recording.isWhole(first, count), !expected.mid(first, count).contains('.'));
+    std::vector<float> beyond(8, 1.0f);
+    recording.read(0, recording.info().sampleCount - 2, 8, beyond);
+    QCOMPARE(std::count(beyond.begin(), beyond.end(), 0.0f), 6);
 }
 
 void tst_SigmfRecording::datasetOfAnotherName()

@@ -203,6 +203,9 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
                                  const RunContext &context)
     : m_experiment(experiment)
 {
+    if (experiment.settings.noise.causal)
+        throw fieldError("noise.causal", "true",
+                         "is not possible in this experiment, which estimates the noise once for all trials");
     auto shared = std::make_unique<Shared>();
     shared->recording = std::move(recording);
     shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram,

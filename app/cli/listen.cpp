@@ -1,0 +1,262 @@
+#include "app/cli/commands.h"
+
+#include "base/AtomicFile.h"
+#include "base/json.h"
+#include "exchange/writeEvents.h"
+#include "live/EventCommand.h"
+#include "live/PipeSource.h"
+#include "live/RtlTcpSource.h"
+#include "live/UdpSource.h"
+#include "live/eventLines.h"
+#include "live/listen.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+namespace faintline::cli {
+
+namespace {
+
+    struct ListenOptions {
+        AnalysisOptions analysis;
+        std::string out;
+        std::string events;
+        std::string record;
+        double rotateMegabytes = 0.0;
+        double rotateMinutes = 0.0;
+        double updateSeconds = 10.0;
+        std::vector<std::string> onEvent;
+        std::string udp;
+        std::string udpSequence;
+        std::string rtlTcp;
+        ReceiverSettings receiver;
+        std::optional<double> gainDb;
+    };
+
+    /// Where lines of JSON go: standard output or the end of a file, each at once.
+    class LineFile
+    {
+    public:
+        explicit LineFile(const std::string &path) : m_path(path), m_file(path.empty() ? stdout : openAppending(path))
+        {
+        }
+        ~LineFile()
+        {
+            if (m_file != stdout)
+                std::fclose(m_file);
+        }
+        LineFile(const LineFile &) = delete;
+        LineFile &operator=(const LineFile &) = delete;
+
+        void write(const std::string &line)
+        {
+            std::fputs((line + "\n").c_str(), m_file);
+            m_isSound = std::fflush(m_file) == 0 && m_isSound;
+        }
+
+        /// Throws where any of it could not be written; of standard output the program tells at its end.
+        void check() const
+        {
+            if (!m_isSound && m_file != stdout)
+                throw Error(m_path, "could not be written completely", Error::Kind::Failure);
+        }
+
+    private:
+        static std::FILE *openAppending(const std::string &path)
+        {
+            std::FILE *file = std::fopen(path.c_str(), "ae");
+            if (!file)
+                throw Error(path, "cannot be written");
+            return file;
+        }
+
+        std::string m_path;
+        std::FILE *m_file;
+        bool m_isSound = true;
+    };
+
+    std::unique_ptr<SampleSource> sourceOf(const ListenOptions &options, const std::stop_token &stop)
+    {
+        const OpenOptions &open = options.analysis.open;
+        const int given = !options.analysis.file.empty() + !options.udp.empty() + !options.rtlTcp.empty();
+        if (given != 1)
+            throw Error("listen", "requires one source: FILE (- is standard input), --udp or --rtl-tcp");
+        if (!options.rtlTcp.empty()) {
+            ReceiverSettings receiver = options.receiver;
+            receiver.sampleRateHz = open.rawRateHz;
+            receiver.gainDb = options.gainDb;
+            if (!(receiver.frequencyHz > 0.0) || !(receiver.sampleRateHz > 0.0))
+                throw Error("--rtl-tcp", "requires --frequency and --raw-rate, both in Hz");
+            return std::make_unique<RtlTcpSource>(options.rtlTcp, receiver);
+        }
+        std::optional<StreamFormat> raw;
+        if (!open.rawType.empty()) {
+            if (!(open.rawRateHz > 0.0))
+                throw Error("--raw-type", "requires the sample rate in Hz (such as --raw-rate 48000)");
+            raw = StreamFormat{parseSampleType(open.rawType, "--raw-type"), open.rawRateHz, open.rawChannels, 0.0, {}};
+        }
+        if (!options.udp.empty()) {
+            if (!raw)
+                throw Error("--udp", "requires --raw-type and --raw-rate");
+            return std::make_unique<UdpSource>(options.udp, *raw, parseSequenceNumbers(options.udpSequence));
+        }
+        return std::make_unique<PipeSource>(options.analysis.file, raw, stop);
+    }
+
+    /// Its channels taken as I and Q, if asked for.
+    StreamFormat withIq(StreamFormat format)
+    {
+        if (format.type.isComplex)
+            return format;
+        if (format.channelCount % 2 != 0)
+            throw Error(format.origin,
+                        "has " + std::to_string(format.channelCount) + " channel(s); I/Q needs an even number");
+        format.type.isComplex = true;
+        format.channelCount /= 2;
+        return format;
+    }
+
+    /// A source whose channels are pairs.
+    class IqSource final : public SampleSource
+    {
+    public:
+        explicit IqSource(std::unique_ptr<SampleSource> source)
+            : m_source(std::move(source)), m_format(withIq(m_source->format()))
+        {
+        }
+        const StreamFormat &format() const override { return m_format; }
+        Heard hear(std::chrono::milliseconds patience) override { return m_source->hear(patience); }
+        bool isPatient() const override { return m_source->isPatient(); }
+
+    private:
+        std::unique_ptr<SampleSource> m_source;
+        StreamFormat m_format;
+    };
+
+    /// The line of JSON at the beginning: what is listened to, and how.
+    std::string startedLine(const StreamFormat &format, const AnalysisSettings &settings)
+    {
+        Json line;
+        line["notice"] = "started";
+        line["source"] = format.origin;
+        line["sampleType"] = format.type.name();
+        line["sampleRateHz"] = format.sampleRateHz;
+        line["channels"] = format.channelCount;
+        line["settings"] = parseJson(settingsToJson(settings), "settings");
+        return line.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+
+    void listenTo(SampleSource &source, const ListenOptions &options, const ListenSettings &settings,
+                  const RunContext &context)
+    {
+        LineFile lines(options.out);
+        std::optional<EventCommand> command;
+        if (!options.onEvent.empty())
+            command.emplace(options.onEvent);
+        const StreamFormat format = source.format();
+        lines.write(startedLine(format, settingsForListening(settings.analysis, format)));
+        ListenSinks sinks;
+        sinks.event = [&](const EventChange &change, const AnalysisPlan &plan) {
+            const std::string line = eventLine(change, plan.grid(), plan.recording->info().startUnixSeconds);
+            lines.write(line);
+            if (command)
+                command->run(line);
+        };
+        sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
+            lines.write(noticeLine(notice, format));
+        };
+        const ListenResult result = listen(source, settings, sinks, context);
+        std::string words = std::to_string(result.events.size()) + " event(s)";
+        if (!result.isAnalysedToTheEnd)
+            words += "; not all that was heard was analysed before the end";
+        if (command && command->leftOutCount() > 0)
+            words += "; " + std::to_string(command->leftOutCount())
+                     + " call(s) of --on-event were left out, because 16 were running";
+        lines.write(noticeLine({ListenNotice::Kind::Stopped, result.sampleCount, result.lostCount, words}, format));
+        lines.check();
+        if (!options.events.empty()) {
+            if (!result.plan.frames)
+                throw Error(options.events,
+                            "was not written: " + format.origin + " ended before one window was complete",
+                            Error::Kind::Failure);
+            const bool isCsv = options.events.ends_with(".csv");
+            // A disk may take longer than a request to stop is patient.
+            writeTextFile(options.events,
+                          isCsv ? eventsCsv(result.plan, result.events) : eventsJson(result.plan, result.events),
+                          Durability::Program);
+        }
+        if (!result.isRecordedWhole)
+            throw Error(options.record, "the recording is incomplete; the notices tell where it ends",
+                        Error::Kind::Failure);
+    }
+
+    void listen(const ListenOptions &options, const Common &common)
+    {
+        if (common.read || common.written)
+            throw Error("listen", "what was heard cannot be replayed; detect in its recording");
+        if (!options.events.empty() && !options.events.ends_with(".csv") && !options.events.ends_with(".json"))
+            throw Error(options.events, "the file name must end in .csv or .json");
+        checkOutputs({options.events});
+        AnalysisOptions analysis = options.analysis;
+        analysis.file.clear(); // it can be read once
+        ListenSettings settings;
+        settings.analysis = analysis.settings();
+        settings.recordPath = options.record;
+        settings.rotation = {options.rotateMegabytes * 1e6, options.rotateMinutes * 60.0};
+        settings.updateSeconds = options.updateSeconds;
+        RunContext context = common.context();
+        context.progress = {}; // there is no end to be nearer to
+        try {
+            std::unique_ptr<SampleSource> source = sourceOf(options, common.stop);
+            if (options.analysis.open.iq)
+                source = std::make_unique<IqSource>(std::move(source));
+            listenTo(*source, options, settings, context);
+        } catch (const Cancelled &) { // stopped before the stream began
+        }
+    }
+
+} // namespace
+
+void addListen(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<ListenOptions>();
+    CLI::App *command = app.add_subcommand("listen", "Detect in samples while they come in, with a causal background");
+    options->analysis.addTo(*command, common);
+    command->get_option("FILE")
+        ->description("Standard input (-) or a FIFO: a WAV stream, or raw samples with --raw-type and --raw-rate")
+        ->required(false);
+    command->remove_option(command->get_option("--raw-header"));
+    addOutput(*command, common, "--out", options->out,
+              "Append the changes of events, one JSON object a line, to a file; without it they go to standard output");
+    addOutput(*command, common, "--events", options->events, "Write the final events at the end: .csv or .json");
+    addOutput(*command, common, "--record", options->record,
+              "Record all that is heard, with its gaps: .sigmf-meta; an existing file is not overwritten");
+    command->add_option("--rotate-megabytes", options->rotateMegabytes, "Begin another recording after so many MB")
+        ->check(CLI::Range(0.0, 1e9));
+    command->add_option("--rotate-minutes", options->rotateMinutes, "Begin another recording after so many minutes")
+        ->check(CLI::Range(0.0, 1e6));
+    command->add_option("--update", options->updateSeconds, "Time between two reports of an event in progress, s")
+        ->check(CLI::Range(0.1, 1e6))
+        ->capture_default_str();
+    command
+        ->add_option("--on-event", options->onEvent,
+                     "Program, with arguments, to run at each change of an event; the line of JSON becomes its last "
+                     "argument; no shell is used")
+        ->expected(1, 64);
+    command->add_option("--udp", options->udp, "Listen to UDP datagrams of raw samples: PORT or ADDRESS:PORT");
+    command->add_option("--udp-sequence", options->udpSequence,
+                        "Number at the beginning of each datagram: u16le, u16be, u32le, u32be, u64le or u64be");
+    command->add_option("--rtl-tcp", options->rtlTcp, "Listen to the receiver of an rtl_tcp server: HOST or HOST:PORT");
+    command->add_option("--frequency", options->receiver.frequencyHz, "Frequency of the receiver, Hz")
+        ->check(CLI::Range(0.0, 4294967295.0));
+    command->add_option("--gain", options->gainDb, "Gain of the receiver, dB; automatic without it")
+        ->check(CLI::Range(-100.0, 100.0));
+    command->add_option("--ppm", options->receiver.correctionPpm, "Correction of the receiver's frequency, ppm")
+        ->check(CLI::Range(-1000, 1000));
+    command->callback([options, &common] { listen(*options, common); });
+}
+
+} // namespace faintline::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "analysis/Analysis.h"
+#include "base/RunContext.h"
+
+namespace faintline {
+
+/// Fills in frames and background of a plan with settings, of a spectrogram of its recording. Throws Error where
+/// nothing of it can be used, Cancelled.
+void normalisePlan(AnalysisPlan &plan, std::shared_ptr<const Spectrogram> spectrogram, const RunContext &context = {});
+
+/// Fills in the model, its calibration and the threshold of a plan that has its frames.
+void calibratePlan(AnalysisPlan &plan, const RunContext &context = {},
+                   CalibrationDepth depth = CalibrationDepth::Refined);
+
+} // namespace faintline

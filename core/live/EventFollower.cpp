@@ -1,0 +1,170 @@
+#include "live/EventFollower.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace faintline {
+
+EventFollower::EventFollower(const AnalysisPlan &plan, DetectionChain &chain, Index updateFrames, Sink sink)
+    : m_plan(plan), m_chain(chain), m_rule(chain.joinRule()), m_updateFrames(std::max<Index>(1, updateFrames)),
+      m_sink(std::move(sink))
+{
+}
+
+void EventFollower::tell(EventChange::State state, Event event) const
+{
+    m_sink({state, std::move(event), {}, false});
+}
+
+Event EventFollower::eventOf(const Track &track) const
+{
+    return events(m_plan, {track}).front();
+}
+
+Event EventFollower::eventNow(const HmmTracker &tracker, Index frame) const
+{
+    const Track &track = tracker.track();
+    const Axis &time = m_plan.time();
+    Event event;
+    event.id = track.id;
+    event.onsetSeconds = time.value(static_cast<double>(track.onsetFrame));
+    event.detectSeconds = time.value(static_cast<double>(track.detectFrame));
+    event.endSeconds = time.value(static_cast<double>(frame));
+    const std::vector<Index> &at = tracker.coordinates();
+    for (std::size_t axis = 0; axis < at.size(); ++axis)
+        event.position.push_back(m_plan.grid().axes[axis].value(static_cast<double>(at[axis])));
+    event.ratesPerSecond.assign(at.size(), 0.0);
+    event.statistic = statisticOf(track, m_plan);
+    event.isConfirmed = track.isConfirmed;
+    event.isOpen = true;
+    return event;
+}
+
+void EventFollower::take(Index frame)
+{
+    takeEnded();
+    followTrackers(frame);
+    joinWhatCan();
+    closeWhatCan(frame + 2 - m_chain.longestRunUp());
+}
+
+void EventFollower::followTrackers(Index frame)
+{
+    using State = EventChange::State;
+    std::map<int, Open> still;
+    for (const HmmTracker &tracker : m_chain.trackers()) {
+        const Track &track = tracker.track();
+        Open open{false, frame, track.detectFrame, track.onsetFrame, tracker.earliestEnd()};
+        if (track.id > m_lastId) {
+            tell(State::Provisional, eventNow(tracker, frame));
+        } else {
+            open.isConfirmed = m_open.at(track.id).isConfirmed;
+            open.toldFrame = m_open.at(track.id).toldFrame;
+        }
+        if (track.isConfirmed && !open.isConfirmed) {
+            tell(State::Confirmed, eventNow(tracker, frame));
+            open.toldFrame = frame;
+        } else if (frame - open.toldFrame >= m_updateFrames) {
+            tell(State::Updated, eventNow(tracker, frame));
+            open.toldFrame = frame;
+        }
+        open.isConfirmed = track.isConfirmed;
+        still.emplace(track.id, open);
+    }
+    if (!still.empty())
+        m_lastId = std::max(m_lastId, still.rbegin()->first);
+    for (const auto &[id, open] : m_open) { // neither there nor ended: another one follows the same
+        if (still.contains(id))
+            continue;
+        Event event;
+        event.id = id;
+        event.onsetSeconds = m_plan.time().value(static_cast<double>(open.onsetFrame));
+        event.detectSeconds = m_plan.time().value(static_cast<double>(open.detectFrame));
+        event.isConfirmed = open.isConfirmed;
+        m_sink({State::Final, std::move(event), {}, true});
+    }
+    m_open = std::move(still);
+}
+
+void EventFollower::takeEnded()
+{
+    for (Track &track : m_chain.takeEnded()) {
+        m_open.erase(track.id);
+        tell(EventChange::State::Updated, eventOf(track));
+        const int id = track.id;
+        m_ended.emplace(id, std::move(track));
+    }
+}
+
+/// Whether one that it could continue has not come to the joined ones yet.
+bool EventFollower::isBlocked(const Track &track) const
+{
+    for (const auto &[id, open] : m_open)
+        if (id < track.id && open.earliestEnd < track.detectFrame)
+            return true;
+    for (const auto &[id, ended] : m_ended)
+        if (id < track.id && ended.endFrame < track.detectFrame
+            && !isOutOfReach(ended.endFrame, track.onsetFrame, m_rule))
+            return true;
+    return false;
+}
+
+void EventFollower::joinWhatCan()
+{
+    for (auto next = m_ended.begin(); next != m_ended.end();) {
+        if (isBlocked(next->second)) {
+            ++next;
+            continue;
+        }
+        const Event own = eventOf(next->second);
+        const int id = joinTrack(m_joined, std::move(next->second), m_plan.grid(), m_rule);
+        if (id != own.id) {
+            m_sink({EventChange::State::Final, own, id, false});
+            tell(EventChange::State::Updated,
+                 eventOf(*std::find_if(m_joined.begin(), m_joined.end(), [id](const Track &t) { return t.id == id; })));
+        }
+        next = m_ended.erase(next);
+    }
+}
+
+/// Whether a track in progress, one that has ended, or one that begins at `firstOnset` or later may continue it.
+bool EventFollower::mayGoOn(const Track &track, Index firstOnset) const
+{
+    const auto reaches = [&](Index detectFrame, Index onsetFrame) {
+        return detectFrame > track.endFrame && !isOutOfReach(track.endFrame, onsetFrame, m_rule);
+    };
+    return !isOutOfReach(track.endFrame, firstOnset, m_rule)
+           || std::any_of(m_open.begin(), m_open.end(),
+                          [&](const auto &open) { return reaches(open.second.detectFrame, open.second.onsetFrame); })
+           || std::any_of(m_ended.begin(), m_ended.end(), [&](const auto &ended) {
+                  return reaches(ended.second.detectFrame, ended.second.onsetFrame);
+              });
+}
+
+void EventFollower::closeWhatCan(Index firstOnset)
+{
+    std::erase_if(m_joined, [&](const Track &track) {
+        if (mayGoOn(track, firstOnset))
+            return false;
+        m_final.push_back(eventOf(track));
+        tell(EventChange::State::Final, m_final.back());
+        return true;
+    });
+}
+
+void EventFollower::finish()
+{
+    takeEnded();
+    joinWhatCan();
+    closeWhatCan(std::numeric_limits<Index>::max());
+}
+
+std::vector<Event> EventFollower::finalEvents() const
+{
+    std::vector<Event> all = m_final;
+    std::sort(all.begin(), all.end(), [](const Event &a, const Event &b) { return a.id < b.id; });
+    sortEvents(all);
+    return all;
+}
+
+} // namespace faintline

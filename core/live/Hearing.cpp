@@ -1,0 +1,152 @@
+#include "live/Hearing.h"
+
+#include "base/Error.h"
+#include "base/Field.h"
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::chrono::milliseconds patience{50}; ///< how long a request to stop may have to wait
+    constexpr std::chrono::seconds diskInterval{5};
+    constexpr double diskWarningSeconds = 600.0;
+
+    double now()
+    {
+        return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+    }
+
+} // namespace
+
+Hearing::Hearing(SampleSource &source, StreamBuffer &buffer, const ListenSettings &settings, std::stop_token stop,
+                 Tell tell)
+    : m_source(source), m_buffer(buffer), m_settings(settings), m_stop(std::move(stop)), m_tell(std::move(tell)),
+      m_thread([this](const std::stop_token &own) { run(own); })
+{
+}
+
+void Hearing::finish()
+{
+    m_thread.request_stop();
+    if (m_thread.joinable())
+        m_thread.join();
+}
+
+std::optional<double> Hearing::startUnixSeconds() const
+{
+    const std::lock_guard lock(m_startMutex);
+    return m_start;
+}
+
+void Hearing::run(const std::stop_token &own)
+{
+    m_own = own;
+    try {
+        for (bool isOver = false; !isOver && !own.stop_requested() && !m_stop.stop_requested();) {
+            Heard heard = m_source.hear(patience);
+            isOver = heard.isOver;
+            take(std::move(heard));
+        }
+    } catch (...) {
+        m_failure = std::current_exception();
+    }
+    if (m_recorder)
+        m_files = m_recorder->files();
+    m_buffer.end();
+}
+
+void Hearing::tell(ListenNotice::Kind kind, Index samples, std::string words)
+{
+    m_tell({kind, m_position, samples, std::move(words)});
+}
+
+void Hearing::take(Heard heard)
+{
+    using Kind = ListenNotice::Kind;
+    if (m_position > 0)
+        m_missing += heard.lostSamples; // before the first sample there is no time yet
+    if (heard.incident == Heard::Incident::Gone)
+        tell(Kind::Gone, 0, heard.words);
+    if (heard.incident == Heard::Incident::Back)
+        tell(Kind::Back, m_missing, heard.words);
+    if (heard.incident == Heard::Incident::Lost)
+        tell(Kind::Lost, heard.lostSamples, heard.words);
+    const Index samples = std::ssize(heard.bytes) / m_buffer.format().frameBytes();
+    if (samples == 0)
+        return;
+    if (m_position == 0)
+        begin(samples);
+    if (!makeRoom(heard.bytes.size())) {
+        m_missing += samples;
+        m_overflown += samples;
+        return;
+    }
+    if (m_overflown > 0)
+        tell(Kind::Overflow, m_overflown, "The analysis fell behind; what came meanwhile was left out.");
+    if (m_missing > 0) {
+        m_buffer.pushGap(m_missing);
+        if (m_recorder)
+            m_recorder->skip(m_missing);
+        m_position += m_missing;
+        m_lostCount += m_missing;
+        m_missing = m_overflown = 0;
+    }
+    record(heard.bytes);
+    m_position += samples;
+    m_buffer.push(std::move(heard.bytes));
+}
+
+bool Hearing::makeRoom(std::size_t bytes)
+{
+    if (!m_source.isPatient())
+        return m_buffer.hasRoom(bytes, std::chrono::milliseconds(0));
+    while (!m_buffer.hasRoom(bytes, patience))
+        if (m_stop.stop_requested() || m_own.stop_requested())
+            return false;
+    return true;
+}
+
+void Hearing::begin(Index samples)
+{
+    const double start = now() - static_cast<double>(samples) / m_buffer.format().sampleRateHz;
+    {
+        const std::lock_guard lock(m_startMutex);
+        m_start = start;
+    }
+    if (!m_settings.recordPath.empty())
+        m_recorder =
+            std::make_unique<SigmfRecorder>(m_settings.recordPath, m_buffer.format(), m_settings.rotation, start);
+}
+
+void Hearing::record(std::span<const std::byte> bytes)
+{
+    if (!m_recorder)
+        return;
+    watchDisk();
+    try {
+        m_recorder->write(bytes);
+    } catch (const Error &error) { // listening goes on
+        m_files = m_recorder->files();
+        m_recorder.reset();
+        m_isRecordedWhole = false;
+        tell(ListenNotice::Kind::RecordingFailed, 0, std::string("The recording ends here: ") + error.what());
+    }
+}
+
+void Hearing::watchDisk()
+{
+    const auto time = std::chrono::steady_clock::now();
+    if (m_hasWarned || time - m_diskWatched < diskInterval)
+        return;
+    m_diskWatched = time;
+    const double left = m_recorder->secondsLeft();
+    if (left > diskWarningSeconds)
+        return;
+    m_hasWarned = true;
+    tell(ListenNotice::Kind::DiskSpace, static_cast<Index>(left * m_buffer.format().sampleRateHz),
+         "The disk takes no more than " + formatNumber(std::round(left)) + " s of what is heard.");
+}
+
+} // namespace faintline

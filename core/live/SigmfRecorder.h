@@ -1,0 +1,70 @@
+#pragma once
+
+#include "live/SampleSource.h"
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// When a recorder begins another file; 0: never.
+struct RotationSettings {
+    double largestBytes = 0.0;
+    double longestSeconds = 0.0;
+};
+
+/// Writes what is heard to a SigMF recording while it is heard, so that a program that is killed leaves all that was
+/// written.
+///
+/// The samples go to NAME.sigmf-data as they came, at once. NAME.sigmf-meta is there from the beginning and complete at
+/// any time: its captures say where samples are missing, one entry for each stretch that was heard without a gap, with
+/// core:sample_start (in the file), core:global_index (in time, gaps included) and core:datetime. Rotation begins
+/// NAME-2, NAME-3 … at the next gap or delivery. Reading it again, SigmfRecording puts the gaps back where they were.
+class SigmfRecorder
+{
+public:
+    /// `path` ends in .sigmf-meta or .sigmf-data; neither may exist yet. Throws Error.
+    SigmfRecorder(const std::string &path, const StreamFormat &format, const RotationSettings &rotation,
+                  double startUnixSeconds);
+    ~SigmfRecorder();
+    SigmfRecorder(const SigmfRecorder &) = delete;
+    SigmfRecorder &operator=(const SigmfRecorder &) = delete;
+
+    /// Whole samples that come next. Throws Error where they cannot be written: what was written before is sound.
+    void write(std::span<const std::byte> bytes);
+    /// So many samples that were not heard.
+    void skip(Index samples);
+
+    /// How long the disk still takes what comes, s.
+    double secondsLeft() const;
+
+    const std::vector<std::string> &files() const { return m_files; } ///< the metadata of each
+
+private:
+    struct Capture {
+        Index sampleStart;
+        Index globalIndex;
+    };
+
+    void begin();
+    void rotateIfDue();
+    void writeMeta() const;
+
+    std::string m_stem;
+    StreamFormat m_format;
+    RotationSettings m_rotation;
+    double m_startUnixSeconds;
+    int m_descriptor = -1;
+    Index m_position = 0;  ///< in time, of the next sample
+    Index m_fileStart = 0; ///< position of the file's first sample
+    Index m_written = 0;   ///< samples in the file
+    bool m_isAfterGap = true;
+    std::vector<Capture> m_captures;
+    std::vector<std::string> m_files;
+};
+
+} // namespace faintline

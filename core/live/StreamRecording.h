@@ -1,0 +1,26 @@
+#pragma once
+
+#include "live/StreamBuffer.h"
+#include "recording/Recording.h"
+
+#include <memory>
+#include <optional>
+
+namespace faintline {
+
+/// What passes through a buffer, as a recording: samples that were released read as 0.
+///
+/// Its length is `endlessSamples` unless the stream ended before it was made. Floats are taken to lie within 2^±30.
+class StreamRecording final : public Recording
+{
+public:
+    StreamRecording(std::shared_ptr<const StreamBuffer> buffer, std::optional<double> startUnixSeconds);
+
+    void read(int channel, Index first, Index count, std::span<float> out) const override;
+    bool isWhole(Index first, Index count) const override { return m_buffer->isWhole(first, count); }
+
+private:
+    std::shared_ptr<const StreamBuffer> m_buffer;
+};
+
+} // namespace faintline

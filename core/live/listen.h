@@ -1,0 +1,48 @@
+#pragma once
+
+#include "analysis/Analysis.h"
+#include "base/RunContext.h"
+#include "live/EventFollower.h"
+#include "live/ListenSettings.h"
+#include "live/SampleSource.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// What a listener is told while it happens; called from two threads, never at the same time.
+struct ListenSinks {
+    /// `plan` is that of the run.
+    std::function<void(const EventChange &change, const AnalysisPlan &plan)> event;
+    std::function<void(const ListenNotice &notice, const StreamFormat &format)> notice;
+};
+
+/// What is known at the end.
+struct ListenResult {
+    AnalysisPlan plan;                      ///< no frames where there was not a window's length
+    std::vector<Event> events;              ///< all, as `events` gives them of a run over the recording that was made
+    std::optional<double> startUnixSeconds; ///< of the first sample, by the machine's clock
+    Index sampleCount = 0;                  ///< in time, gaps included
+    Index lostCount = 0;
+    bool isAnalysedToTheEnd = true; ///< else the recording has more than was analysed
+    bool isRecordedWhole = true;
+    std::vector<std::string> files; ///< recordings' metadata
+};
+
+/// Listens until the source is over, the selection's end is reached, or the context's stop is asked for, which is no
+/// error: within half a second what is there is analysed and written.
+///
+/// recording: source → SigMF on disk; analysis: source → buffer → frames over a causal background → chain → events, frame
+/// by frame. Both have the same samples at the same places, and the frames and the chain are those of `analyse`: the
+/// events are those of that recording with the same settings. Memory: the buffer, a block of noise, and what the chain
+/// holds; it does not grow with time. Throws Error where the source or the settings cannot be used, or a pipe fails.
+ListenResult listen(SampleSource &source, const ListenSettings &settings, const ListenSinks &sinks,
+                    const RunContext &context = {});
+
+/// The settings that a run with these has on a stream of that format: causal, with a window, slopes in bins a frame.
+AnalysisSettings settingsForListening(AnalysisSettings settings, const StreamFormat &format);
+
+} // namespace faintline

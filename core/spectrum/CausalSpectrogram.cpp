@@ -1,0 +1,122 @@
+#include "spectrum/CausalSpectrogram.h"
+
+#include "base/memoryShares.h"
+#include "recording/endless.h"
+#include "spectrum/coarseFrames.h"
+#include "spectrum/normaliseFrame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index checkpointFrames = 64; ///< between two, at first
+    constexpr Index mostBlockWindows = 512;
+
+    Index blockWindowsOf(const NormaliserSettings &settings)
+    {
+        return std::clamp<Index>(std::llround(settings.blockWindows), 2, mostBlockWindows);
+    }
+
+    CausalGeometry geometryOf(const Spectrogram &coarse, const NormaliserSettings &settings)
+    {
+        const std::vector<float> window = sampleWindow(coarse.settings().window, coarse.windowSamples());
+        CausalGeometry geometry;
+        geometry.cells = coarse.frequency().count;
+        geometry.stepsPerWindow = coarse.settings().stepsPerWindow;
+        geometry.blockWindows = blockWindowsOf(settings);
+        geometry.halfWidthCells = settings.halfWidthCells;
+        geometry.followsLevel = settings.followLevel;
+        geometry.likeness = cellLikeness(window);
+        geometry.overlap = overlapFactor(window, std::min(coarse.settings().stepsPerWindow, 4));
+        return geometry;
+    }
+
+} // namespace
+
+CausalSpectrogram::CausalSpectrogram(std::shared_ptr<const Spectrogram> spectrogram, const NormaliserSettings &settings)
+    : NormalisedFrames(spectrogram->time(), Grid{{spectrogram->frequency()}}), m_spectrogram(std::move(spectrogram)),
+      m_settings(settings), m_coarse(coarseFrames(*m_spectrogram, settings, m_spectrogram->settings().stepsPerWindow)),
+      m_geometry(geometryOf(m_coarse, settings)), m_kept(checkpointFrames, memoryShares::background)
+{
+    m_power.resize(static_cast<std::size_t>(m_geometry.cells));
+    m_background = begin();
+    m_firstBackground = std::make_shared<const NoiseBackground>(m_background->latest());
+}
+
+Index CausalSpectrogram::samplesOfFirstBlock(const Spectrogram &spectrogram, const NormaliserSettings &settings)
+{
+    return (blockWindowsOf(settings) - 1) * spectrogram.settings().stepsPerWindow * spectrogram.hopSamples()
+           + spectrogram.windowSamples();
+}
+
+CausalBackground CausalSpectrogram::begin() const
+{
+    const Index steps = m_geometry.stepsPerWindow;
+    const Index windows = std::min(m_geometry.blockWindows, (m_coarse.time().count - 1) / steps + 1);
+    std::vector<float> block(static_cast<std::size_t>(windows * m_geometry.cells));
+    for (Index window = 0; window < windows; ++window)
+        readPower(window * steps, std::span(block).subspan(static_cast<std::size_t>(window * m_geometry.cells),
+                                                           static_cast<std::size_t>(m_geometry.cells)));
+    return {m_geometry, m_coarse.frequency(), block};
+}
+
+const NoiseBackground &CausalSpectrogram::step() const
+{
+    const bool isPassing = m_spectrogram->recording().info().sampleCount >= endlessSamples; // nothing is read twice
+    if (!isPassing && m_kept.lacks(m_next)) {
+        auto state = std::make_shared<const CausalBackground>(*m_background);
+        const std::size_t bytes = state->bytes();
+        m_kept.keep(m_next, std::move(state), bytes);
+    }
+    readPower(m_next++, m_power);
+    return m_background->next(m_power);
+}
+
+/// Of a frame that is torn, which tells nothing of the noise: silence.
+void CausalSpectrogram::readPower(Index frame, std::span<float> power) const
+{
+    if (isTorn(frame))
+        std::fill(power.begin(), power.end(), 0.0f);
+    else
+        m_coarse.read(frame, 1, power);
+}
+
+void CausalSpectrogram::goTo(Index frame) const
+{
+    if (const Index kept = m_kept.latest(frame); m_next > frame || kept > m_next) {
+        const auto state = m_kept.at(kept);
+        m_background = state ? *state : begin();
+        m_next = state ? kept : 0;
+    }
+    while (m_next < frame)
+        step();
+}
+
+bool CausalSpectrogram::isTorn(Index frame) const
+{
+    const Index first = m_spectrogram->firstSample() + frame * m_spectrogram->hopSamples();
+    return !m_spectrogram->recording().isWhole(first, m_spectrogram->windowSamples());
+}
+
+void CausalSpectrogram::read(Index first, Index count, std::span<float> out) const
+{
+    m_spectrogram->read(first, count, out);
+    const auto cells = static_cast<std::size_t>(grid().size());
+    std::vector<float> inverse;
+    const std::lock_guard lock(m_mutex);
+    goTo(first);
+    for (Index i = 0; i < count; ++i) {
+        const NoiseBackground &background = step();
+        const std::span<float> values = out.subspan(static_cast<std::size_t>(i) * cells, cells);
+        const bool isSilent = std::none_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
+        normaliseFrame(*m_spectrogram, background, 0.0, m_settings.followLevel, values, inverse);
+        if (!isSilent && isTorn(first + i))
+            std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
+    }
+}
+
+} // namespace faintline

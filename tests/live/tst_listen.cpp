@@ -1,0 +1,389 @@
+#include "live/listen.h"
+
+#include "analysis/analyse.h"
+#include "exchange/writeEvents.h"
+#include "live/eventLines.h"
+#include "recording/SigmfRecording.h"
+#include "recording/SimulatedRecording.h"
+#include "support/recordings.h"
+
+#include <QtTest>
+
+#include <map>
+#include <thread>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// What is heard live gives the events of its recording, gaps and all, to the byte.
+class tst_listen : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void isTheSameAsItsRecording_data();
+    void isTheSameAsItsRecording();
+    void changesOfAnEvent();
+    void gapsArePlacedToTheSample();
+    void overflowIsAGap();
+    void doesNotOverwrite();
+    void rotates();
+    void shorterThanAWindow();
+    void stopsWhenAsked();
+
+private:
+    std::string path(const char *name) const { return m_folder.filePath(name).toStdString(); }
+    QTemporaryDir m_folder;
+};
+
+namespace {
+
+constexpr double rate = 1000.0;
+
+StreamFormat format()
+{
+    return {parseSampleType("rf32_le", "test"), rate, 1, 0.0, "test"};
+}
+
+std::vector<std::byte> bytesOf(std::span<const float> samples)
+{
+    const auto bytes = std::as_bytes(samples);
+    return {bytes.begin(), bytes.end()};
+}
+
+/// Delivers what it was given, one piece at a time.
+class GivenSource final : public SampleSource
+{
+public:
+    GivenSource(StreamFormat format, std::vector<Heard> pieces, bool isPatient = true)
+        : m_format(std::move(format)), m_pieces(std::move(pieces)), m_isPatient(isPatient)
+    {
+    }
+    const StreamFormat &format() const override { return m_format; }
+    bool isPatient() const override { return m_isPatient; }
+    Heard hear(std::chrono::milliseconds) override
+    {
+        if (m_next == m_pieces.size()) {
+            Heard end;
+            end.isOver = true;
+            return end;
+        }
+        return std::move(m_pieces[m_next++]);
+    }
+
+private:
+    StreamFormat m_format;
+    std::vector<Heard> m_pieces;
+    std::size_t m_next = 0;
+    bool m_isPatient;
+};
+
+/// Never says anything, for ever.
+class QuietSource final : public SampleSource
+{
+public:
+    const StreamFormat &format() const override { return m_format; }
+    Heard hear(std::chrono::milliseconds patience) override
+    {
+        std::this_thread::sleep_for(patience);
+        return {};
+    }
+
+private:
+    StreamFormat m_format = ::format();
+};
+
+struct Gap {
+    Index at;
+    Index length;
+};
+
+/// The samples in pieces of random lengths, those of the gaps lost.
+std::vector<Heard> piecesOf(const std::vector<float> &samples, const std::vector<Gap> &gaps, std::uint64_t seed)
+{
+    Random random(seed, 1);
+    std::vector<Heard> pieces;
+    Index lost = 0;
+    auto gap = gaps.begin();
+    for (Index at = 0; at < std::ssize(samples);) {
+        if (gap != gaps.end() && gap->at == at) {
+            lost = gap->length;
+            at += gap++->length;
+            continue;
+        }
+        Index count = 1 + static_cast<Index>(random.uniform() * 3000.0);
+        count = std::min(count, std::ssize(samples) - at);
+        if (gap != gaps.end())
+            count = std::min(count, gap->at - at);
+        Heard heard;
+        heard.bytes =
+            bytesOf(std::span(samples).subspan(static_cast<std::size_t>(at), static_cast<std::size_t>(count)));
+        heard.lostSamples = std::exchange(lost, 0);
+        if (heard.lostSamples > 0)
+            heard.incident = Heard::Incident::Lost;
+        pieces.push_back(std::move(heard));
+        at += count;
+    }
+    return pieces;
+}
+
+std::vector<Gap> randomGaps(int count, Index samples, Index longest, std::uint64_t seed)
+{
+    Random random(seed, 2);
+    std::vector<Gap> gaps;
+    const Index share = samples / count;
+    for (int i = 0; i < count; ++i) {
+        const auto length = 1 + static_cast<Index>(random.uniform() * static_cast<double>(longest));
+        gaps.push_back(
+            {i * share + 1 + static_cast<Index>(random.uniform() * static_cast<double>(share - length - 2)), length});
+    }
+    return gaps;
+}
+
+/// Ten minutes with lines that come and go, one of them interrupted.
+std::vector<float> scene(double seconds = 600.0)
+{
+    LineScene lines;
+    lines.sampleRateHz = rate;
+    lines.durationSeconds = seconds;
+    lines.noise.deviation = 0.1;
+    lines.seed = 4;
+    const auto add = [&](LineSettings line) {
+        line.durationSeconds = std::min(line.durationSeconds, seconds - line.startSeconds);
+        if (line.durationSeconds > 0.0)
+            lines.lines.push_back(line);
+    };
+    for (int i = 0; i < 8; ++i) {
+        LineSettings line;
+        line.snrDb = 6.0 + i;
+        line.referenceSeconds = 0.25;
+        line.startSeconds = 20.0 + 60.0 * i;
+        line.durationSeconds = 25.0 + 15.0 * i;
+        line.frequencyHz = 60.0 + 50.0 * i;
+        line.driftHzPerSecond = 0.05 * i;
+        add(line);
+        line.startSeconds += line.durationSeconds + 2.0;
+        add(line);
+    }
+    LineSettings faint; // found in pieces
+    faint.referenceSeconds = 0.25;
+    for (const double snrDb : {0.0, 0.5, 1.0, 1.5, 2.0}) {
+        faint.snrDb = snrDb;
+        faint.frequencyHz = 470.0 - 85.0 * snrDb;
+        faint.wanderHz = 2.0;
+        lines.lines.push_back(faint);
+    }
+    const SimulatedRecording recording(lines);
+    return readAll(recording);
+}
+
+ListenSettings settings(const std::string &record)
+{
+    ListenSettings result;
+    result.analysis.spectrogram.windowSeconds = 0.25;
+    result.analysis.decide.falseAlarmsPerHour = 60.0;
+    result.recordPath = record;
+    return result;
+}
+
+} // namespace
+
+void tst_listen::isTheSameAsItsRecording_data()
+{
+    QTest::addColumn<int>("gaps");
+    QTest::addColumn<int>("longest");
+    QTest::addColumn<QString>("setting");
+    QTest::newRow("without gaps") << 0 << 0 << "";
+    QTest::newRow("short gaps") << 100 << 40 << "";
+    QTest::newRow("long gaps") << 7 << 40000 << "";
+    QTest::newRow("windows that overlap more") << 3 << 500 << "spectrogram.stepsPerWindow=4";
+    QTest::newRow("a band") << 3 << 500 << "selection.lowHz=100,selection.highHz=300";
+    QTest::newRow("from and to") << 3 << 500 << "selection.fromSeconds=30,selection.toSeconds=400";
+    QTest::newRow("tracks that are confirmed later") << 0 << 0 << "track.confirmFrames=5";
+    QTest::newRow("another detector") << 0 << 0 << "detector.kind=pOfN";
+}
+
+void tst_listen::isTheSameAsItsRecording()
+{
+    QFETCH(int, gaps);
+    QFETCH(int, longest);
+    QFETCH(QString, setting);
+    const std::string record = path((QTest::currentDataTag() + std::string(".sigmf-meta")).c_str());
+    const std::vector<float> samples = scene();
+    GivenSource source(
+        format(),
+        piecesOf(samples, gaps > 0 ? randomGaps(gaps, std::ssize(samples), longest, 5) : std::vector<Gap>(), 6));
+    ListenSettings used = settings(record);
+    for (const QString &each : setting.split(',', Qt::SkipEmptyParts))
+        setSetting(used.analysis, each.section('=', 0, 0).toStdString(), each.section('=', 1).toStdString());
+    const ListenResult live = listen(source, used, {});
+    QVERIFY(live.isAnalysedToTheEnd && live.isRecordedWhole);
+    const SigmfRecording kept(record);
+    if (used.analysis.selection.toSeconds == 0.0)
+        QCOMPARE(kept.info().sampleCount, std::ssize(samples));
+    const auto file = analyse(std::make_shared<SigmfRecording>(record), settingsForListening(used.analysis, format()));
+    QVERIFY(live.events.size() >= 8);
+    QCOMPARE(QByteArray::fromStdString(eventsCsv(live.plan, live.events)),
+             QByteArray::fromStdString(eventsCsv(*file, events(*file))));
+}
+
+// Each number is provisional first, final last, once each, and says in between what a track says.
+void tst_listen::changesOfAnEvent()
+{
+    const std::vector<float> samples = scene();
+    GivenSource source(format(), piecesOf(samples, {}, 7));
+    ListenSettings used = settings({});
+    setSetting(used.analysis, "track.confirmFrames", "5");
+    used.updateSeconds = 5.0;
+    std::map<int, std::vector<EventChange>> changes;
+    ListenSinks sinks;
+    sinks.event = [&](const EventChange &change, const AnalysisPlan &) { changes[change.event.id].push_back(change); };
+    const ListenResult live = listen(source, used, sinks);
+    using State = EventChange::State;
+    std::size_t ownEvents = 0;
+    bool hasJoined = false;
+    for (const auto &[id, own] : changes) {
+        QVERIFY(own.size() >= 2);
+        QCOMPARE(own.front().state, State::Provisional);
+        QCOMPARE(own.back().state, State::Final);
+        const auto count = [&](State state) {
+            return std::count_if(own.begin(), own.end(), [state](const EventChange &c) { return c.state == state; });
+        };
+        QCOMPARE(count(State::Provisional), 1);
+        QCOMPARE(count(State::Final), 1);
+        QVERIFY(count(State::Confirmed) <= 1);
+        hasJoined = hasJoined || own.back().partOf.has_value();
+        if (own.back().partOf || own.back().isWithdrawn)
+            continue;
+        ++ownEvents;
+        const auto found =
+            std::find_if(live.events.begin(), live.events.end(), [id](const Event &e) { return e.id == id; });
+        QVERIFY(found != live.events.end());
+        QCOMPARE(found->detectSeconds, own.front().event.detectSeconds);
+        QCOMPARE(found->endSeconds, own.back().event.endSeconds);
+        QCOMPARE(own.front().event.endSeconds, own.front().event.detectSeconds); // told in the frame of the crossing
+        const double lasted = found->endSeconds - found->detectSeconds;
+        QVERIFY(static_cast<double>(count(State::Updated)) >= std::floor(lasted / 5.0) - 1.0);
+    }
+    QCOMPARE(ownEvents, live.events.size());
+    QVERIFY(hasJoined);
+    QVERIFY(contains(eventLine(changes.begin()->second.front(), live.plan.grid(), 0.0), R"("state":"provisional")"));
+}
+
+// A thousand, each of which has to be where it was: the oracle are the samples themselves.
+void tst_listen::gapsArePlacedToTheSample()
+{
+    const std::vector<float> samples = someNoise(600'000, 9);
+    const std::vector<Gap> gaps = randomGaps(1000, std::ssize(samples), 300, 10);
+    GivenSource source(format(), piecesOf(samples, gaps, 11));
+    Index told = 0;
+    Index lost = 0;
+    ListenSinks sinks;
+    sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
+        if (notice.kind != ListenNotice::Kind::Lost)
+            return;
+        QCOMPARE(notice.sample, gaps[static_cast<std::size_t>(told)].at);
+        QCOMPARE(notice.sampleCount, gaps[static_cast<std::size_t>(told)].length);
+        lost += notice.sampleCount;
+        ++told;
+    };
+    const ListenResult live = listen(source, settings(path("gaps.sigmf-meta")), sinks);
+    QCOMPARE(told, Index(1000));
+    QCOMPARE(live.lostCount, lost);
+    const SigmfRecording kept(path("gaps.sigmf-meta"));
+    std::vector<float> expected = samples;
+    for (const Gap &gap : gaps)
+        std::fill_n(expected.begin() + gap.at, gap.length, 0.0f);
+    QCOMPARE(kept.info().sampleCount, std::ssize(samples));
+    QVERIFY(readAll(kept) == expected);
+    QVERIFY(readInPieces(kept, 5000) == expected);
+    for (const Gap &gap : gaps) {
+        QVERIFY(!kept.isWhole(gap.at, 1) && !kept.isWhole(gap.at + gap.length - 1, 1));
+        QVERIFY(!kept.isWhole(gap.at - 1, 2) && !kept.isWhole(gap.at - 100, gap.length + 200));
+        QVERIFY(kept.isWhole(gap.at - 1, 1) && kept.isWhole(gap.at + gap.length, 1));
+    }
+}
+
+// A source that does not wait, and a buffer that cannot hold what it says at once.
+void tst_listen::overflowIsAGap()
+{
+    const std::vector<float> samples = scene();
+    GivenSource source(format(), piecesOf(samples, {}, 12), false);
+    ListenSettings used = settings(path("overflow.sigmf-meta"));
+    used.bufferBytes = 300'000;
+    Index overflown = 0;
+    ListenSinks sinks;
+    sinks.notice = [&](const ListenNotice &notice, const StreamFormat &) {
+        if (notice.kind == ListenNotice::Kind::Overflow)
+            overflown += notice.sampleCount;
+    };
+    const ListenResult live = listen(source, used, sinks);
+    QVERIFY(overflown > 0);
+    QCOMPARE(live.lostCount, overflown);
+    const auto file =
+        analyse(std::make_shared<SigmfRecording>(used.recordPath), settingsForListening(used.analysis, format()));
+    QCOMPARE(eventsCsv(live.plan, live.events), eventsCsv(*file, events(*file)));
+}
+
+void tst_listen::doesNotOverwrite()
+{
+    const std::string name = path("there.sigmf-meta");
+    writeBytes(name, "mine");
+    GivenSource source(format(), piecesOf(scene(20.0), {}, 1));
+    QVERIFY(contains(errorOf([&] { listen(source, settings(name), {}); }), "exists already"));
+    QCOMPARE(readBytes(name), QByteArray("mine"));
+}
+
+void tst_listen::rotates()
+{
+    const std::vector<float> samples = someNoise(60'000, 3);
+    GivenSource source(format(), piecesOf(samples, {{30'123, 456}}, 4));
+    ListenSettings used = settings(path("turn.sigmf-meta"));
+    used.rotation.longestSeconds = 20.0;
+    const ListenResult live = listen(source, used, {});
+    QCOMPARE(live.files.size(), std::size_t(3));
+    std::vector<float> all;
+    double start = 0.0;
+    for (const std::string &file : live.files) {
+        const SigmfRecording part(file);
+        if (!all.empty()) // begins where the one before ended, by the clock
+            QVERIFY(std::abs(*part.info().startUnixSeconds - start - static_cast<double>(all.size()) / rate) < 1e-4);
+        else
+            start = *part.info().startUnixSeconds;
+        const std::vector<float> own = readAll(part);
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    std::vector<float> expected = samples;
+    std::fill_n(expected.begin() + 30'123, 456, 0.0f);
+    QVERIFY(all == expected);
+}
+
+void tst_listen::shorterThanAWindow()
+{
+    GivenSource source(format(), piecesOf(someNoise(200), {}, 1));
+    const ListenResult live = listen(source, settings(path("short.sigmf-meta")), {});
+    QVERIFY(live.events.empty() && !live.plan.frames);
+    QCOMPARE(SigmfRecording(path("short.sigmf-meta")).info().sampleCount, Index(200));
+    GivenSource half(format(), piecesOf(someNoise(4000), {}, 1)); // and than a block
+    QVERIFY(listen(half, settings({}), {}).plan.frames);
+}
+
+void tst_listen::stopsWhenAsked()
+{
+    QuietSource source;
+    std::stop_source stop;
+    RunContext context;
+    context.stop = stop.get_token();
+    std::jthread asking([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        stop.request_stop();
+    });
+    QElapsedTimer timer;
+    (void)calibrateBand(settingsForListening(settings({}).analysis, format()), 251); // once, which takes seconds
+    timer.start();
+    listen(source, settings({}), {}, context);
+    QVERIFY2(timer.elapsed() < 1000, qPrintable(QString::number(timer.elapsed())));
+}
+
+QTEST_APPLESS_MAIN(tst_listen)
+#include "tst_listen.moc"
