@@ -3,6 +3,7 @@
 #include "app/control/AnalysisController.h"
 #include "app/control/Comparer.h"
 #include "app/control/Experiments.h"
+#include "app/control/RecordingCheck.h"
 #include "app/control/SequentialTests.h"
 #include "app/document/Document.h"
 
@@ -42,6 +43,7 @@ public:
     const Document &document() const { return m_document; }
     AnalysisController &controller() { return m_controller; }
     Comparer &comparer() { return m_comparer; }
+    RecordingCheck &recordingCheck() { return m_check; }
     Experiments &experiments() { return m_experiments; }
     SequentialTests &sequentialTests() { return m_sequentialTests; }
     Recovery &recovery() { return *m_recovery; }
@@ -85,6 +87,7 @@ protected:
     Document m_document;
     AnalysisController m_controller;
     Comparer m_comparer;
+    RecordingCheck m_check;
     Experiments m_experiments;
     SequentialTests m_sequentialTests;
 

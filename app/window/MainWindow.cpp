@@ -29,6 +29,7 @@
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
+#include "app/panels/ThresholdPanel.h"
 #include "app/panels/TrialViewer.h"
 #include "app/panels/WhyPanel.h"
 #include "app/views/ReportWriter.h"
@@ -116,6 +117,7 @@ MainWindow::~MainWindow()
     m_controller.disconnect(this); // what is still running ends after the widgets are gone
     m_document.disconnect(this);
     m_comparer.disconnect();
+    m_check.disconnect();
     m_experiments.disconnect();
     m_sequentialTests.disconnect();
     m_trials.reset();
@@ -167,7 +169,7 @@ void MainWindow::buildDocks()
         {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
     m_why = new WhyPanel(m_document, m_pings->viewports());
-    m_info = new InfoPanel(m_document, m_controller);
+    m_info = new InfoPanel(m_document, m_controller, m_check);
     m_noiseFit = new NoiseFitPanel(m_document);
     m_states = new StateSlicePanel(m_document, m_pings->viewports());
     m_latency = new LatencyPanel(m_document);
@@ -182,7 +184,8 @@ void MainWindow::buildDocks()
     using Place = Panels::Place;
     m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
     // The threshold above the events it decides about: one sees both while dragging.
-    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"), m_threshold, Place::RightTop);
+    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"),
+                  new ThresholdPanel(*m_threshold, m_controller, m_check), Place::RightTop);
     m_panels->add(QStringLiteral("eventsDock"), tr("Events"), m_events, Place::RightBottom);
     m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseDock"), tr("Noise"), m_info, Place::RightBottom);

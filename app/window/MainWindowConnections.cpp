@@ -4,6 +4,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/control/AdviceMessages.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/scanScenario.h"
@@ -111,6 +112,7 @@ void MainWindow::connectController()
     });
     connect(&m_controller, &AnalysisController::refined, this,
             [this](double firstEstimate) { m_hint->setText(refinedSentence(*m_document.analysis(), firstEstimate)); });
+    new AdviceMessages(m_document, m_controller, m_check, *m_messages, this);
     connect(&m_controller, &AnalysisController::viewRestored, this,
             [this](const ViewState &view) { bench().restore(view); });
     m_saver = new SessionSaver(
