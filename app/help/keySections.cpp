@@ -70,7 +70,7 @@ namespace {
                                       {"W", "why detected, or why not"},
                                       {"Ctrl + D", "draw a line by hand"},
                                       {"Ctrl + B", "keep as A for comparison"},
-                                      {"M   B", "measure a box; annotate it"},
+                                      {"M   B   Ctrl + Return", "measure a box; annotate, analyse it"},
                                       {"K", "cursor to the nearest peak"},
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"I", "sidebands: drag one, or Alt + Left, Right"},

@@ -3,6 +3,7 @@
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
 #include "app/base/statisticUnit.h"
+#include "app/control/BoxAnalysis.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/ThresholdCurves.h"
@@ -168,6 +169,7 @@ void MainWindow::buildDocks()
         m_document, *m_events,
         {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
+    m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
     m_why = new WhyPanel(m_document, m_pings->viewports());
     m_info = new InfoPanel(m_document, m_controller, m_check);
     m_noiseFit = new NoiseFitPanel(m_document);

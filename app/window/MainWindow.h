@@ -16,6 +16,7 @@ class QToolBar;
 namespace faintline {
 
 class ActivityBar;
+class BoxAnalysis;
 class CommandPalette;
 class EquationSheet;
 class KeysOverlay;
@@ -129,6 +130,7 @@ private:
     ReportWriter *m_report = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
     LessonGuide *m_lessons = nullptr;
+    BoxAnalysis *m_boxAnalysis = nullptr;
     OverviewStrip *m_overview = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;

@@ -2,6 +2,7 @@
 
 #include "app/window/MainWindow.h"
 
+#include "app/control/BoxAnalysis.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/scanScenario.h"
@@ -201,6 +202,7 @@ void MainWindow::buildDetectMenu()
     addViewAction(*menu, tr("&Run again"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] { m_controller.run(); });
     m_stopAction = menu->addAction(tr("&Stop"), QKeySequence(Qt::Key_Escape), &m_controller, &AnalysisController::stop);
     m_stopAction->setEnabled(false);
+    m_boxAnalysis->addActionsTo(*menu);
     menu->addSeparator();
     addViewAction(*menu, tr("Threshold &down"), Qt::Key_Comma, [this] { m_controller.stepThreshold(-1); });
     addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });
