@@ -246,6 +246,7 @@ void EventReviews::exportTo(const QString &path)
             if (isDragged)
                 json["shownThreshold"] = threshold;
             writeProvenanceBeside(path, json.dump(2) + "\n");
+            emit written(path);
         } catch (const Error &error) {
             emit failed(error);
         }

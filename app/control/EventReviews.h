@@ -51,6 +51,7 @@ public:
 
 signals:
     void failed(const faintline::Error &error);
+    void written(const QString &path);
     void told(const QString &where, const QString &what);
 
 private:

@@ -94,6 +94,7 @@ namespace {
     {
         static const Section section{"File and help",
                                      {{"Ctrl + O", "open; or drop a file on the window"},
+                                      {"Ctrl + Page Down, Up", "next, previous file of the folder"},
                                       {"Ctrl + S", "save the session"},
                                       {"Ctrl + Z   Ctrl + Y", "undo, redo a setting"},
                                       {"Ctrl + K", "find a command by name"},

@@ -115,6 +115,7 @@ void WindowViews::saveTo(const QString &name, const QString &path)
     m_parts.reviews().provenance().with([this, name, path](const std::string &provenance) {
         try {
             saveView(*named(name), {}, path, withView(name, provenance));
+            emit written(path);
         } catch (const Error &error) {
             emit failed(error);
         }

@@ -1,6 +1,7 @@
 #include "app/window/MainWindow.h"
 
 #include "app/base/MessageBar.h"
+#include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
 #include "app/base/statisticUnit.h"
 #include "app/control/BoxAnalysis.h"
@@ -324,9 +325,8 @@ void MainWindow::openScans(const ScanTest &test)
 void MainWindow::chooseFile()
 {
     const QString folder = m_memory.recent().isEmpty() ? QString() : QFileInfo(m_memory.recent().first()).path();
-    const QString path = pathOf(QFileDialog::getOpenFileUrl(this, tr("Open"), QUrl::fromLocalFile(folder),
-                                                            tr("All files (*);;Sessions (*.faintline);;Scenarios "
-                                                               "(*.json)")));
+    const QString path =
+        pathOf(QFileDialog::getOpenFileUrl(this, tr("Open"), QUrl::fromLocalFile(folder), openFilter()));
     if (!path.isEmpty())
         open(path);
 }
@@ -339,6 +339,51 @@ void MainWindow::chooseRawFile()
     OpenOptionsDialog dialog(path, this);
     if (dialog.exec() == QDialog::Accepted)
         open(path, dialog.options());
+}
+
+void MainWindow::openDropped(const QStringList &files)
+{
+    m_files.setFiles({});
+    if (files.size() > 1) {
+        QStringList absolute;
+        for (const QString &file : files)
+            absolute << absolutePath(file);
+        m_files.setFiles(absolute);
+        connect(
+            &m_document, &Document::opened, this,
+            [this, count = files.size()] {
+                m_messages->showMessage(MessageBar::Kind::Notice, tr("%1 files").arg(count),
+                                        tr("The first of them is shown. Ctrl+Page Down goes to the next."));
+            },
+            static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
+    }
+    open(files.front());
+}
+
+void MainWindow::goToFile(int by)
+{
+    const QString path = m_files.neighbour(m_document.source().path, by);
+    if (path.isEmpty()) {
+        m_messages->showMessage(MessageBar::Kind::Notice, m_document.source().name(),
+                                by > 0 ? tr("This is the last recording of its folder.")
+                                       : tr("This is the first recording of its folder."));
+        return;
+    }
+    const auto next = [this, path] {
+        AnalysisSettings settings = m_document.settings();
+        settings.selection.fromSeconds = settings.selection.toSeconds =
+            0.0; // a part of one recording is none of another
+        openNow(path, m_document.source().options, [settings](AnalysisSettings &opened) { opened = settings; });
+    };
+    // The settings go along: only what was said about events could be lost.
+    if (m_document.annotations().isEmpty() || m_saver->mayLose(tr("opening something else"), next))
+        next();
+}
+
+void MainWindow::showWritten(const QString &path)
+{
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Written"),
+                            labelText(pathBytes(absolutePath(path)), longestPath));
 }
 
 void MainWindow::offerIq()
@@ -421,8 +466,9 @@ void MainWindow::showHint()
 
 void MainWindow::showTitle()
 {
-    const QString path = m_document.sessionPath();
-    const QString name = path.isEmpty() ? m_document.source().name() : fileLabel(path);
+    const QString path = m_document.sessionPath().isEmpty() ? m_document.source().path : m_document.sessionPath();
+    const QString name =
+        path.isEmpty() ? m_document.source().name() : distinctLabel(absolutePath(path), m_memory.recent());
     setWindowTitle(m_document.isEmpty() ? tr("Faintline") : tr("%1[*] — Faintline").arg(name));
     setWindowModified(m_document.isModified());
 }
@@ -462,7 +508,7 @@ void MainWindow::fillRecentMenu()
 {
     m_recentMenu->clear();
     for (const QString &path : m_memory.recent())
-        m_recentMenu->addAction(buttonText(fileLabel(path)), this, [this, path] { open(path); })
+        m_recentMenu->addAction(buttonText(distinctLabel(path, m_memory.recent())), this, [this, path] { open(path); })
             ->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
     if (m_recentMenu->isEmpty())
         m_recentMenu->addAction(tr("No recent files"))->setEnabled(false);

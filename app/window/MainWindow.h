@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/document/recordingFiles.h"
 #include "app/views/WindowParts.h"
 #include "app/window/WindowMemory.h"
 #include "widgets/base/Theme.h"
@@ -108,6 +109,10 @@ private:
     void openScenario(ScenarioCard *card);
     void chooseFile();
     void chooseRawFile();
+    void openDropped(const QStringList &files);
+    /// The file that is so many after the one that is open, with the same settings.
+    void goToFile(int by);
+    void showWritten(const QString &path);
     void exportReport();
     void injectLine();
     void reproduce(const Reproducible &reproducible, bool quick);
@@ -121,6 +126,7 @@ private:
     void restoreLayout();
 
     WindowMemory m_memory;
+    FileSequence m_files;
     bool m_isAsking = true;
 
     Panels *m_panels = nullptr;

@@ -31,6 +31,7 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/ReadOut.h"
+#include "widgets/base/labelText.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
@@ -39,6 +40,7 @@
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QLabel>
+#include <QLineEdit>
 #include <QStackedWidget>
 
 namespace faintline {
@@ -69,6 +71,7 @@ void MainWindow::connectDocument()
         m_overview->setPicture(nullptr, {});
         // Nothing of what was open before stays under the new name.
         m_events->setEvents({});
+        m_events->filter()->clear();
         for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
             one->setEmptySentence(tr("Estimating the noise of %1 …").arg(m_document.source().name()));
         if (m_pages->currentWidget() != m_welcome)
@@ -124,14 +127,11 @@ void MainWindow::connectController()
     connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
-    connect(m_report, &ReportWriter::written, this, [this](const QString &path) {
-        m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path),
-                                tr("was "
-                                   "written."));
-    });
+    connect(m_report, &ReportWriter::written, this, &MainWindow::showWritten);
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
         m_memory.addRecent(path);
+        m_hint->setText(tr("Saved as %1").arg(labelText(pathBytes(absolutePath(path)), longestPath)));
         emit saved(path);
     });
 }
@@ -181,7 +181,10 @@ void MainWindow::connectViews()
     connect(m_threshold, &ExceedancePlot::unitChanged, this,
             [this](ExceedancePlot::Unit unit) { m_controller.setThresholdUnit(decideBy(unit)); });
     connect(m_views, &WindowViews::failed, this, &MainWindow::showError);
-    connect(new FileDrop(this), &FileDrop::dropped, this, [this](const QString &path) { open(path); });
+    connect(m_views, &WindowViews::written, this, &MainWindow::showWritten);
+    connect(m_reviews, &EventReviews::written, this, &MainWindow::showWritten);
+    connect(m_sequential, &SequentialPanel::written, this, &MainWindow::showWritten);
+    connect(new FileDrop(this), &FileDrop::dropped, this, &MainWindow::openDropped);
 }
 
 void MainWindow::connectEvaluation()

@@ -72,6 +72,12 @@ void MainWindow::buildFileMenu()
     menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
     m_recentMenu = menu->addMenu(tr("Open re&cent"));
     connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
+    addViewAction(*menu, tr("&Next file of the folder"), QKeySequence(Qt::CTRL | Qt::Key_PageDown), [this] {
+        goToFile(1);
+    })->setToolTip(tr("Open the next recording with the same settings"));
+    addViewAction(*menu, tr("Previo&us file of the folder"), QKeySequence(Qt::CTRL | Qt::Key_PageUp), [this] {
+        goToFile(-1);
+    })->setToolTip(tr("Open the previous recording with the same settings"));
     menu->addAction(tr("&Welcome page"), this, &MainWindow::showWelcome);
     menu->addSeparator();
     m_iqAction = addViewAction(*menu, tr("Take channels as &I and Q"), {}, [this] {
