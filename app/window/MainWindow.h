@@ -18,6 +18,7 @@ namespace faintline {
 
 class ActivityBar;
 class BoxAnalysis;
+class ChartMenus;
 class CommandPalette;
 class EquationSheet;
 class KeysOverlay;
@@ -52,6 +53,7 @@ public:
 
     TrialViewer &trials() { return *m_trials; }
     LessonGuide &lessonGuide() { return *m_lessons; }
+    ChartMenus &chartMenus() { return *m_chartMenus; }
 
     void openScans(const ScanTest &test) override;
 
@@ -137,6 +139,7 @@ private:
     std::unique_ptr<TrialViewer> m_trials;
     LessonGuide *m_lessons = nullptr;
     BoxAnalysis *m_boxAnalysis = nullptr;
+    ChartMenus *m_chartMenus = nullptr;
     OverviewStrip *m_overview = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;

@@ -21,6 +21,7 @@
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/TrialViewer.h"
+#include "app/views/ChartMenus.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
 #include "app/welcome/ScenarioCard.h"
@@ -181,6 +182,9 @@ void MainWindow::connectViews()
     connect(m_threshold, &ExceedancePlot::unitChanged, this,
             [this](ExceedancePlot::Unit unit) { m_controller.setThresholdUnit(decideBy(unit)); });
     connect(m_views, &WindowViews::failed, this, &MainWindow::showError);
+    m_chartMenus = new ChartMenus(*this, this);
+    connect(m_chartMenus, &ChartMenus::failed, this, &MainWindow::showError);
+    connect(m_chartMenus, &ChartMenus::written, this, &MainWindow::showWritten);
     connect(m_views, &WindowViews::written, this, &MainWindow::showWritten);
     connect(m_reviews, &EventReviews::written, this, &MainWindow::showWritten);
     connect(m_sequential, &SequentialPanel::written, this, &MainWindow::showWritten);

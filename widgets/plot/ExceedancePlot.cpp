@@ -314,7 +314,8 @@ void ExceedancePlot::drawRecording()
 void ExceedancePlot::nameCurves()
 {
     m_key->entries.clear();
-    const auto name = [this](const QwtPlotCurve &curve, const QString &text) {
+    const auto name = [this](QwtPlotCurve &curve, const QString &text) {
+        curve.setTitle(text);
         if (curve.dataSize() > 0)
             m_key->entries.push_back({text, curve.pen()});
     };
@@ -420,6 +421,7 @@ void ExceedancePlot::contextMenuEvent(QContextMenuEvent *event)
         action->setChecked(unit == m_unit);
         connect(action, &QAction::triggered, this, [this, unit = unit] { setUnit(unit); });
     }
+    emit contextMenuRequested(&menu);
     menu.exec(event->globalPos());
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+class QMenu;
 class QwtPlotCurve;
 class QwtPlotGrid;
 class QwtPlotHistogram;
@@ -80,6 +81,7 @@ signals:
     void thresholdRequested(double nats); ///< live, while dragging
     void thresholdCommitted(double nats); ///< at release, or after a key
     void unitChanged(faintline::ExceedancePlot::Unit unit);
+    void contextMenuRequested(QMenu *menu); ///< about to be shown: others may add to it
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;
