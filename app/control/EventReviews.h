@@ -66,6 +66,8 @@ private:
     void fillContextMenu(QMenu &menu, double seconds, double hz);
     void fillContextMenu(QMenu &menu, int track);
     void show();
+    void showUnmatched();
+    void goToUnmatched(int line);
     void enable();
     std::vector<int> chosen() const;
     void setReviews(std::vector<Review> reviews, const QString &text);
@@ -78,6 +80,7 @@ private:
     QList<QAction *> m_actions;      ///< null: a separator
     QList<QAction *> m_eventActions; ///< need a selected event
     QAction *m_addBox = nullptr;
+    std::vector<std::size_t> m_unmatched; ///< reviews, in the order they are listed
     Provenance m_provenance;
 };
 

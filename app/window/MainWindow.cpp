@@ -447,6 +447,8 @@ void MainWindow::showAnalysis()
     m_threshold->setHistogram(analysis.statisticCounts);
     m_threshold->setUnit(unitOf(analysis.settings.decide.by));
     m_events->setAxes(analysis.grid().axes);
+    const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
+    m_events->setOrigin(info.startUnixSeconds, info.centreHz);
     m_overview->setPicture(analysis.inputAlong.front(), frequency);
     showWorkbench();
 }
