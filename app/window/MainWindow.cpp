@@ -10,6 +10,7 @@
 #include "app/control/ThresholdCurves.h"
 #include "app/control/hint.h"
 #include "app/control/scanScenario.h"
+#include "app/document/OwnPresets.h"
 #include "app/document/Recovery.h"
 #include "app/document/SessionSaver.h"
 #include "app/help/EquationSheet.h"
@@ -159,7 +160,8 @@ void MainWindow::buildCentre()
 
 void MainWindow::buildDocks()
 {
-    m_pipeline = new PipelinePanel(m_document, m_controller);
+    m_ownPresets = new OwnPresets(m_memory.presetFolder(), this);
+    m_pipeline = new PipelinePanel(m_document, m_controller, *m_ownPresets);
     m_threshold = new ExceedancePlot;
     m_threshold->setObjectName(QStringLiteral("threshold"));
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);

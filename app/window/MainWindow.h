@@ -25,6 +25,7 @@ class KeysOverlay;
 class LessonGuide;
 struct Lesson;
 class OverviewStrip;
+class OwnPresets;
 class Panels;
 class ReportWriter;
 class ScenarioCard;
@@ -140,6 +141,7 @@ private:
     LessonGuide *m_lessons = nullptr;
     BoxAnalysis *m_boxAnalysis = nullptr;
     ChartMenus *m_chartMenus = nullptr;
+    OwnPresets *m_ownPresets = nullptr;
     OverviewStrip *m_overview = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;

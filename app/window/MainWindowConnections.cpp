@@ -17,6 +17,7 @@
 #include "app/panels/ComparePanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
+#include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
@@ -181,6 +182,7 @@ void MainWindow::connectViews()
     connect(m_threshold, &ExceedancePlot::thresholdCommitted, &m_controller, &AnalysisController::commitThreshold);
     connect(m_threshold, &ExceedancePlot::unitChanged, this,
             [this](ExceedancePlot::Unit unit) { m_controller.setThresholdUnit(decideBy(unit)); });
+    connect(m_pipeline, &PipelinePanel::failed, this, &MainWindow::showError);
     connect(m_views, &WindowViews::failed, this, &MainWindow::showError);
     m_chartMenus = new ChartMenus(*this, this);
     connect(m_chartMenus, &ChartMenus::failed, this, &MainWindow::showError);

@@ -13,6 +13,7 @@
 #include "app/panels/ComparePanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
+#include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/views/WindowViews.h"
 #include "app/welcome/WelcomePage.h"
@@ -111,6 +112,8 @@ void MainWindow::buildEditMenu()
     addViewAction(*menu, tr("Reset all &settings"), {}, [this] {
         m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings"));
     });
+    addViewAction(*menu, tr("Save settings as &preset…"), {}, [this] { m_pipeline->savePreset(); });
+    addViewAction(*menu, tr("&Delete preset…"), {}, [this] { m_pipeline->removePreset(); });
 }
 
 void MainWindow::buildViewMenu()
