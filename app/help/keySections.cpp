@@ -56,7 +56,7 @@ namespace {
                                       {"{  }", "white level down, up"},
                                       {"A", "automatic range"},
                                       {"V   Shift + V", "next output layer; over the statistic"},
-                                      {"S", "state space under the cursor, and its law"}}};
+                                      {"S   Shift + S", "state space under the cursor; spectrum"}}};
         return section;
     }
 
@@ -144,7 +144,7 @@ namespace {
                {"Y  X  U", "accept, reject; undecided"},
                {"E   G   Shift + G", "note; merge, separate several"},
                {"In the filter", "f>1000 stat>25 open: all must hold"}}}},
-            {{"pd", "asn", "prior", "latency"},
+            {{"pd", "asn", "prior", "latency", "spectrum"},
              {"Here: a chart",
               {{"Left  Right", "from point to point of a curve"},
                {"Up  Down", "from curve to curve"},

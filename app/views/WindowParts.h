@@ -28,6 +28,7 @@ class Recovery;
 class ReproductionPanel;
 class SequentialPanel;
 class StateSlicePanel;
+class SpectrumPanel;
 class SweepPanel;
 class WelcomePage;
 class WhyPanel;
@@ -66,6 +67,7 @@ public:
     HandLinePanel &handLine() const { return *m_handLine; }
     ComparePanel &comparePanel() const { return *m_compare; }
     EvaluatePanel &evaluation() const { return *m_evaluate; }
+    SpectrumPanel &spectrum() const { return *m_spectrum; }
     SweepPanel &sweep() const { return *m_sweep; }
     ExperimentsPanel &experimentList() const { return *m_experimentList; }
     ReproductionPanel &reproduction() const { return *m_reproduction; }
@@ -109,6 +111,7 @@ protected:
     HandLinePanel *m_handLine = nullptr;
     ComparePanel *m_compare = nullptr;
     EvaluatePanel *m_evaluate = nullptr;
+    SpectrumPanel *m_spectrum = nullptr;
     SweepPanel *m_sweep = nullptr;
     ExperimentsPanel *m_experimentList = nullptr;
     ReproductionPanel *m_reproduction = nullptr;

@@ -30,6 +30,7 @@
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/ReproductionPanel.h"
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/SpectrumPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/ThresholdPanel.h"
@@ -180,6 +181,7 @@ void MainWindow::buildDocks()
     m_latency = new LatencyPanel(m_document);
     m_handLine = new HandLinePanel(m_document, *m_workbench);
     m_compare = new ComparePanel(m_document, m_controller, m_comparer);
+    m_spectrum = new SpectrumPanel(m_document);
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
     m_sweep = new SweepPanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
@@ -199,6 +201,7 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("handDock"), tr("By hand"), m_handLine, Place::RightBottom);
     m_handLine->parentWidget()->hide(); // until it is asked for
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
+    m_panels->add(QStringLiteral("spectrumDock"), tr("Spectrum"), m_spectrum, Place::Bottom);
     m_panels->add(QStringLiteral("compareDock"), tr("Compare"), m_compare, Place::Bottom);
     m_panels->add(QStringLiteral("sweepDock"), tr("Sweep"), m_sweep, Place::Bottom);
     m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
@@ -640,6 +643,11 @@ void MainWindow::showHandLine()
 void MainWindow::showSweep()
 {
     m_panels->show(m_sweep);
+}
+
+void MainWindow::showSpectrum()
+{
+    m_panels->show(m_spectrum);
 }
 
 void MainWindow::showCompare()

@@ -64,6 +64,7 @@ public:
     void showLatency();
     void showHandLine();
     void learnMotion();
+    void showSpectrum();
     void showCompare();
     void showSweep();
 

@@ -143,6 +143,9 @@ void MainWindow::buildViewMenu()
             [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
     addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K,
                   [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
+    addViewAction(*menu, tr("S&pectrum"), QKeySequence(Qt::SHIFT | Qt::Key_S), [this] {
+        showSpectrum();
+    })->setToolTip(tr("The spectrum at the cursor, and the mean of what is visible"));
     menu->addSeparator();
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {
