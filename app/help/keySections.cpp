@@ -100,7 +100,7 @@ namespace {
                                       {"Ctrl + K", "find a command by name"},
                                       {"F1   ?", "this list of keys"},
                                       {"Shift + F1", "the equation of the view"},
-                                      {"F5", "presentation"},
+                                      {"F5", "presentation; Escape leaves it"},
                                       {"Ctrl + Q", "quit"}}};
         return section;
     }

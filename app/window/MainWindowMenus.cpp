@@ -161,6 +161,14 @@ void MainWindow::buildViewMenu()
     m_presentAction = addViewAction(*menu, tr("&Presentation"), Qt::Key_F5, {});
     m_presentAction->setCheckable(true);
     connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);
+    // Escape leaves a presentation, and stops what runs only otherwise.
+    auto *leave = new QAction(tr("Leave the presentation"), this);
+    addAction(leave);
+    connect(leave, &QAction::triggered, this, [this] { m_presentAction->setChecked(false); });
+    connect(m_presentAction, &QAction::toggled, leave, [this, leave](bool isPresenting) {
+        (isPresenting ? m_stopAction : leave)->setShortcut({});
+        (isPresenting ? leave : m_stopAction)->setShortcut(Qt::Key_Escape);
+    });
     QMenu *themes = menu->addMenu(tr("&Theme"));
     auto *group = new QActionGroup(themes);
     const auto addTheme = [&](const QString &text, Theme::Kind kind) {
