@@ -1,6 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/provenance.h"
 
+#include "analysis/advice.h"
 #include "analysis/analyse.h"
 #include "analysis/chooseWindow.h"
 #include "analysis/explain.h"
@@ -81,6 +82,9 @@ namespace {
                         time.value(static_cast<double>(dragged.front())));
         if (const auto law = checkNoiseLaw(analysis); law && !law->isFollowed())
             std::printf("warning: %s\n", law->warning().c_str());
+        for (const Advice &advice : advise(analysis))
+            std::printf("note: %s%s%s\n", advice.sentence.c_str(), advice.remedy.empty() ? "" : "; ",
+                        advice.remedy.c_str());
         std::printf("%zu event(s)\n", found.size());
         for (const Event &e : found) {
             std::printf("%5d  %.6g … %.6g s, detected at %.6g s, at", e.id, e.onsetSeconds, e.endSeconds,

@@ -7,6 +7,7 @@
 #include "exchange/readAnnotations.h"
 #include "exchange/writeReviewed.h"
 #include "widgets/base/labelText.h"
+#include "widgets/base/quantities.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/pings/PingMap.h"
 #include "widgets/waterfall/WaterfallView.h"
@@ -22,6 +23,25 @@
 #include <algorithm>
 
 namespace faintline {
+
+namespace {
+
+    /// "accepted, 12.3 … 45.6 s at 71.20: a note"
+    QString lineOf(const Review &review)
+    {
+        const SignalPath &path = review.paths.front();
+        QString line = QStringLiteral("%1 … %2 at %3")
+                           .arg(secondsText(path.seconds.front(), 0.1), secondsText(path.seconds.back(), 0.1),
+                                numberText(path.position.front().front(), 2));
+        const QString verdict = review.verdict == Verdict::Accepted   ? EventReviews::tr("accepted")
+                                : review.verdict == Verdict::Rejected ? EventReviews::tr("rejected")
+                                                                      : QString();
+        if (!verdict.isEmpty())
+            line = verdict + QStringLiteral(", ") + line;
+        return review.note.empty() ? line : QStringLiteral("%1: %2").arg(line, messageText(review.note));
+    }
+
+} // namespace
 
 EventReviews::EventReviews(Document &document, EventTable &table, std::vector<WaterfallView *> views, QWidget *window)
     : QObject(window), m_document(document), m_table(table), m_views(std::move(views)), m_window(window),
@@ -50,6 +70,7 @@ EventReviews::EventReviews(Document &document, EventTable &table, std::vector<Wa
 
     for (QAction *action : m_eventActions)
         m_table.table()->addAction(action);
+    connect(&m_table, &EventTable::unmatchedActivated, this, &EventReviews::goToUnmatched);
     connect(&m_table, &EventTable::noteRequested, this, &EventReviews::editNote);
     connect(m_table.table()->selectionModel(), &QItemSelectionModel::selectionChanged, this, &EventReviews::enable);
     connect(&m_document.viewport(), &Viewport::selectionChanged, this, &EventReviews::enable);
@@ -246,6 +267,7 @@ void EventReviews::exportTo(const QString &path)
             if (isDragged)
                 json["shownThreshold"] = threshold;
             writeProvenanceBeside(path, json.dump(2) + "\n");
+            emit written(path);
         } catch (const Error &error) {
             emit failed(error);
         }
@@ -288,6 +310,7 @@ void EventReviews::show()
     if (m_document.analysis())
         said = eventReviews(*m_document.analysis(), m_document.shownEvents(), m_document.annotations().reviews);
     m_table.setReviews(said);
+    showUnmatched();
     std::vector<int> rejected;
     for (const EventReview &one : said)
         if (one.verdict == Verdict::Rejected)
@@ -299,6 +322,33 @@ void EventReviews::show()
     for (PingMap *map : m_maps)
         map->setFaintTracks(rejected);
     enable();
+}
+
+void EventReviews::showUnmatched()
+{
+    const std::vector<Review> &reviews = m_document.annotations().reviews;
+    m_unmatched.clear();
+    if (m_document.analysis())
+        m_unmatched = unmatchedReviews(*m_document.analysis(), m_document.shownEvents(), reviews);
+    std::erase_if(m_unmatched, [&](std::size_t index) { return reviews[index].paths.empty(); }); // of no place
+    QStringList lines;
+    for (const std::size_t index : m_unmatched)
+        lines << lineOf(reviews[index]);
+    m_table.setUnmatched(lines);
+}
+
+void EventReviews::goToUnmatched(int line)
+{
+    const SignalPath &path =
+        m_document.annotations().reviews[m_unmatched[static_cast<std::size_t>(line)]].paths.front();
+    Viewport::Box box{{path.seconds.front(), path.seconds.back()},
+                      {path.position.front().front(), path.position.front().front()}};
+    for (const std::vector<double> &position : path.position) {
+        box.frequency.low = std::min(box.frequency.low, position.front() - path.tolerance.front());
+        box.frequency.high = std::max(box.frequency.high, position.front() + path.tolerance.front());
+    }
+    m_document.viewport().reveal(box);
+    m_document.viewport().setCursor({path.seconds.front(), path.position.front().front()});
 }
 
 void EventReviews::enable()

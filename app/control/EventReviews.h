@@ -51,6 +51,7 @@ public:
 
 signals:
     void failed(const faintline::Error &error);
+    void written(const QString &path);
     void told(const QString &where, const QString &what);
 
 private:
@@ -65,6 +66,8 @@ private:
     void fillContextMenu(QMenu &menu, double seconds, double hz);
     void fillContextMenu(QMenu &menu, int track);
     void show();
+    void showUnmatched();
+    void goToUnmatched(int line);
     void enable();
     std::vector<int> chosen() const;
     void setReviews(std::vector<Review> reviews, const QString &text);
@@ -77,6 +80,7 @@ private:
     QList<QAction *> m_actions;      ///< null: a separator
     QList<QAction *> m_eventActions; ///< need a selected event
     QAction *m_addBox = nullptr;
+    std::vector<std::size_t> m_unmatched; ///< reviews, in the order they are listed
     Provenance m_provenance;
 };
 

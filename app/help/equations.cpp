@@ -101,6 +101,12 @@ const std::vector<Equation> &equations()
              "y  power over noise background\n"
              "distance: the largest gap of the two laws (Kolmogorov, Smirnov)",
              "p₀ of Billon 2005, section 4"),
+        make("spectrum", "Spectrum",
+             "ȳ(f) = (1/n) Σ y(t, f)  over what is visible\n"
+             "density = 2·|X(f)|²/f_s,  half of that for I/Q",
+             "y  power over noise background\n"
+             "X  transform in a window of unit energy, f_s sample rate; full scale is 1",
+             "Welch 1967"),
         make("pd", "Detection probability",
              "Pd = (1/I²) Σᵢ Σⱼ [ D₁ᵢ > D₀ⱼ ]  per run, averaged over the runs\n"
              "at a threshold: k of n,  ( p + z²/2n ± z √( p(1−p)/n + z²/4n² ) ) / (1 + z²/n)",

@@ -56,7 +56,7 @@ namespace {
                                       {"{  }", "white level down, up"},
                                       {"A", "automatic range"},
                                       {"V   Shift + V", "next output layer; over the statistic"},
-                                      {"S", "state space under the cursor, and its law"}}};
+                                      {"S   Shift + S", "state space under the cursor; spectrum"}}};
         return section;
     }
 
@@ -70,7 +70,7 @@ namespace {
                                       {"W", "why detected, or why not"},
                                       {"Ctrl + D", "draw a line by hand"},
                                       {"Ctrl + B", "keep as A for comparison"},
-                                      {"M   B", "measure a box; annotate it"},
+                                      {"M   B   Ctrl + Return", "measure a box; annotate, analyse it"},
                                       {"K", "cursor to the nearest peak"},
                                       {"H", "harmonics of the cursor's frequency"},
                                       {"I", "sidebands: drag one, or Alt + Left, Right"},
@@ -94,12 +94,13 @@ namespace {
     {
         static const Section section{"File and help",
                                      {{"Ctrl + O", "open; or drop a file on the window"},
+                                      {"Ctrl + Page Down, Up", "next, previous file of the folder"},
                                       {"Ctrl + S", "save the session"},
                                       {"Ctrl + Z   Ctrl + Y", "undo, redo a setting"},
                                       {"Ctrl + K", "find a command by name"},
                                       {"F1   ?", "this list of keys"},
                                       {"Shift + F1", "the equation of the view"},
-                                      {"F5", "presentation"},
+                                      {"F5", "presentation; Escape leaves it"},
                                       {"Ctrl + Q", "quit"}}};
         return section;
     }
@@ -134,7 +135,7 @@ namespace {
              {"Here: the threshold curve",
               {{"Drag anywhere", "move the threshold"},
                {",  .", "threshold down, up by a quarter nat"},
-               {"Right button", "nats, Pfa per cell, false alarms/h"}}}},
+               {"Right button", "nats, Pfa per cell, false alarms/h; save"}}}},
             {{"events"},
              {"Here: the table of events",
               {{"N   Shift + N", "next, previous event"},
@@ -143,12 +144,13 @@ namespace {
                {"Y  X  U", "accept, reject; undecided"},
                {"E   G   Shift + G", "note; merge, separate several"},
                {"In the filter", "f>1000 stat>25 open: all must hold"}}}},
-            {{"pd", "asn", "prior", "latency"},
+            {{"pd", "asn", "prior", "latency", "spectrum"},
              {"Here: a chart",
               {{"Left  Right", "from point to point of a curve"},
                {"Up  Down", "from curve to curve"},
                {"Click, Enter", "on a measured point: show its trials"},
-               {"Boxes of the legend", "show and hide curves"}}}},
+               {"Boxes of the legend", "show and hide curves"},
+               {"Right button", "save as SVG, PDF, PNG or CSV"}}}},
             {{"slice"}, waterfall("Here: a slice through the states")},
             {{"sweep"},
              {"Here: a sweep",

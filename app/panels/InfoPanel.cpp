@@ -127,9 +127,9 @@ namespace {
 
 } // namespace
 
-InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, QWidget *parent)
+InfoPanel::InfoPanel(const Document &document, AnalysisController &controller, RecordingCheck &check, QWidget *parent)
     : QWidget(parent), m_document(document), m_controller(controller), m_label(new QLabel),
-      m_check(new NoiseCheck(document, controller))
+      m_check(new NoiseCheck(document, controller, check))
 {
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     m_label->setAlignment(Qt::AlignTop | Qt::AlignLeft);

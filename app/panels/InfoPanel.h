@@ -9,6 +9,7 @@ namespace faintline {
 class AnalysisController;
 class Document;
 class NoiseCheck;
+class RecordingCheck;
 
 /// In figures: what was opened, how it was cut into spectra, and how the detector answers to noise, this recording's
 /// too.
@@ -17,7 +18,8 @@ class InfoPanel : public QWidget
     Q_OBJECT
 
 public:
-    InfoPanel(const Document &document, AnalysisController &controller, QWidget *parent = nullptr);
+    InfoPanel(const Document &document, AnalysisController &controller, RecordingCheck &check,
+              QWidget *parent = nullptr);
 
     NoiseCheck *check() const { return m_check; }
 

@@ -1,9 +1,8 @@
 #include "app/panels/NoiseCheck.h"
 
-#include "analysis/noiseLaw.h"
 #include "app/base/statisticUnit.h"
 #include "app/control/AnalysisController.h"
-#include "base/Error.h"
+#include "app/control/RecordingCheck.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/quantities.h"
 
@@ -13,22 +12,11 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
-#include <algorithm>
 #include <cmath>
 
 namespace faintline {
 
 namespace {
-
-    constexpr double wantedHours = 2.0; ///< of noise, in all
-    constexpr int mostRuns = 40;
-
-    /// As many as make up two hours, four at least.
-    int runsFor(const Analysis &analysis)
-    {
-        const double hours = static_cast<double>(analysis.time().count) * analysis.time().step / 3600.0;
-        return std::clamp(static_cast<int>(std::ceil(wantedHours / hours)), 4, mostRuns);
-    }
 
     QLabel *words()
     {
@@ -39,11 +27,17 @@ namespace {
         return label;
     }
 
+    /// What begins with a small letter and ends without a full stop.
+    QString sentence(const std::string &clause)
+    {
+        return capitalised(QString::fromStdString(clause)) + QLatin1Char('.');
+    }
+
 } // namespace
 
-NoiseCheck::NoiseCheck(const Document &document, AnalysisController &controller, QWidget *parent)
-    : QWidget(parent), m_document(document), m_controller(controller), m_warning(words()), m_button(new QPushButton),
-      m_progress(new QProgressBar), m_result(words()), m_correct(new QPushButton)
+NoiseCheck::NoiseCheck(const Document &document, AnalysisController &controller, RecordingCheck &check, QWidget *parent)
+    : QWidget(parent), m_document(document), m_controller(controller), m_check(check), m_warning(words()),
+      m_button(new QPushButton), m_progress(new QProgressBar), m_result(words()), m_correct(new QPushButton)
 {
     m_warning->setObjectName(QStringLiteral("noiseWarning"));
     m_result->setObjectName(QStringLiteral("surrogateResult"));
@@ -73,120 +67,88 @@ NoiseCheck::NoiseCheck(const Document &document, AnalysisController &controller,
     layout->addWidget(m_result);
 
     connect(m_button, &QPushButton::clicked, this, &NoiseCheck::toggle);
-    connect(m_correct, &QPushButton::clicked, this, &NoiseCheck::correct);
-    connect(&m_runner, &JobRunner::progressed, this, [this](double fraction, const QString &what) {
+    connect(m_correct, &QPushButton::clicked, this, [this] {
+        if (const auto after = m_check.corrected())
+            m_controller.setSettings(*after, tr("Correct the threshold"));
+    });
+    connect(&check, &RecordingCheck::changed, this, &NoiseCheck::refresh);
+    connect(&check, &RecordingCheck::settled, this, &NoiseCheck::settled);
+    connect(&check, &RecordingCheck::countProgressed, this, [this](double fraction, const QString &what) {
         m_progress->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
         m_progress->setToolTip(what);
     });
-    connect(&m_runner, &JobRunner::finished, this, &NoiseCheck::end);
-    connect(&m_runner, &JobRunner::cancelled, this, &NoiseCheck::end);
-    connect(&m_runner, &JobRunner::failed, this, [this](const Error &error) {
-        m_result->setText(QString::fromUtf8(error.what()));
-        m_result->show();
-        end();
-    });
-    connect(&m_lawRunner, &JobRunner::finished, this, &NoiseCheck::end);
-    connect(&m_lawRunner, &JobRunner::cancelled, this, &NoiseCheck::end);
-    connect(&m_lawRunner, &JobRunner::failed, this, &NoiseCheck::end);
-    connect(&document, &Document::opened, this, &NoiseCheck::follow);
-    connect(&document, &Document::settingsChanged, this, &NoiseCheck::follow);
-    connect(&document, &Document::analysisChanged, this, &NoiseCheck::lookAtTheLaw);
-    follow();
+    refresh();
 }
 
-/// What was said of other settings holds no longer.
-void NoiseCheck::follow()
+bool NoiseCheck::isBusy() const
 {
-    if (m_runner.isRunning())
-        m_runner.cancel();
-    if (m_lawRunner.isRunning())
-        m_lawRunner.cancel();
-    m_warning->hide();
-    m_result->hide();
-    m_correct->hide();
-    setVisible(m_document.recording() != nullptr);
-    end();
-}
-
-void NoiseCheck::lookAtTheLaw()
-{
-    follow();
-    if (!m_document.recording())
-        return;
-    m_lawRunner.start([this, analysis = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
-        const std::optional<NoiseLaw> law = checkNoiseLaw(*analysis, context);
-        return [this, law] {
-            QString text = law ? QString::fromStdString(law->warning()) : QString();
-            if (text.isEmpty())
-                return;
-            text[0] = text[0].toUpper();
-            m_warning->setText(text + QLatin1Char('.'));
-            QPalette palette = m_warning->palette();
-            palette.setColor(QPalette::WindowText, Theme::colours(*this).error);
-            m_warning->setPalette(palette);
-            m_warning->show();
-        };
-    });
+    return m_check.isBusy();
 }
 
 void NoiseCheck::toggle()
 {
-    m_runner.isRunning() ? m_runner.cancel() : count();
-}
-
-void NoiseCheck::count()
-{
-    if (!m_document.recording() || !m_document.analysis() || !m_document.isCurrent())
-        return;
-    m_result->hide();
-    m_correct->hide();
-    m_runner.start([this, analysis = m_document.analysis()](const RunContext &context) -> JobRunner::Delivery {
-        const SurrogateCount counted =
-            countOnSurrogates(analysis->recording, analysis->settings, runsFor(*analysis), context);
-        return [this, counted] { show(counted); };
-    });
-    m_button->setText(tr("Stop"));
-    m_progress->setValue(0);
-    m_progress->show();
+    m_check.isCounting() ? m_check.stopCount() : m_check.startCount();
 }
 
 void NoiseCheck::show(const SurrogateCount &count)
 {
-    const Analysis &analysis = *m_document.analysis();
+    m_check.setCount(count);
+}
+
+void NoiseCheck::refresh()
+{
+    setVisible(m_document.recording() != nullptr);
+    showWarning();
+    showCount();
+    showProgress();
+}
+
+void NoiseCheck::showWarning()
+{
+    QStringList sentences;
+    if (m_check.law() && !m_check.law()->isFollowed())
+        sentences << sentence(m_check.law()->warning());
+    for (const Advice &advice : m_check.advice())
+        sentences << sentence(advice.remedy.empty() ? advice.sentence : advice.sentence + "; " + advice.remedy);
+    m_warning->setText(sentences.join(QLatin1Char('\n')));
+    m_warning->setVisible(!sentences.isEmpty());
+    QPalette palette = m_warning->palette();
+    palette.setColor(QPalette::WindowText, Theme::colours(*this).error);
+    m_warning->setPalette(palette);
+}
+
+void NoiseCheck::showCount()
+{
+    m_correct->hide();
+    m_result->setVisible(m_check.count() || m_check.failure());
+    if (m_check.failure())
+        m_result->setText(QString::fromUtf8(m_check.failure()->what()));
+    if (!m_check.count())
+        return;
+    const SurrogateCount &count = *m_check.count();
     QString text = tr("%1 events for %2 specified in %3 h of noise like this recording's: ratio %4 (95 %: %5 to %6).")
                        .arg(count.events)
                        .arg(numberText(count.ordered, 0), numberText(count.hours, 1), numberText(count.ratio, 2),
                             numberText(count.interval.low, 2), numberText(count.interval.high, 2));
-    if (count.correction == 0.0) {
-        text += QLatin1Char(' ') + tr("The threshold gives the specified false-alarm rate here.");
-    } else {
-        m_correctedNats = analysis.threshold + count.correction;
+    if (const auto after = m_check.corrected()) {
         m_correct->setText(
-            tr("Set threshold to %1 %2").arg(numberText(m_correctedNats, 2), statisticUnit(analysis.settings)));
+            tr("Set threshold to %1 %2").arg(numberText(after->decide.thresholdNats, 2), statisticUnit(*after)));
         m_correct->setToolTip(tr("At this threshold the false-alarm rate is as specified"));
         m_correct->show();
+    } else {
+        text += QLatin1Char(' ') + tr("The threshold gives the specified false-alarm rate here.");
     }
     m_result->setText(text);
-    m_result->show();
 }
 
-void NoiseCheck::correct()
+void NoiseCheck::showProgress()
 {
-    AnalysisSettings after = m_document.settings();
-    after.decide.by = DecideSettings::By::Nats;
-    after.decide.thresholdNats = std::round(100.0 * m_correctedNats) / 100.0;
-    m_controller.setSettings(after, tr("Correct the threshold"));
-}
-
-void NoiseCheck::end()
-{
-    if (!m_runner.isRunning()) {
-        m_button->setText(tr("Count on noise like this recording's"));
-        m_button->setEnabled(m_document.recording() && m_document.analysis());
-        m_progress->hide();
-    }
-    if (!isBusy())
-        emit settled();
+    const bool isCounting = m_check.isCounting();
+    if (isCounting && m_progress->isHidden())
+        m_progress->setValue(0);
+    m_progress->setVisible(isCounting);
+    m_button->setText(isCounting ? tr("Stop") : tr("Count on noise like this recording's"));
+    m_button->setEnabled(m_document.recording() && m_document.analysis());
 }
 
 } // namespace faintline

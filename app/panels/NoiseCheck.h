@@ -1,11 +1,8 @@
 #pragma once
 
 #include "analysis/surrogates.h"
-#include "app/base/JobRunner.h"
 
 #include <QWidget>
-
-#include <optional>
 
 class QLabel;
 class QProgressBar;
@@ -15,21 +12,22 @@ namespace faintline {
 
 class AnalysisController;
 class Document;
+class RecordingCheck;
 
-/// Whether the threshold keeps its promise in the recording that is open.
+/// Whether the threshold gives the specified rate of false alarms in the recording that is open.
 ///
-/// After each analysis the noise outside its tracks is looked at (`checkNoiseLaw`), and a sentence stands here where it
-/// is not what the threshold was calibrated for. "Count on noise like this recording's" sends surrogates of the
-/// recording through the whole chain (`countOnSurrogates`), says how many false alarms came for one ordered, and moves
-/// the threshold by a click so that as many come as were ordered. Both run behind the window; the count can be stopped.
+/// A sentence stands here where the recording's noise is not what the threshold was calibrated for, and each advice on
+/// the settings. "Count on noise like this recording's" says how many false alarms came for one ordered, and moves the
+/// threshold by a click so that as many come as were ordered; the count can be stopped.
 class NoiseCheck : public QWidget
 {
     Q_OBJECT
 
 public:
-    NoiseCheck(const Document &document, AnalysisController &controller, QWidget *parent = nullptr);
+    NoiseCheck(const Document &document, AnalysisController &controller, RecordingCheck &check,
+               QWidget *parent = nullptr);
 
-    bool isBusy() const { return m_runner.isRunning() || m_lawRunner.isRunning(); }
+    bool isBusy() const;
 
     /// Counts, or stops counting.
     void toggle();
@@ -42,22 +40,19 @@ signals:
     void settled();
 
 private:
-    void follow();
-    void lookAtTheLaw();
-    void count();
-    void correct();
-    void end();
+    void refresh();
+    void showWarning();
+    void showCount();
+    void showProgress();
 
     const Document &m_document;
     AnalysisController &m_controller;
+    RecordingCheck &m_check;
     QLabel *m_warning;
     QPushButton *m_button;
     QProgressBar *m_progress;
     QLabel *m_result;
     QPushButton *m_correct;
-    double m_correctedNats = 0.0;
-    JobRunner m_lawRunner;
-    JobRunner m_runner; ///< last, so that its jobs end first
 };
 
 } // namespace faintline

@@ -3,6 +3,7 @@
 #include "analysis/chooseWindow.h"
 #include "analysis/slopeUnit.h"
 #include "app/control/AnalysisController.h"
+#include "app/document/OwnPresets.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
@@ -12,7 +13,9 @@
 
 #include <QComboBox>
 #include <QFormLayout>
+#include <QInputDialog>
 #include <QLabel>
+#include <QLineEdit>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -49,19 +52,17 @@ namespace {
 
 } // namespace
 
-PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller, QWidget *parent)
-    : QWidget(parent), m_document(document), m_controller(controller), m_recording(new QLabel), m_preset(new QComboBox),
-      m_window(new QComboBox), m_top(new QFormLayout), m_form(new SettingsForm)
+PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller, OwnPresets &ownPresets,
+                             QWidget *parent)
+    : QWidget(parent), m_document(document), m_controller(controller), m_ownPresets(ownPresets),
+      m_recording(new QLabel), m_preset(new QComboBox), m_window(new QComboBox), m_top(new QFormLayout),
+      m_form(new SettingsForm)
 {
     m_recording->setWordWrap(true);
     m_recording->setTextFormat(Qt::RichText);
-    m_preset->addItem(tr("Own settings"));
-    for (const Preset &preset : presets()) {
-        m_preset->addItem(QString::fromStdString(preset.name));
-        m_preset->setItemData(m_preset->count() - 1, QString::fromStdString(preset.sentence), Qt::ToolTipRole);
-    }
+    listPresets();
     m_preset->setAccessibleName(tr("Preset"));
-    m_preset->setToolTip(tr("Initial settings for a kind of recording"));
+    m_preset->setToolTip(tr("Initial settings for a kind of recording; Edit > Save settings as preset adds your own"));
 
     m_window->setObjectName(QStringLiteral("windowChoice"));
     m_window->setAccessibleName(tr("Window"));
@@ -85,6 +86,10 @@ PipelinePanel::PipelinePanel(Document &document, AnalysisController &controller,
     });
     connect(m_form, &SettingsForm::resetRequested, this,
             [this] { m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings")); });
+    connect(&ownPresets, &OwnPresets::changed, this, [this] {
+        listPresets();
+        showSettings();
+    });
     connect(&document, &Document::opened, this, &PipelinePanel::showRecording);
     connect(&document, &Document::opened, this, [this] {
         m_choice.reset();
@@ -115,12 +120,59 @@ void PipelinePanel::showSettings()
     for (const char *stage : {"selection", "spectrogram", "noise"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
     m_form->setSectionShown(QStringLiteral("conventional"), m_document.hasPings());
-    const auto isTaken = [this](const Preset &preset) {
-        return withSelection(preset.settings) == m_document.settings();
-    };
-    const auto taken = std::find_if(presets().begin(), presets().end(), isTaken);
-    m_preset->setCurrentIndex(taken == presets().end() ? 0 : static_cast<int>(taken - presets().begin()) + 1);
+    int taken = 1;
+    while (taken < m_preset->count() && withSelection(presetAt(taken).settings) != m_document.settings())
+        ++taken;
+    m_preset->setCurrentIndex(taken < m_preset->count() ? taken : 0);
     showWindows();
+}
+
+/// Those of the program, then one's own.
+void PipelinePanel::listPresets()
+{
+    m_preset->clear();
+    m_preset->addItem(tr("Own settings"));
+    for (const std::vector<Preset> *all : {&presets(), &m_ownPresets.all()})
+        for (const Preset &preset : *all) {
+            m_preset->addItem(QString::fromStdString(preset.name));
+            m_preset->setItemData(m_preset->count() - 1,
+                                  preset.sentence.empty() ? tr("Your own preset")
+                                                          : QString::fromStdString(preset.sentence),
+                                  Qt::ToolTipRole);
+        }
+}
+
+const Preset &PipelinePanel::presetAt(int index) const
+{
+    const auto at = static_cast<std::size_t>(index - 1);
+    return at < presets().size() ? presets()[at] : m_ownPresets.all()[at - presets().size()];
+}
+
+void PipelinePanel::savePreset()
+{
+    bool isGiven = false;
+    const QString name =
+        QInputDialog::getText(this, tr("Save settings as preset"), tr("Name:"), QLineEdit::Normal, {}, &isGiven);
+    if (!isGiven)
+        return;
+    try {
+        m_ownPresets.save(name.trimmed(), m_document.settings());
+    } catch (const Error &error) {
+        emit failed(error);
+    }
+}
+
+void PipelinePanel::removePreset()
+{
+    QStringList names;
+    for (const Preset &preset : m_ownPresets.all())
+        names << QString::fromStdString(preset.name);
+    if (names.isEmpty())
+        return emit failed(Error("presets", "there are none of your own; Edit > Save settings as preset makes one"));
+    bool isGiven = false;
+    const QString name = QInputDialog::getItem(this, tr("Delete preset"), tr("Preset:"), names, 0, false, &isGiven);
+    if (isGiven)
+        m_ownPresets.remove(name);
 }
 
 void PipelinePanel::showWindows()
@@ -177,7 +229,7 @@ void PipelinePanel::applyPreset(int index)
 {
     if (index == 0)
         return showSettings();
-    m_controller.setSettings(withSelection(presets()[static_cast<std::size_t>(index - 1)].settings),
+    m_controller.setSettings(withSelection(presetAt(index).settings),
                              tr("Apply preset “%1”").arg(m_preset->itemText(index)));
 }
 

@@ -14,6 +14,7 @@ namespace faintline {
 
 class AnalysisController;
 class Document;
+class OwnPresets;
 class SettingsForm;
 
 /// The chain from recording to tracks as one form: what is open, a starting point, and every setting.
@@ -22,15 +23,26 @@ class PipelinePanel : public QWidget
     Q_OBJECT
 
 public:
-    PipelinePanel(Document &document, AnalysisController &controller, QWidget *parent = nullptr);
+    PipelinePanel(Document &document, AnalysisController &controller, OwnPresets &ownPresets,
+                  QWidget *parent = nullptr);
 
     SettingsForm *form() const { return m_form; }
 
+    /// The settings that are shown get a name of the user's.
+    void savePreset();
+    /// Asks which one.
+    void removePreset();
+
     QSize sizeHint() const override { return {270, 600}; }
+
+signals:
+    void failed(const faintline::Error &error);
 
 private:
     void showRecording();
     void showSettings();
+    void listPresets();
+    const Preset &presetAt(int index) const;
     void showNotes();
     void showError(const Error &error);
     void showWindows();
@@ -41,6 +53,7 @@ private:
 
     Document &m_document;
     AnalysisController &m_controller;
+    OwnPresets &m_ownPresets;
     QLabel *m_recording;
     QComboBox *m_preset;
     QComboBox *m_window;

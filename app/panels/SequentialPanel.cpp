@@ -473,6 +473,7 @@ void SequentialPanel::save(const View &view)
         return;
     try {
         saveTo(view, path);
+        emit written(path);
     } catch (const Error &error) {
         emit failed(error);
     }

@@ -66,6 +66,7 @@ public:
 
 signals:
     void failed(const faintline::Error &error);
+    void written(const QString &path);
 
 protected:
     bool event(QEvent *event) override;

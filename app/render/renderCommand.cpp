@@ -207,6 +207,8 @@ namespace {
             cutStates(window);
         if (has("noise") || has("window"))
             settleNoiseCheck(window);
+        if (has("spectrum"))
+            settleSpectrum(window);
         if (has("noisefit"))
             measureNoise(window);
         if (std::any_of(views.begin(), views.end(), [](const auto &view) { return isOf(WindowView::Of::Scans, view); }))

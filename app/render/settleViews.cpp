@@ -9,6 +9,7 @@
 #include "app/panels/NoiseCheck.h"
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/SpectrumPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepForm.h"
 #include "app/panels/SweepPanel.h"
@@ -88,6 +89,12 @@ void measureNoise(MainWindow &window)
 {
     window.showNoiseFit();
     waitFor(window.noiseFit());
+}
+
+void settleSpectrum(MainWindow &window)
+{
+    window.showSpectrum();
+    waitFor(window.spectrum());
 }
 
 void settleNoiseCheck(MainWindow &window)

@@ -20,6 +20,7 @@ void cutStates(MainWindow &window);
 void measureLatency(MainWindow &window);
 
 /// Until the noise outside tracks has been looked at.
+void settleSpectrum(MainWindow &window);
 void settleNoiseCheck(MainWindow &window);
 
 /// What follows the size of a view that was shown: another one may have more pixels to fill, or smaller ones.

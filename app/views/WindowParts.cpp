@@ -5,7 +5,7 @@
 
 namespace faintline {
 
-WindowParts::WindowParts() : m_controller(m_document), m_comparer(m_document) {}
+WindowParts::WindowParts() : m_controller(m_document), m_comparer(m_document), m_check(m_document) {}
 
 WindowParts::~WindowParts() = default;
 

@@ -3,6 +3,7 @@
 #include "app/control/AnalysisController.h"
 #include "app/control/Comparer.h"
 #include "app/control/Experiments.h"
+#include "app/control/RecordingCheck.h"
 #include "app/control/SequentialTests.h"
 #include "app/document/Document.h"
 
@@ -27,6 +28,7 @@ class Recovery;
 class ReproductionPanel;
 class SequentialPanel;
 class StateSlicePanel;
+class SpectrumPanel;
 class SweepPanel;
 class WelcomePage;
 class WhyPanel;
@@ -42,6 +44,7 @@ public:
     const Document &document() const { return m_document; }
     AnalysisController &controller() { return m_controller; }
     Comparer &comparer() { return m_comparer; }
+    RecordingCheck &recordingCheck() { return m_check; }
     Experiments &experiments() { return m_experiments; }
     SequentialTests &sequentialTests() { return m_sequentialTests; }
     Recovery &recovery() { return *m_recovery; }
@@ -64,6 +67,7 @@ public:
     HandLinePanel &handLine() const { return *m_handLine; }
     ComparePanel &comparePanel() const { return *m_compare; }
     EvaluatePanel &evaluation() const { return *m_evaluate; }
+    SpectrumPanel &spectrum() const { return *m_spectrum; }
     SweepPanel &sweep() const { return *m_sweep; }
     ExperimentsPanel &experimentList() const { return *m_experimentList; }
     ReproductionPanel &reproduction() const { return *m_reproduction; }
@@ -85,6 +89,7 @@ protected:
     Document m_document;
     AnalysisController m_controller;
     Comparer m_comparer;
+    RecordingCheck m_check;
     Experiments m_experiments;
     SequentialTests m_sequentialTests;
 
@@ -106,6 +111,7 @@ protected:
     HandLinePanel *m_handLine = nullptr;
     ComparePanel *m_compare = nullptr;
     EvaluatePanel *m_evaluate = nullptr;
+    SpectrumPanel *m_spectrum = nullptr;
     SweepPanel *m_sweep = nullptr;
     ExperimentsPanel *m_experimentList = nullptr;
     ReproductionPanel *m_reproduction = nullptr;

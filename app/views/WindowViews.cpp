@@ -10,6 +10,7 @@
 #include "app/panels/LatencyPanel.h"
 #include "app/panels/NoiseFitPanel.h"
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/SpectrumPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/TrajectoryPage.h"
@@ -54,6 +55,7 @@ const std::vector<WindowView> &windowViews()
         {"events", tr("Events"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.eventTable(); }},
         {"noise", tr("Noise and calibration"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.info(); }},
         {"noisefit", tr("Noise fit"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.noiseFit(); }},
+        {"spectrum", tr("Spectrum"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.spectrum(); }},
         {"pd", tr("Pd and ROC"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.evaluation(); }},
         {"why", tr("Why"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.why(); }},
         {"compare", tr("Compare"), Of::Recording, [](Parts parts) -> QWidget * { return &parts.comparePanel(); }},
@@ -115,6 +117,7 @@ void WindowViews::saveTo(const QString &name, const QString &path)
     m_parts.reviews().provenance().with([this, name, path](const std::string &provenance) {
         try {
             saveView(*named(name), {}, path, withView(name, provenance));
+            emit written(path);
         } catch (const Error &error) {
             emit failed(error);
         }

@@ -48,6 +48,7 @@ public:
     void saveTo(const QString &name, const QString &path);
 
 signals:
+    void written(const QString &path);
     void failed(const faintline::Error &error);
 
 private:

@@ -1,6 +1,7 @@
 #include "app/welcome/WelcomePage.h"
 
 #include "analysis/analyse.h"
+#include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
 #include "app/lessons/LessonList.h"
 #include "app/welcome/ScanCard.h"
@@ -111,7 +112,7 @@ void WelcomePage::setRecent(const QStringList &paths)
         return;
     m_recent->addWidget(sentence(tr("Recent"), Theme::boldFont(14)));
     for (const QString &path : paths.mid(0, mostRecent)) {
-        auto *button = new QPushButton(buttonText(fileLabel(path)));
+        auto *button = new QPushButton(buttonText(distinctLabel(path, paths)));
         button->setFlat(true);
         button->setStyleSheet(QStringLiteral("text-align: left; padding: 3px 0px;"));
         button->setCursor(Qt::PointingHandCursor);

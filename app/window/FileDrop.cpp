@@ -11,13 +11,14 @@ namespace faintline {
 
 namespace {
 
-    /// The first of the dragged files; empty where something else is dragged.
-    QString fileOf(const QMimeData &data)
+    /// The dragged files; none where something else is dragged.
+    QStringList filesOf(const QMimeData &data)
     {
+        QStringList files;
         for (const QUrl &url : data.urls())
             if (const QString path = pathOf(url); !path.isEmpty())
-                return path;
-        return {};
+                files << path;
+        return files;
     }
 
 } // namespace
@@ -37,12 +38,12 @@ bool FileDrop::eventFilter(QObject *watched, QEvent *event)
     if (!isDrop && event->type() != QEvent::DragEnter && event->type() != QEvent::DragMove)
         return QObject::eventFilter(watched, event);
     auto *drag = static_cast<QDropEvent *>(event);
-    const QString path = fileOf(*drag->mimeData());
-    if (path.isEmpty())
+    const QStringList files = filesOf(*drag->mimeData());
+    if (files.isEmpty())
         return QObject::eventFilter(watched, event);
     drag->acceptProposedAction();
     if (isDrop)
-        emit dropped(path);
+        emit dropped(files);
     return true;
 }
 

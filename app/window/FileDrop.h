@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <QStringList>
 
 class QWidget;
 
@@ -16,7 +17,7 @@ public:
     explicit FileDrop(QWidget *window);
 
 signals:
-    void dropped(const QString &path);
+    void dropped(const QStringList &files);
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override;

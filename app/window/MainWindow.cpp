@@ -1,13 +1,16 @@
 #include "app/window/MainWindow.h"
 
 #include "app/base/MessageBar.h"
+#include "app/base/distinctLabels.h"
 #include "app/base/filePath.h"
 #include "app/base/statisticUnit.h"
+#include "app/control/BoxAnalysis.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/ThresholdCurves.h"
 #include "app/control/hint.h"
 #include "app/control/scanScenario.h"
+#include "app/document/OwnPresets.h"
 #include "app/document/Recovery.h"
 #include "app/document/SessionSaver.h"
 #include "app/help/EquationSheet.h"
@@ -27,8 +30,10 @@
 #include "app/panels/PipelinePanel.h"
 #include "app/panels/ReproductionPanel.h"
 #include "app/panels/SequentialPanel.h"
+#include "app/panels/SpectrumPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
+#include "app/panels/ThresholdPanel.h"
 #include "app/panels/TrialViewer.h"
 #include "app/panels/WhyPanel.h"
 #include "app/views/ReportWriter.h"
@@ -116,6 +121,7 @@ MainWindow::~MainWindow()
     m_controller.disconnect(this); // what is still running ends after the widgets are gone
     m_document.disconnect(this);
     m_comparer.disconnect();
+    m_check.disconnect();
     m_experiments.disconnect();
     m_sequentialTests.disconnect();
     m_trials.reset();
@@ -155,7 +161,8 @@ void MainWindow::buildCentre()
 
 void MainWindow::buildDocks()
 {
-    m_pipeline = new PipelinePanel(m_document, m_controller);
+    m_ownPresets = new OwnPresets(m_memory.presetFolder(), this);
+    m_pipeline = new PipelinePanel(m_document, m_controller, *m_ownPresets);
     m_threshold = new ExceedancePlot;
     m_threshold->setObjectName(QStringLiteral("threshold"));
     m_threshold->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -166,13 +173,15 @@ void MainWindow::buildDocks()
         m_document, *m_events,
         {m_workbench->input(), m_workbench->output(), m_pings->rangeHistory(), m_pings->bearingHistory()}, this);
     m_reviews->addMaps({m_pings->input(), m_pings->output()});
+    m_boxAnalysis = new BoxAnalysis(m_document, m_controller, {m_workbench->input(), m_workbench->output()}, this);
     m_why = new WhyPanel(m_document, m_pings->viewports());
-    m_info = new InfoPanel(m_document, m_controller);
+    m_info = new InfoPanel(m_document, m_controller, m_check);
     m_noiseFit = new NoiseFitPanel(m_document);
     m_states = new StateSlicePanel(m_document, m_pings->viewports());
     m_latency = new LatencyPanel(m_document);
     m_handLine = new HandLinePanel(m_document, *m_workbench);
     m_compare = new ComparePanel(m_document, m_controller, m_comparer);
+    m_spectrum = new SpectrumPanel(m_document);
     m_evaluate = new EvaluatePanel(m_document, m_experiments);
     m_sweep = new SweepPanel(m_document, m_experiments);
     m_experimentList = new ExperimentsPanel(m_experiments);
@@ -182,7 +191,8 @@ void MainWindow::buildDocks()
     using Place = Panels::Place;
     m_panels->add(QStringLiteral("pipelineDock"), tr("Pipeline"), m_pipeline, Place::Left);
     // The threshold above the events it decides about: one sees both while dragging.
-    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"), m_threshold, Place::RightTop);
+    m_panels->add(QStringLiteral("thresholdDock"), tr("Threshold"),
+                  new ThresholdPanel(*m_threshold, m_controller, m_check), Place::RightTop);
     m_panels->add(QStringLiteral("eventsDock"), tr("Events"), m_events, Place::RightBottom);
     m_panels->add(QStringLiteral("whyDock"), tr("Why"), m_why, Place::RightBottom);
     m_panels->add(QStringLiteral("noiseDock"), tr("Noise"), m_info, Place::RightBottom);
@@ -191,6 +201,7 @@ void MainWindow::buildDocks()
     m_panels->add(QStringLiteral("handDock"), tr("By hand"), m_handLine, Place::RightBottom);
     m_handLine->parentWidget()->hide(); // until it is asked for
     m_panels->add(QStringLiteral("evaluateDock"), tr("Pd and ROC"), m_evaluate, Place::Bottom);
+    m_panels->add(QStringLiteral("spectrumDock"), tr("Spectrum"), m_spectrum, Place::Bottom);
     m_panels->add(QStringLiteral("compareDock"), tr("Compare"), m_compare, Place::Bottom);
     m_panels->add(QStringLiteral("sweepDock"), tr("Sweep"), m_sweep, Place::Bottom);
     m_panels->add(QStringLiteral("experimentsDock"), tr("Experiments"), m_experimentList, Place::Bottom);
@@ -319,9 +330,8 @@ void MainWindow::openScans(const ScanTest &test)
 void MainWindow::chooseFile()
 {
     const QString folder = m_memory.recent().isEmpty() ? QString() : QFileInfo(m_memory.recent().first()).path();
-    const QString path = pathOf(QFileDialog::getOpenFileUrl(this, tr("Open"), QUrl::fromLocalFile(folder),
-                                                            tr("All files (*);;Sessions (*.faintline);;Scenarios "
-                                                               "(*.json)")));
+    const QString path =
+        pathOf(QFileDialog::getOpenFileUrl(this, tr("Open"), QUrl::fromLocalFile(folder), openFilter()));
     if (!path.isEmpty())
         open(path);
 }
@@ -334,6 +344,51 @@ void MainWindow::chooseRawFile()
     OpenOptionsDialog dialog(path, this);
     if (dialog.exec() == QDialog::Accepted)
         open(path, dialog.options());
+}
+
+void MainWindow::openDropped(const QStringList &files)
+{
+    m_files.setFiles({});
+    if (files.size() > 1) {
+        QStringList absolute;
+        for (const QString &file : files)
+            absolute << absolutePath(file);
+        m_files.setFiles(absolute);
+        connect(
+            &m_document, &Document::opened, this,
+            [this, count = files.size()] {
+                m_messages->showMessage(MessageBar::Kind::Notice, tr("%1 files").arg(count),
+                                        tr("The first of them is shown. Ctrl+Page Down goes to the next."));
+            },
+            static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
+    }
+    open(files.front());
+}
+
+void MainWindow::goToFile(int by)
+{
+    const QString path = m_files.neighbour(m_document.source().path, by);
+    if (path.isEmpty()) {
+        m_messages->showMessage(MessageBar::Kind::Notice, m_document.source().name(),
+                                by > 0 ? tr("This is the last recording of its folder.")
+                                       : tr("This is the first recording of its folder."));
+        return;
+    }
+    const auto next = [this, path] {
+        AnalysisSettings settings = m_document.settings();
+        settings.selection.fromSeconds = settings.selection.toSeconds =
+            0.0; // a part of one recording is none of another
+        openNow(path, m_document.source().options, [settings](AnalysisSettings &opened) { opened = settings; });
+    };
+    // The settings go along: only what was said about events could be lost.
+    if (m_document.annotations().isEmpty() || m_saver->mayLose(tr("opening something else"), next))
+        next();
+}
+
+void MainWindow::showWritten(const QString &path)
+{
+    m_messages->showMessage(MessageBar::Kind::Notice, tr("Written"),
+                            labelText(pathBytes(absolutePath(path)), longestPath));
 }
 
 void MainWindow::offerIq()
@@ -397,6 +452,8 @@ void MainWindow::showAnalysis()
     m_threshold->setHistogram(analysis.statisticCounts);
     m_threshold->setUnit(unitOf(analysis.settings.decide.by));
     m_events->setAxes(analysis.grid().axes);
+    const RecordingInfo info = m_document.recording() ? m_document.recording()->info() : RecordingInfo();
+    m_events->setOrigin(info.startUnixSeconds, info.centreHz);
     m_overview->setPicture(analysis.inputAlong.front(), frequency);
     showWorkbench();
 }
@@ -416,8 +473,9 @@ void MainWindow::showHint()
 
 void MainWindow::showTitle()
 {
-    const QString path = m_document.sessionPath();
-    const QString name = path.isEmpty() ? m_document.source().name() : fileLabel(path);
+    const QString path = m_document.sessionPath().isEmpty() ? m_document.source().path : m_document.sessionPath();
+    const QString name =
+        path.isEmpty() ? m_document.source().name() : distinctLabel(absolutePath(path), m_memory.recent());
     setWindowTitle(m_document.isEmpty() ? tr("Faintline") : tr("%1[*] — Faintline").arg(name));
     setWindowModified(m_document.isModified());
 }
@@ -457,7 +515,7 @@ void MainWindow::fillRecentMenu()
 {
     m_recentMenu->clear();
     for (const QString &path : m_memory.recent())
-        m_recentMenu->addAction(buttonText(fileLabel(path)), this, [this, path] { open(path); })
+        m_recentMenu->addAction(buttonText(distinctLabel(path, m_memory.recent())), this, [this, path] { open(path); })
             ->setToolTip(asHtml(labelText(pathBytes(path), longestPath)));
     if (m_recentMenu->isEmpty())
         m_recentMenu->addAction(tr("No recent files"))->setEnabled(false);
@@ -585,6 +643,11 @@ void MainWindow::showHandLine()
 void MainWindow::showSweep()
 {
     m_panels->show(m_sweep);
+}
+
+void MainWindow::showSpectrum()
+{
+    m_panels->show(m_spectrum);
 }
 
 void MainWindow::showCompare()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/document/recordingFiles.h"
 #include "app/views/WindowParts.h"
 #include "app/window/WindowMemory.h"
 #include "widgets/base/Theme.h"
@@ -16,12 +17,15 @@ class QToolBar;
 namespace faintline {
 
 class ActivityBar;
+class BoxAnalysis;
+class ChartMenus;
 class CommandPalette;
 class EquationSheet;
 class KeysOverlay;
 class LessonGuide;
 struct Lesson;
 class OverviewStrip;
+class OwnPresets;
 class Panels;
 class ReportWriter;
 class ScenarioCard;
@@ -50,6 +54,7 @@ public:
 
     TrialViewer &trials() { return *m_trials; }
     LessonGuide &lessonGuide() { return *m_lessons; }
+    ChartMenus &chartMenus() { return *m_chartMenus; }
 
     void openScans(const ScanTest &test) override;
 
@@ -59,6 +64,7 @@ public:
     void showLatency();
     void showHandLine();
     void learnMotion();
+    void showSpectrum();
     void showCompare();
     void showSweep();
 
@@ -107,6 +113,10 @@ private:
     void openScenario(ScenarioCard *card);
     void chooseFile();
     void chooseRawFile();
+    void openDropped(const QStringList &files);
+    /// The file that is so many after the one that is open, with the same settings.
+    void goToFile(int by);
+    void showWritten(const QString &path);
     void exportReport();
     void injectLine();
     void reproduce(const Reproducible &reproducible, bool quick);
@@ -120,6 +130,7 @@ private:
     void restoreLayout();
 
     WindowMemory m_memory;
+    FileSequence m_files;
     bool m_isAsking = true;
 
     Panels *m_panels = nullptr;
@@ -129,6 +140,9 @@ private:
     ReportWriter *m_report = nullptr;
     std::unique_ptr<TrialViewer> m_trials;
     LessonGuide *m_lessons = nullptr;
+    BoxAnalysis *m_boxAnalysis = nullptr;
+    ChartMenus *m_chartMenus = nullptr;
+    OwnPresets *m_ownPresets = nullptr;
     OverviewStrip *m_overview = nullptr;
     ActivityBar *m_activity = nullptr;
     QLabel *m_hint = nullptr;

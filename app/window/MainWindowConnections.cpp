@@ -4,6 +4,7 @@
 
 #include "app/base/MessageBar.h"
 #include "app/base/filePath.h"
+#include "app/control/AdviceMessages.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/scanScenario.h"
@@ -16,10 +17,12 @@
 #include "app/panels/ComparePanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
+#include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/panels/StateSlicePanel.h"
 #include "app/panels/SweepPanel.h"
 #include "app/panels/TrialViewer.h"
+#include "app/views/ChartMenus.h"
 #include "app/views/ReportWriter.h"
 #include "app/views/WindowViews.h"
 #include "app/welcome/ScenarioCard.h"
@@ -30,6 +33,7 @@
 #include "app/workspace/PingBench.h"
 #include "app/workspace/Workbench.h"
 #include "widgets/base/ReadOut.h"
+#include "widgets/base/labelText.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/events/EventTable.h"
 #include "widgets/plot/ExceedancePlot.h"
@@ -38,6 +42,7 @@
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QLabel>
+#include <QLineEdit>
 #include <QStackedWidget>
 
 namespace faintline {
@@ -68,6 +73,7 @@ void MainWindow::connectDocument()
         m_overview->setPicture(nullptr, {});
         // Nothing of what was open before stays under the new name.
         m_events->setEvents({});
+        m_events->filter()->clear();
         for (Bench *one : std::initializer_list<Bench *>{m_workbench, m_pings})
             one->setEmptySentence(tr("Estimating the noise of %1 …").arg(m_document.source().name()));
         if (m_pages->currentWidget() != m_welcome)
@@ -111,6 +117,7 @@ void MainWindow::connectController()
     });
     connect(&m_controller, &AnalysisController::refined, this,
             [this](double firstEstimate) { m_hint->setText(refinedSentence(*m_document.analysis(), firstEstimate)); });
+    new AdviceMessages(m_document, m_controller, m_check, *m_messages, this);
     connect(&m_controller, &AnalysisController::viewRestored, this,
             [this](const ViewState &view) { bench().restore(view); });
     m_saver = new SessionSaver(
@@ -122,14 +129,11 @@ void MainWindow::connectController()
     connect(m_report, &ReportWriter::progressed, m_activity, &ActivityBar::setProgress);
     connect(m_activity, &ActivityBar::cancelRequested, m_report, &ReportWriter::cancel);
     connect(m_report, &ReportWriter::failed, this, &MainWindow::showError);
-    connect(m_report, &ReportWriter::written, this, [this](const QString &path) {
-        m_messages->showMessage(MessageBar::Kind::Notice, fileLabel(path),
-                                tr("was "
-                                   "written."));
-    });
+    connect(m_report, &ReportWriter::written, this, &MainWindow::showWritten);
     connect(m_saver, &SessionSaver::failed, this, &MainWindow::showError);
     connect(m_saver, &SessionSaver::saved, this, [this](const QString &path) {
         m_memory.addRecent(path);
+        m_hint->setText(tr("Saved as %1").arg(labelText(pathBytes(absolutePath(path)), longestPath)));
         emit saved(path);
     });
 }
@@ -178,8 +182,15 @@ void MainWindow::connectViews()
     connect(m_threshold, &ExceedancePlot::thresholdCommitted, &m_controller, &AnalysisController::commitThreshold);
     connect(m_threshold, &ExceedancePlot::unitChanged, this,
             [this](ExceedancePlot::Unit unit) { m_controller.setThresholdUnit(decideBy(unit)); });
+    connect(m_pipeline, &PipelinePanel::failed, this, &MainWindow::showError);
     connect(m_views, &WindowViews::failed, this, &MainWindow::showError);
-    connect(new FileDrop(this), &FileDrop::dropped, this, [this](const QString &path) { open(path); });
+    m_chartMenus = new ChartMenus(*this, this);
+    connect(m_chartMenus, &ChartMenus::failed, this, &MainWindow::showError);
+    connect(m_chartMenus, &ChartMenus::written, this, &MainWindow::showWritten);
+    connect(m_views, &WindowViews::written, this, &MainWindow::showWritten);
+    connect(m_reviews, &EventReviews::written, this, &MainWindow::showWritten);
+    connect(m_sequential, &SequentialPanel::written, this, &MainWindow::showWritten);
+    connect(new FileDrop(this), &FileDrop::dropped, this, &MainWindow::openDropped);
 }
 
 void MainWindow::connectEvaluation()

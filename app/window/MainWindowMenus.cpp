@@ -2,6 +2,7 @@
 
 #include "app/window/MainWindow.h"
 
+#include "app/control/BoxAnalysis.h"
 #include "app/control/EventReviews.h"
 #include "app/control/OutputLayers.h"
 #include "app/control/scanScenario.h"
@@ -12,6 +13,7 @@
 #include "app/panels/ComparePanel.h"
 #include "app/panels/EvaluatePanel.h"
 #include "app/panels/ExperimentsPanel.h"
+#include "app/panels/PipelinePanel.h"
 #include "app/panels/SequentialPanel.h"
 #include "app/views/WindowViews.h"
 #include "app/welcome/WelcomePage.h"
@@ -71,6 +73,12 @@ void MainWindow::buildFileMenu()
     menu->addAction(tr("Open as &raw samples…"), this, &MainWindow::chooseRawFile);
     m_recentMenu = menu->addMenu(tr("Open re&cent"));
     connect(m_recentMenu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
+    addViewAction(*menu, tr("&Next file of the folder"), QKeySequence(Qt::CTRL | Qt::Key_PageDown), [this] {
+        goToFile(1);
+    })->setToolTip(tr("Open the next recording with the same settings"));
+    addViewAction(*menu, tr("Previo&us file of the folder"), QKeySequence(Qt::CTRL | Qt::Key_PageUp), [this] {
+        goToFile(-1);
+    })->setToolTip(tr("Open the previous recording with the same settings"));
     menu->addAction(tr("&Welcome page"), this, &MainWindow::showWelcome);
     menu->addSeparator();
     m_iqAction = addViewAction(*menu, tr("Take channels as &I and Q"), {}, [this] {
@@ -104,6 +112,8 @@ void MainWindow::buildEditMenu()
     addViewAction(*menu, tr("Reset all &settings"), {}, [this] {
         m_controller.setSettings(firstSettings(m_document.openedSource()), tr("Reset all settings"));
     });
+    addViewAction(*menu, tr("Save settings as &preset…"), {}, [this] { m_pipeline->savePreset(); });
+    addViewAction(*menu, tr("&Delete preset…"), {}, [this] { m_pipeline->removePreset(); });
 }
 
 void MainWindow::buildViewMenu()
@@ -133,6 +143,9 @@ void MainWindow::buildViewMenu()
             [sidebands](double hz) { sidebands->setChecked(hz > 0.0); });
     addViewAction(*menu, tr("Cursor to the pea&k nearby"), Qt::Key_K,
                   [input, output] { (input->hasFocus() ? input : output)->moveCursorToPeak(); });
+    addViewAction(*menu, tr("S&pectrum"), QKeySequence(Qt::SHIFT | Qt::Key_S), [this] {
+        showSpectrum();
+    })->setToolTip(tr("The spectrum at the cursor, and the mean of what is visible"));
     menu->addSeparator();
     QMenu *picture = menu->addMenu(tr("P&icture"));
     connect(picture, &QMenu::aboutToShow, this, [picture, output] {
@@ -148,6 +161,14 @@ void MainWindow::buildViewMenu()
     m_presentAction = addViewAction(*menu, tr("&Presentation"), Qt::Key_F5, {});
     m_presentAction->setCheckable(true);
     connect(m_presentAction, &QAction::toggled, m_panels, &Panels::setPresenting);
+    // Escape leaves a presentation, and stops what runs only otherwise.
+    auto *leave = new QAction(tr("Leave the presentation"), this);
+    addAction(leave);
+    connect(leave, &QAction::triggered, this, [this] { m_presentAction->setChecked(false); });
+    connect(m_presentAction, &QAction::toggled, leave, [this, leave](bool isPresenting) {
+        (isPresenting ? m_stopAction : leave)->setShortcut({});
+        (isPresenting ? leave : m_stopAction)->setShortcut(Qt::Key_Escape);
+    });
     QMenu *themes = menu->addMenu(tr("&Theme"));
     auto *group = new QActionGroup(themes);
     const auto addTheme = [&](const QString &text, Theme::Kind kind) {
@@ -201,6 +222,7 @@ void MainWindow::buildDetectMenu()
     addViewAction(*menu, tr("&Run again"), QKeySequence(Qt::CTRL | Qt::Key_R), [this] { m_controller.run(); });
     m_stopAction = menu->addAction(tr("&Stop"), QKeySequence(Qt::Key_Escape), &m_controller, &AnalysisController::stop);
     m_stopAction->setEnabled(false);
+    m_boxAnalysis->addActionsTo(*menu);
     menu->addSeparator();
     addViewAction(*menu, tr("Threshold &down"), Qt::Key_Comma, [this] { m_controller.stepThreshold(-1); });
     addViewAction(*menu, tr("Threshold &up"), Qt::Key_Period, [this] { m_controller.stepThreshold(1); });

@@ -19,7 +19,7 @@ namespace {
 
     /// Pixels; in a narrower window all panels share a column, so that the pictures have the room.
     constexpr int twoColumnsFrom = 1500;
-    constexpr int narrowestColumn = 280;
+    constexpr int narrowestColumn = 268;
 
     Qt::DockWidgetArea areaOf(Panels::Place place)
     {

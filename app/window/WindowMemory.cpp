@@ -2,6 +2,8 @@
 
 #include "app/base/filePath.h"
 
+#include <QFileInfo>
+
 namespace faintline {
 
 namespace {
@@ -38,6 +40,11 @@ void WindowMemory::addRecent(const QString &path)
     paths.removeAll(absolute);
     paths.prepend(absolute);
     m_store->setValue(recentKey, QStringList(paths.mid(0, mostRecent)));
+}
+
+QString WindowMemory::presetFolder() const
+{
+    return m_store ? QFileInfo(m_store->fileName()).path() + QStringLiteral("/presets") : QString();
 }
 
 WindowMemory::Layout WindowMemory::layout() const

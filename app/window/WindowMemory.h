@@ -31,6 +31,9 @@ public:
     QStringList recent() const; ///< the latest first
     void addRecent(const QString &path);
 
+    /// Where presets of one's own are kept; empty without a store.
+    QString presetFolder() const;
+
     Layout layout() const;
     void setLayout(const Layout &layout);
 

@@ -233,6 +233,17 @@ std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event>
     return result;
 }
 
+std::vector<std::size_t> unmatchedReviews(const Analysis &analysis, const std::vector<Event> &events,
+                                          const std::vector<Review> &reviews)
+{
+    const std::vector<int> matched = matchReviews(analysis, events, reviews);
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < reviews.size(); ++i)
+        if (std::find(matched.begin(), matched.end(), static_cast<int>(i)) == matched.end())
+            left.push_back(i);
+    return left;
+}
+
 std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vector<Event> &events,
                                       const std::vector<Review> &reviews)
 {

@@ -83,6 +83,11 @@ std::vector<int> matchReviews(const Analysis &analysis, const std::vector<Event>
 std::vector<EventReview> eventReviews(const Analysis &analysis, const std::vector<Event> &events,
                                       const std::vector<Review> &reviews);
 
+/// The reviews that belong to none of the events, by their number: what was said of signals that these settings or this
+/// threshold do not find.
+std::vector<std::size_t> unmatchedReviews(const Analysis &analysis, const std::vector<Event> &events,
+                                          const std::vector<Review> &reviews);
+
 // ---- edits: each makes other reviews of the given ones; `ids` are of `events` --------------------------------------------
 
 std::vector<Review> withVerdict(std::vector<Review> reviews, const Analysis &analysis, const std::vector<Event> &events,

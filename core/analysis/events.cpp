@@ -94,6 +94,8 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
         event.id = track.id;
         event.onsetSeconds = time.value(static_cast<double>(track.onsetFrame));
         event.detectSeconds = time.value(static_cast<double>(track.detectFrame));
+        if (track.confirmFrame >= 0)
+            event.confirmSeconds = time.value(static_cast<double>(track.confirmFrame));
         event.endSeconds = time.value(static_cast<double>(track.endFrame));
         const auto at = std::find_if(track.points.begin(), track.points.end(),
                                      [&](const TrackPoint &point) { return point.frame >= track.detectFrame; });

@@ -71,20 +71,19 @@ namespace {
 
 } // namespace
 
-std::string NoiseLaw::warning() const
+std::string NoiseLawCheck::warning() const
 {
     if (isFollowed())
         return {};
     char text[200];
-    const bool isMore = found > expected;
     std::snprintf(text, sizeof text,
                   "the noise outside tracks differs from that of the calibration: %.1f %% of paths continue, %.1f … "
                   "%.1f %% are expected; expect %s false alarms than specified",
-                  100.0 * found, 100.0 * band.low, 100.0 * band.high, isMore ? "more" : "fewer");
+                  100.0 * found, 100.0 * band.low, 100.0 * band.high, isMore() ? "more" : "fewer");
     return text;
 }
 
-std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext &context)
+std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunContext &context)
 {
     const auto *smd = std::get_if<SmdSettings>(&analysis.settings.detector);
     const bool isFixed =
@@ -150,7 +149,7 @@ std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext
             counted += 1.0;
         }
     }
-    NoiseLaw law;
+    NoiseLawCheck law;
     law.expected = analysis.calibration->continuedFraction;
     law.found = sum / counted;
     const double sigma =

@@ -21,18 +21,20 @@ namespace faintline {
 /// of white noise scatter half as much, but for one in a hundred, in which a path lasted long). One per cent is the
 /// normaliser's own error, which the calibrated threshold bears; 1/cells what the ends of a band take away. Oracle: a
 /// hundred recordings of white noise without a warning.
-struct NoiseLaw {
+struct NoiseLawCheck {
     double expected = 0.0; ///< p
     double found = 0.0;    ///< of the states outside tracks
     Interval band;
 
     bool isFollowed() const { return band.contains(found); }
+    /// Whether more false alarms than specified are to be expected where it is not followed, not fewer.
+    bool isMore() const { return found > expected; }
     /// What to make of it, in one sentence; empty where the law is followed.
     std::string warning() const;
 };
 
 /// Nothing for ready-made frames, for detectors without a fixed K, and where there are too few frames to tell. Cost:
 /// some four million cells and frames, independent of the recording's length. Throws Cancelled.
-std::optional<NoiseLaw> checkNoiseLaw(const Analysis &analysis, const RunContext &context = {});
+std::optional<NoiseLawCheck> checkNoiseLaw(const Analysis &analysis, const RunContext &context = {});
 
 } // namespace faintline

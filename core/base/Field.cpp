@@ -38,6 +38,17 @@ namespace {
         return std::nullopt;
     }
 
+    /// A number, or a fraction of two: "1/3".
+    std::optional<double> parseQuotient(std::string_view text)
+    {
+        const std::size_t slash = text.find('/');
+        if (slash == std::string_view::npos)
+            return parseNumber(text);
+        const std::optional<double> over = parseNumber(text.substr(0, slash));
+        const std::optional<double> under = parseNumber(text.substr(slash + 1));
+        return over && under && *under != 0.0 ? std::optional(*over / *under) : std::nullopt;
+    }
+
     std::optional<std::vector<double>> parseNumbers(std::string_view text)
     {
         if (text.starts_with('[') && text.ends_with(']'))
@@ -50,7 +61,7 @@ namespace {
                 word.remove_prefix(1);
             while (word.ends_with(' '))
                 word.remove_suffix(1);
-            const std::optional<double> number = parseNumber(word);
+            const std::optional<double> number = parseQuotient(word);
             if (!number)
                 return std::nullopt;
             numbers.push_back(*number);
@@ -154,7 +165,7 @@ FieldValue parseFieldValue(const FieldInfo &info, std::string_view text)
             value = static_cast<int>(*number);
         break;
     case FieldKind::Number:
-        if (const auto number = parseNumber(text))
+        if (const auto number = parseQuotient(text))
             value = *number;
         break;
     case FieldKind::Numbers:

@@ -14,6 +14,7 @@
 #include <QImageReader>
 #include <QInputDialog>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QProcess>
 #include <QTableView>
 #include <QTimer>
@@ -242,6 +243,30 @@ private slots:
         QVERIFY(settle(*m_window));
         QVERIFY(document().annotations() == kept);
         QVERIFY(!document().isModified());
+    }
+
+    void whatMatchesNoEventIsListed()
+    {
+        auto *list = m_window->eventTable().findChild<QListWidget *>();
+        choose({1});
+        m_window->reviews().judge(Verdict::Rejected);
+        m_window->reviews().setNote(1, "a fan");
+        QVERIFY(!list->isVisible());
+        m_window->controller().previewThreshold(1e6); // above every event
+        QCOMPARE(m_window->eventTable().shownIds().size(), std::size_t(0));
+        QVERIFY(list->isVisible());
+        QCOMPARE(list->count(), 1);
+        const QString line = list->item(0)->text();
+        QVERIFY2(line.startsWith("rejected, ") && line.endsWith(": a fan"), qPrintable(line));
+        document().viewport().clearCursor();
+        emit list->itemClicked(list->item(0));
+        QVERIFY(document().viewport().cursor());
+        const double hz = document().annotations().reviews.front().paths.front().position.front().front();
+        QCOMPARE(document().viewport().cursor()->hz, hz);
+        QCOMPARE(document().annotations().reviews.size(), std::size_t(1)); // kept
+        m_window->controller().previewThreshold(document().analysis()->threshold);
+        QVERIFY(!list->isVisible());
+        QCOMPARE(verdicts().front(), Verdict::Rejected);
     }
 };
 

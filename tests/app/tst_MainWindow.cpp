@@ -378,6 +378,20 @@ private slots:
         QVERIFY(window->menuBar()->isVisible());
     }
 
+    void escapeLeavesAPresentation()
+    {
+        auto window = this->window();
+        QVERIFY(openAndSettle(*window, m_scene));
+        QTest::keyClick(window->workbench().output(), Qt::Key_F5);
+        QVERIFY(!window->menuBar()->isVisible());
+        QTest::keyClick(window->workbench().output(), Qt::Key_Escape);
+        QVERIFY(window->menuBar()->isVisible());
+        window->controller().run(); // and stops what runs again
+        QTest::keyClick(window->workbench().output(), Qt::Key_Escape);
+        QVERIFY(settle(*window));
+        QVERIFY(window->menuBar()->isVisible());
+    }
+
     void theNewestSettingsWin()
     {
         auto window = this->window();

@@ -1,6 +1,7 @@
 #include "app/openWindow.h"
 #include "app/panels/InfoPanel.h"
 #include "app/panels/NoiseCheck.h"
+#include "widgets/plot/ExceedancePlot.h"
 
 #include <QLabel>
 #include <QPushButton>
@@ -76,6 +77,32 @@ private slots:
         QTest::keyClick(window.get(), Qt::Key_Z, Qt::ControlModifier);
         QVERIFY(settle(*window));
         QCOMPARE(window->document().analysis()->threshold, before);
+    }
+
+    /// The same under the threshold's plot.
+    void theThresholdSaysSo()
+    {
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, m_scene));
+        QVERIFY(settle(window->recordingCheck()));
+        auto *sentence = window->findChild<QLabel *>("ownNoise");
+        auto *cure = window->findChild<QPushButton *>("cureOwnNoise");
+        QVERIFY(!cure->isVisible()); // white noise is what it was calibrated for
+        QCOMPARE(window->thresholdPlot().labelText().count('\n'), 1);
+        const double before = window->document().analysis()->threshold;
+        SurrogateCount count;
+        count.ratio = 40.0;
+        count.correction = 2.5;
+        window->recordingCheck().setCount(count);
+        QVERIFY(cure->isVisible());
+        QCOMPARE(sentence->text(), QString("This noise gives 40 times the specified false alarms."));
+        QVERIFY(window->thresholdPlot().labelText().contains("this noise: about 40/h"));
+        cure->click();
+        QVERIFY(settle(*window));
+        QVERIFY(std::abs(window->document().analysis()->threshold - (before + 2.5)) < 0.0051);
+        QVERIFY(settle(window->recordingCheck()));
+        QVERIFY(!cure->isVisible()); // of other settings it was said
+        QCOMPARE(window->thresholdPlot().labelText().count('\n'), 0);
     }
 
 private:

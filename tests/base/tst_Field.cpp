@@ -139,6 +139,12 @@ void tst_Field::parses_data()
     QTest::newRow("list in brackets") << "hours"
                                       << "[1; 2.5]"
                                       << "1, 2.5";
+    QTest::newRow("quotient") << "watts"
+                              << "1/4"
+                              << "0.25";
+    QTest::newRow("list of quotients") << "hours"
+                                       << "1/3, 3/4"
+                                       << "0.3333333333333333, 0.75";
     QTest::newRow("empty list") << "hours"
                                 << "[]"
                                 << "";
@@ -160,6 +166,9 @@ void tst_Field::refuses_data()
     QTest::newRow("flag") << "on"
                           << "maybe"
                           << "on = maybe: must be true or false";
+    QTest::newRow("divided by 0") << "watts"
+                                  << "1/0"
+                                  << "watts = 1/0: must lie in 0 … 100 W";
     QTest::newRow("below") << "count"
                            << "-4"
                            << "count = -4: must lie in -3 … 9, a whole number";

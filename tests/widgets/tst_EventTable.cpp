@@ -23,7 +23,7 @@ private slots:
     void init();
 
     void sortsByValueNotByText();
-    void aNarrowPanelShowsWhereAndHowSure();
+    void aNarrowPanelShowsWhereAndSinceWhen();
     void numbersAreNotCutShort();
     void filters();
     void nextAndPreviousGoRound();
@@ -31,6 +31,7 @@ private slots:
     void selectingFromOutsideIsSilent();
     void clickAndEnterActivate();
     void textsOfAnEvent();
+    void dateAndRadioFrequencyWhereTheyAreKnown();
     void readOutLine();
 
 private:
@@ -62,12 +63,13 @@ void tst_EventTable::sortsByValueNotByText()
     QCOMPARE(m_table->shownIds(), (std::vector<int>{2, 1, 3}));
 }
 
-void tst_EventTable::aNarrowPanelShowsWhereAndHowSure()
+void tst_EventTable::aNarrowPanelShowsWhereAndSinceWhen()
 {
     m_table->resize(280, 250);
     QCoreApplication::processEvents();
     const QTableView &table = *m_table->table();
-    for (const int column : {EventModel::Id, EventModel::Frequency, EventModel::Onset, EventModel::Statistic}) {
+    for (const int column :
+         {EventModel::Id, EventModel::Frequency, EventModel::Onset, EventModel::Detection, EventModel::Confirmation}) {
         const int right = table.columnViewportPosition(column) + table.columnWidth(column);
         QVERIFY2(right <= table.viewport()->width(),
                  qPrintable(QStringLiteral("%1: %2 of %3").arg(column).arg(right).arg(table.viewport()->width())));
@@ -159,12 +161,34 @@ void tst_EventTable::textsOfAnEvent()
     event.isOpen = true;
     model.setEvents({event});
     const auto text = [&](int column) { return model.data(model.index(0, column)).toString(); };
-    QCOMPARE(text(EventModel::Onset), QString("1:00:00.0"));
+    QCOMPARE(text(EventModel::Onset), QString("1:00:00"));
+    QCOMPARE(model.data(model.index(0, EventModel::End), Qt::ToolTipRole).toString(), QString("1:01:40.25"));
     QCOMPARE(text(EventModel::Frequency), QString("14095.60"));
     QCOMPARE(text(EventModel::Drift), QString("−0.0125"));
     QCOMPARE(text(EventModel::State), QString("confirmed, open"));
+    QCOMPARE(text(EventModel::Confirmation), QString("–")); // not known
+    event.confirmSeconds = 3600.75;
+    event.onsetSeconds = 12.34;
+    model.setEvents({event});
+    QCOMPARE(text(EventModel::Confirmation), QString("1:00:01"));
+    QCOMPARE(text(EventModel::Onset), QString("12.3"));
+    model.setOrigin(1721952000.0, 2.5e6);
+    QCOMPARE(text(EventModel::Utc), QString("2024-07-26T00:00:12.3Z"));
+    QCOMPARE(text(EventModel::Radio), QString("2514095.60"));
     for (int column = 0; column < EventModel::ColumnCount; ++column)
         QVERIFY(!model.headerData(column, Qt::Horizontal).toString().isEmpty());
+}
+
+void tst_EventTable::dateAndRadioFrequencyWhereTheyAreKnown()
+{
+    const QTableView &table = *m_table->table();
+    QVERIFY(table.isColumnHidden(EventModel::Utc));
+    QVERIFY(table.isColumnHidden(EventModel::Radio));
+    m_table->setOrigin(1721952000.0, 2.5e6);
+    QVERIFY(!table.isColumnHidden(EventModel::Utc));
+    QVERIFY(!table.isColumnHidden(EventModel::Radio));
+    m_table->setOrigin({}, 0.0);
+    QVERIFY(table.isColumnHidden(EventModel::Utc));
 }
 
 void tst_EventTable::readOutLine()

@@ -24,6 +24,7 @@ private slots:
     void draggingRequestsLiveAndCommitsOnce();
     void keysStepByAQuarterNat();
     void wordsOfEachUnit();
+    void theLabelTellsOfThisNoise();
     void thresholdFromOutsideIsSilent();
     void withoutCalibrationNothingHappens();
     void samePixelsTwice();
@@ -103,6 +104,26 @@ void tst_ExceedancePlot::wordsOfEachUnit()
     QCOMPARE(m_plot->thresholdText(),
              QString("1000 false alarms/h")); // 1e-3 events per cell and frame, 1e6 of these in an hour
     QCOMPARE(changed.count(), 3);
+}
+
+void tst_ExceedancePlot::theLabelTellsOfThisNoise()
+{
+    // At 5 nat 1000 events an hour, e-fold in 2 nat.
+    m_plot->setThreshold(5.0 + 2.0 * std::log(1000.0));
+    const QString plain = m_plot->labelText();
+    QCOMPARE(plain, QString("1 false alarm/h\n18.82 nat"));
+    m_plot->setOwnNoise({{}, "more"});
+    QCOMPARE(m_plot->labelText(), QString("1 false alarm/h on noise\nthis noise: more\n18.82 nat"));
+    m_plot->setOwnNoise({40.0, "more"});
+    QCOMPARE(m_plot->labelText(), QString("1 false alarm/h on noise\nthis noise: about 40/h\n18.82 nat"));
+    m_plot->setThreshold(5.0); // it is dragged with the line
+    QVERIFY2(m_plot->labelText().contains("this noise: about 40000/h"), qPrintable(m_plot->labelText()));
+    m_plot->setUnit(ExceedancePlot::Unit::Nats); // no rate, nothing to say of it
+    QCOMPARE(m_plot->labelText(), QString("5.00 nat"));
+    m_plot->setUnit(ExceedancePlot::Unit::FalseAlarmsPerHour);
+    m_plot->setOwnNoise({});
+    m_plot->setThreshold(5.0 + 2.0 * std::log(1000.0));
+    QCOMPARE(m_plot->labelText(), plain);
 }
 
 void tst_ExceedancePlot::thresholdFromOutsideIsSilent()

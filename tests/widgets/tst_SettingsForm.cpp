@@ -3,6 +3,7 @@
 #include "widgets/base/Theme.h"
 #include "widgets/base/settingWords.h"
 #include "widgets/forms/SettingRow.h"
+#include "widgets/forms/fractionText.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -34,6 +35,7 @@ private slots:
     void slopesInEitherUnit();
     void labelsAreWords();
     void flagsAreCheckBoxes();
+    void thirdsAreFractions();
 
 private:
     template <class Editor>
@@ -225,6 +227,21 @@ void tst_SettingsForm::slopesInEitherUnit()
     m_form->setHzPerSecondOfABinAFrame(0.0);
     QVERIFY(!shows("16 Hz/s here"));
     QVERIFY(shows("bins/frame"));
+}
+
+void tst_SettingsForm::thirdsAreFractions()
+{
+    const FieldValue law = std::vector{1.0 / 3.0, 1.0 / 3.0};
+    QCOMPARE(fractionText(law), QString("1/3, 1/3"));
+    QCOMPARE(std::get<std::vector<double>>(parseFieldValue(settingField("model.slopeChange"), "1/3, 1/3")),
+             std::get<std::vector<double>>(law));
+    QCOMPARE(fractionText(0.05), QString("0.05"));
+    QCOMPARE(fractionText(-2.0 / 7.0), QString("-2/7"));
+    QCOMPARE(fractionText(0.123456789), QString("0.123456789"));
+    AnalysisSettings settings;
+    settings.model.slopeChange = {1.0 / 3.0, 1.0 / 3.0};
+    m_form->setSettings(settings);
+    QCOMPARE(qobject_cast<QLineEdit *>(m_form->editor("model.slopeChange"))->text(), QString("1/3, 1/3"));
 }
 
 void tst_SettingsForm::labelsAreWords()

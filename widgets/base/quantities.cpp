@@ -1,5 +1,7 @@
 #include "widgets/base/quantities.h"
 
+#include "base/driftWords.h"
+
 #include <QRegularExpression>
 
 #include <algorithm>
@@ -109,15 +111,10 @@ QString powerText(double value, int digits)
     return isShort ? text : text + QStringLiteral("·") + powerOfTenText(exponent);
 }
 
-FrequencyUnit rateUnit(double largest)
+FrequencyUnit rateUnit(double largestHzPerSecond)
 {
-    if (largest >= 1e4)
-        return {QStringLiteral("kHz/s"), 1e3};
-    if (largest >= 0.1 || !(largest > 0.0))
-        return {QStringLiteral("Hz/s"), 1.0};
-    if (largest >= 1e-4)
-        return {QStringLiteral("mHz/s"), 1e-3};
-    return {QStringLiteral("µHz/s"), 1e-6};
+    const DriftUnit unit = driftUnit(largestHzPerSecond);
+    return {QString::fromUtf8(unit.name), unit.hzPerSecond};
 }
 
 QString rateText(double hzPerSecond)

@@ -19,6 +19,8 @@ namespace {
             {"id", [](const Event &e) { return double(e.id); }},
             {"t", [](const Event &e) { return e.onsetSeconds; }},
             {"onset", [](const Event &e) { return e.onsetSeconds; }},
+            {"detect", [](const Event &e) { return e.detectSeconds; }},
+            {"confirm", [](const Event &e) { return e.confirmSeconds; }},
             {"end", [](const Event &e) { return e.endSeconds; }},
             {"dur", [](const Event &e) { return e.endSeconds - e.onsetSeconds; }},
             {"f", [](const Event &e) { return e.position.empty() ? 0.0 : e.position.back(); }},

@@ -1,5 +1,6 @@
 #include "widgets/events/EventModel.h"
 
+#include "base/utc.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/quantities.h"
 
@@ -7,6 +8,7 @@
 #include <QPalette>
 
 #include <cmath>
+#include <limits>
 
 namespace faintline {
 
@@ -21,6 +23,19 @@ namespace {
                | Qt::AlignVCenter;
     }
 
+    double toTenths(double seconds)
+    {
+        return std::round(10.0 * seconds) / 10.0;
+    }
+
+    /// Seconds without their unit, which every row would repeat.
+    QString timeText(double seconds)
+    {
+        constexpr double asClockFrom = 600.0;
+        return std::abs(seconds) < asClockFrom || !std::isfinite(seconds) ? numberText(seconds, 1)
+                                                                          : clockText(seconds, 0, true);
+    }
+
 } // namespace
 
 double EventModel::sortValue(const Event &event, int column) const
@@ -29,12 +44,16 @@ double EventModel::sortValue(const Event &event, int column) const
     case Id:
         return event.id;
     case Onset:
+    case Utc:
         return event.onsetSeconds;
     case Detection:
         return event.detectSeconds;
+    case Confirmation:
+        return std::isfinite(event.confirmSeconds) ? event.confirmSeconds : std::numeric_limits<double>::infinity();
     case End:
         return event.endSeconds;
     case Frequency:
+    case Radio:
         return event.position.empty() ? 0.0 : event.position.front();
     case Bearing:
         return event.position.empty() ? 0.0 : event.position.back();
@@ -43,7 +62,7 @@ double EventModel::sortValue(const Event &event, int column) const
     case Statistic:
         return event.statistic;
     case Snr:
-        return event.snrDb;
+        return std::isfinite(event.snrDb) ? event.snrDb : -std::numeric_limits<double>::infinity();
     case Judged: {
         const EventReview said = review(event);
         return said.verdict == Verdict::Accepted ? 0.0 : said.verdict == Verdict::None ? 1.0 : 2.0;
@@ -121,11 +140,19 @@ QString EventModel::text(const Event &event, int column) const
         return mark + QString::number(event.id);
     }
     case Onset:
-        return secondsText(event.onsetSeconds, 0.1);
+        return timeText(event.onsetSeconds);
     case Detection:
-        return secondsText(event.detectSeconds, 0.1);
+        return timeText(event.detectSeconds);
+    case Confirmation:
+        return timeText(event.confirmSeconds);
     case End:
-        return secondsText(event.endSeconds, 0.1);
+        return timeText(event.endSeconds);
+    case Utc:
+        return m_startUnixSeconds
+                   ? QString::fromStdString(formatUtc(toTenths(*m_startUnixSeconds + event.onsetSeconds)))
+                   : QString();
+    case Radio:
+        return radioText(event);
     case Frequency:
         return event.position.empty()
                    ? QStringLiteral("–")
@@ -160,6 +187,9 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
                    ? QVariant(QGuiApplication::palette().brush(QPalette::PlaceholderText))
                    : QVariant();
     case Qt::ToolTipRole:
+        if (const int column = index.column();
+            column == Onset || column == Detection || column == Confirmation || column == End)
+            return secondsText(sortValue(event, column), 0.01);
         return index.column() == Note && !text(event, Note).isEmpty() ? QVariant(asHtml(text(event, Note)))
                                                                       : QVariant();
     case SortRole:
@@ -185,6 +215,18 @@ void EventModel::setAxes(const std::vector<Axis> &axes)
     emit headerDataChanged(Qt::Horizontal, 0, ColumnCount - 1);
 }
 
+void EventModel::setOrigin(std::optional<double> startUnixSeconds, double centreHz)
+{
+    m_startUnixSeconds = startUnixSeconds;
+    m_centreHz = centreHz;
+    emit headerDataChanged(Qt::Horizontal, 0, ColumnCount - 1);
+}
+
+QString EventModel::radioText(const Event &event) const
+{
+    return event.position.empty() ? QString() : numberText(m_centreHz + event.position.front(), 2);
+}
+
 QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
     if (orientation != Qt::Horizontal)
@@ -196,26 +238,34 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                              hasBearing() ? tr("Range (%1)").arg(unit(0)) : tr("f (Hz)"),
                              hasBearing() ? tr("Bearing (%1)").arg(unit(1)) : tr("Bearing"),
                              tr("Onset"),
+                             tr("Det."),
+                             tr("Conf."),
                              tr("D (%1)").arg(m_statisticUnit),
                              tr("SNR (dB)"),
-                             tr("Detected"),
+                             tr("Onset (UTC)"),
+                             tr("RF (Hz)"),
                              tr("End"),
                              hasBearing() ? tr("Rate (%1/s)").arg(unit(0)) : tr("Drift (Hz/s)"),
                              tr("State"),
                              tr("Review"),
                              tr("Note")};
-    const QString tips[] = {tr("Number, in order of detection"),
-                            hasBearing() ? tr("Range at detection") : tr("Frequency at detection"),
-                            tr("Bearing at detection"),
-                            tr("Time of the last reset of the detecting path, from the first sample"),
-                            tr("Largest statistic"),
-                            tr("Mean signal-to-noise power ratio in one window and bin"),
-                            tr("Time at which the statistic first exceeded the threshold"),
-                            tr("Last frame with evidence"),
-                            tr("Straight-line slope of the track"),
-                            tr("Confirmed or tentative; open if the data ended before the track"),
-                            tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal"),
-                            tr("Your note on the event; E edits it")};
+    const QString tips[] = {
+        tr("Number, in order of detection"),
+        hasBearing() ? tr("Range at detection") : tr("Frequency at detection"),
+        tr("Bearing at detection"),
+        tr("Onset: time of the last reset of the detecting path, from the first sample; s, from ten "
+           "minutes on h:min:s"),
+        tr("Detected: time at which the statistic first exceeded the threshold"),
+        tr("Confirmed: time at which the track was confirmed"),
+        tr("Largest statistic"),
+        tr("Mean signal-to-noise power ratio in one window and bin"),
+        tr("Date and time of the onset"),
+        tr("Radio frequency at detection: centre frequency plus offset"),
+        tr("Last frame with evidence"),
+        tr("Straight-line slope of the track"),
+        tr("Confirmed or tentative; open if the data ended before the track"),
+        tr("Accepted (Y), rejected (X) or undecided (U), or part of another event's signal"),
+        tr("Your note on the event; E edits it")};
     if (section < 0 || section >= ColumnCount)
         return {};
     if (role == Qt::DisplayRole)

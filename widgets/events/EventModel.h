@@ -16,15 +16,18 @@ class EventModel : public QAbstractTableModel
     Q_OBJECT
 
 public:
-    /// In a narrow panel only the first ones are in sight: where, since when, how sure.
+    /// In a narrow panel only the first ones are in sight: where, and when it began, was detected and confirmed.
     enum Column {
         Id,
         Frequency,
         Bearing,
         Onset,
+        Detection,
+        Confirmation,
         Statistic,
         Snr,
-        Detection,
+        Utc,   ///< onset, where the recording knows when it began
+        Radio, ///< frequency with the receiver's centre, where there is one
         End,
         Drift,
         State,
@@ -45,6 +48,10 @@ public:
     /// bearing.
     void setAxes(const std::vector<Axis> &axes);
     bool hasBearing() const { return m_axes.size() > 1; }
+    /// What the recording says of its beginning (UTC) and of the frequency that 0 Hz stands for.
+    void setOrigin(std::optional<double> startUnixSeconds, double centreHz);
+    bool hasUtc() const { return m_startUnixSeconds.has_value(); }
+    bool hasRadio() const { return m_centreHz != 0.0; }
     const std::vector<Event> &events() const { return m_events; }
 
     /// Row of an event, -1 if there is none of that id.
@@ -63,11 +70,14 @@ public:
 
 private:
     QString text(const Event &event, int column) const;
+    QString radioText(const Event &event) const;
     double sortValue(const Event &event, int column) const;
 
     std::vector<Event> m_events;
     QHash<int, EventReview> m_reviews;
     std::vector<Axis> m_axes;
+    std::optional<double> m_startUnixSeconds;
+    double m_centreHz = 0.0;
     QString m_statisticUnit = QStringLiteral("nat");
 };
 

@@ -8,6 +8,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QStackedLayout>
 #include <QStyle>
 #include <QTableView>
@@ -20,13 +21,14 @@ namespace faintline {
 EventTable::EventTable(QWidget *parent)
     : QWidget(parent), m_model(new EventModel(this)), m_proxy(new EventProxy(this)), m_filter(new QLineEdit),
       m_table(new QTableView), m_count(new QLabel),
-      m_empty(new QLabel(tr("Events appear here after a recording has been analysed.")))
+      m_empty(new QLabel(tr("Events appear here after a recording has been analysed."))), m_unmatchedTitle(new QLabel),
+      m_unmatched(new QListWidget)
 {
     m_proxy->setSourceModel(m_model);
     m_filter->setPlaceholderText(tr("Filter: f>1000 stat>25 !rejected"));
-    m_filter->setToolTip(
-        tr("Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, "
-           "negated by a leading !; id, t, end, dur, f, drift, stat compared by <, >, =, <=, >="));
+    m_filter->setToolTip(tr(
+        "Conditions that must all hold: open, confirmed, tentative, accepted, rejected, unreviewed, merged, noted, "
+        "negated by a leading !; id, t, detect, confirm, end, dur, f, drift, stat, snr compared by <, >, =, <=, >="));
     m_filter->setClearButtonEnabled(true);
     m_filter->setAccessibleName(tr("Filter events"));
     connect(m_filter, &QLineEdit::textChanged, this, &EventTable::applyFilter);
@@ -49,7 +51,36 @@ EventTable::EventTable(QWidget *parent)
     layout->setSpacing(4);
     layout->addLayout(top);
     layout->addLayout(stack, 1);
+    layout->addWidget(m_unmatchedTitle);
+    layout->addWidget(m_unmatched);
+    setUpUnmatched();
     updateCount();
+}
+
+void EventTable::setUpUnmatched()
+{
+    constexpr int mostHeight = 76; // pixels: three lines
+    m_unmatchedTitle->setForegroundRole(QPalette::PlaceholderText);
+    m_unmatchedTitle->setBuddy(m_unmatched);
+    m_unmatched->setMaximumHeight(mostHeight);
+    m_unmatched->setAccessibleName(tr("Reviews without an event"));
+    m_unmatched->setToolTip(tr("What was said of signals that are not detected with these settings. It is kept, and "
+                               "belongs to the events again as soon as they are there; click to go to the place"));
+    connect(m_unmatched, &QListWidget::itemClicked, this,
+            [this](QListWidgetItem *item) { emit unmatchedActivated(m_unmatched->row(item)); });
+    connect(m_unmatched, &QListWidget::itemActivated, this,
+            [this](QListWidgetItem *item) { emit unmatchedActivated(m_unmatched->row(item)); });
+    setUnmatched({});
+}
+
+void EventTable::setUnmatched(const QStringList &lines)
+{
+    m_unmatched->clear();
+    m_unmatched->addItems(lines);
+    m_unmatchedTitle->setText(lines.size() == 1 ? tr("1 review matches no event:")
+                                                : tr("%1 reviews match no event:").arg(lines.size()));
+    m_unmatchedTitle->setVisible(!lines.isEmpty());
+    m_unmatched->setVisible(!lines.isEmpty());
 }
 
 void EventTable::setUpTable()
@@ -69,11 +100,12 @@ void EventTable::setUpTable()
     m_table->horizontalHeader()->setHighlightSections(false);
     m_table->horizontalHeader()->setResizeContentsPrecision(20); // rows; numbers of all of them: widenColumns
     m_table->horizontalHeader()->setStretchLastSection(true);
-    m_table->horizontalHeader()->setMinimumSectionSize(34);
+    m_table->horizontalHeader()->setMinimumSectionSize(26);
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
-    m_table->setColumnHidden(EventModel::Bearing, true);
+    for (const int column : {EventModel::Bearing, EventModel::Utc, EventModel::Radio})
+        m_table->setColumnHidden(column, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
         if (selectedEvents().size() == 1) // several are being chosen otherwise
             activate(index.row());
@@ -90,11 +122,28 @@ void EventTable::setEvents(const std::vector<Event> &events)
     const int selected = selectedEvent();
     const bool isFirst = m_model->events().empty();
     m_model->setEvents(events);
-    if (isFirst && !events.empty())
+    if (isFirst && !events.empty()) {
         m_table->resizeColumnsToContents();
+        narrowColumns();
+    }
     widenColumns();
     setSelectedEvent(selected);
     updateCount();
+}
+
+/// Columns of numbers are as wide as their headings, without the room that a style leaves around them.
+void EventTable::narrowColumns()
+{
+    constexpr int room = 10;  // pixels
+    constexpr int arrow = 12; // of the one it is sorted by
+    const QHeaderView &header = *m_table->horizontalHeader();
+    for (int column = EventModel::Id; column <= EventModel::Drift; ++column) {
+        if (m_table->isColumnHidden(column))
+            continue;
+        const QString heading = m_model->headerData(column, Qt::Horizontal).toString();
+        const int width = header.fontMetrics().horizontalAdvance(heading) + room;
+        m_table->setColumnWidth(column, width + (header.sortIndicatorSection() == column ? arrow : 0));
+    }
 }
 
 /// Numbers are never cut short, be it another recording's: as wide as the least and the largest of each column are.
@@ -147,6 +196,13 @@ void EventTable::setAxes(const std::vector<Axis> &axes)
 {
     m_model->setAxes(axes);
     m_table->setColumnHidden(EventModel::Bearing, !m_model->hasBearing());
+}
+
+void EventTable::setOrigin(std::optional<double> startUnixSeconds, double centreHz)
+{
+    m_model->setOrigin(startUnixSeconds, centreHz);
+    m_table->setColumnHidden(EventModel::Utc, !m_model->hasUtc());
+    m_table->setColumnHidden(EventModel::Radio, !m_model->hasRadio());
 }
 
 void EventTable::setEmptySentence(const QString &sentence)

@@ -5,10 +5,12 @@
 #include <QString>
 #include <QWidget>
 
+#include <optional>
 #include <vector>
 
 class QLabel;
 class QLineEdit;
+class QListWidget;
 class QTableView;
 
 namespace faintline {
@@ -31,7 +33,10 @@ public:
     void setEvents(const std::vector<Event> &events);
     void setReviews(const std::vector<EventReview> &reviews); ///< of these events
     void setStatisticUnit(const QString &unit);
-    void setAxes(const std::vector<Axis> &axes); ///< of the events' positions
+    void setAxes(const std::vector<Axis> &axes);                             ///< of the events' positions
+    void setOrigin(std::optional<double> startUnixSeconds, double centreHz); ///< see EventModel::setOrigin
+    /// What was said of signals that are not among the events, a line each; none hides the list.
+    void setUnmatched(const QStringList &lines);
     void setEmptySentence(const QString &sentence);
 
     int selectedEvent() const;               ///< 0: none
@@ -51,7 +56,8 @@ public slots:
 signals:
     /// Chosen by click, Enter, N or Shift+N: views should go there.
     void eventActivated(int id);
-    void noteRequested(); ///< by a double click where notes stand: on the selected event
+    void unmatchedActivated(int line); ///< of `setUnmatched`
+    void noteRequested();              ///< by a double click where notes stand: on the selected event
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;
@@ -59,11 +65,13 @@ protected:
 
 private:
     void setUpTable();
+    void setUpUnmatched();
     void step(int by);
     void choose(const QModelIndex &row);
     void activate(int proxyRow);
     void applyFilter(const QString &text);
     void updateCount();
+    void narrowColumns();
     void widenColumns();
 
     EventModel *m_model;
@@ -72,6 +80,8 @@ private:
     QTableView *m_table;
     QLabel *m_count;
     QLabel *m_empty;
+    QLabel *m_unmatchedTitle;
+    QListWidget *m_unmatched;
 };
 
 } // namespace faintline

@@ -4,6 +4,7 @@
 #include "widgets/base/Theme.h"
 #include "widgets/base/labelText.h"
 #include "widgets/base/settingWords.h"
+#include "widgets/forms/fractionText.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -27,7 +28,7 @@ namespace {
 
     QString shownText(const FieldValue &value)
     {
-        return QString::fromStdString(formatFieldValue(value));
+        return fractionText(value);
     }
 
     /// The sentence, then what is accepted and what is the default.

@@ -162,6 +162,14 @@ void ChartPlot::setInvitation(const QString &invitation)
     m_invitation = invitation;
 }
 
+void ChartPlot::setPrinted(bool isPrinted)
+{
+    m_isPrinted = isPrinted;
+    m_ring->setVisible(false);
+    m_key->setStyleSheet(isPrinted ? QStringLiteral("QCheckBox::indicator { width: 0px; height: 0px; }") : QString());
+    rebuild();
+}
+
 bool ChartPlot::isShown(std::size_t curve) const
 {
     return !m_hidden.contains(words(m_chart.curves[curve].name));
@@ -273,7 +281,7 @@ void ChartPlot::rebuild()
     m_grid->setVisible(!isEmpty);
     m_plot->setAxisVisible(QwtAxis::XBottom, !isEmpty);
     m_plot->setAxisVisible(QwtAxis::YLeft, !isEmpty);
-    m_readOut->setVisible(!isEmpty);
+    m_readOut->setVisible(!isEmpty && !m_isPrinted);
     showPlace(m_place);
     layAxes();
 }
@@ -406,8 +414,10 @@ void ChartPlot::rebuildKey()
         }
         m_keyLayout->addStretch(1);
     }
-    for (std::size_t i = 0; i < m_boxes.size(); ++i)
+    for (std::size_t i = 0; i < m_boxes.size(); ++i) {
         m_boxes[i]->setIcon(QIcon(sample(i)));
+        m_boxes[i]->setVisible(!m_isPrinted || isShown(i));
+    }
     placeKey();
 }
 

@@ -47,6 +47,9 @@ public:
     /// clicked.
     void setInvitation(const QString &invitation);
 
+    /// As on paper: neither boxes to tick nor what is under the mouse.
+    void setPrinted(bool isPrinted);
+
     bool isShown(std::size_t curve) const;
     void setShown(std::size_t curve, bool isShown);
 
@@ -99,6 +102,7 @@ private:
     std::optional<Place> m_place;
     int m_resizing = 0; ///< how deep in resizing of the canvas by what resizing it changed
     QString m_invitation;
+    bool m_isPrinted = false;
 
     QwtPlot *m_plot;
     QwtPlotGrid *m_grid;

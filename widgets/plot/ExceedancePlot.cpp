@@ -129,6 +129,14 @@ void ExceedancePlot::setStatisticUnit(const QString &unit)
     restyle();
 }
 
+void ExceedancePlot::setOwnNoise(const OwnNoise &noise)
+{
+    if (noise == m_ownNoise)
+        return;
+    m_ownNoise = noise;
+    updateThresholdLine();
+}
+
 void ExceedancePlot::setThreshold(double nats)
 {
     if (nats == m_threshold)
@@ -174,6 +182,27 @@ QString ExceedancePlot::thresholdText() const
         return tr("Pfa %1 per cell").arg(powerText(m_calibration->exceedanceAt(m_threshold)));
     const QString rate = powerText(m_calibration->eventRateAt(m_threshold) * m_cellFramesPerHour);
     return rate == QLatin1String("1") ? tr("1 false alarm/h") : tr("%1 false alarms/h").arg(rate);
+}
+
+QString ExceedancePlot::ownNoiseText() const
+{
+    if (!m_calibration || !isRate() || m_ownNoise == OwnNoise())
+        return {};
+    if (!m_ownNoise.ratio)
+        return tr("this noise: %1").arg(m_ownNoise.words);
+    const double perHour = m_calibration->eventRateAt(m_threshold) * m_cellFramesPerHour * *m_ownNoise.ratio;
+    return tr("this noise: about %1/h").arg(powerText(perHour));
+}
+
+QString ExceedancePlot::labelText() const
+{
+    const QString own = ownNoiseText();
+    QStringList lines{own.isEmpty() ? thresholdText() : tr("%1 on noise").arg(thresholdText())};
+    if (!own.isEmpty())
+        lines << own;
+    if (m_unit != Unit::Nats)
+        lines << numberText(m_threshold, 2) + QLatin1Char(' ') + m_statisticUnit;
+    return lines.join(QLatin1Char('\n'));
 }
 
 Span ExceedancePlot::natSpan() const
@@ -285,7 +314,8 @@ void ExceedancePlot::drawRecording()
 void ExceedancePlot::nameCurves()
 {
     m_key->entries.clear();
-    const auto name = [this](const QwtPlotCurve &curve, const QString &text) {
+    const auto name = [this](QwtPlotCurve &curve, const QString &text) {
+        curve.setTitle(text);
         if (curve.dataSize() > 0)
             m_key->entries.push_back({text, curve.pen()});
     };
@@ -323,9 +353,7 @@ void ExceedancePlot::updateThresholdLine()
 {
     m_line->setXValue(m_threshold);
     m_label->x = m_threshold;
-    m_label->text = thresholdText();
-    if (m_unit != Unit::Nats)
-        m_label->text += QLatin1Char('\n') + numberText(m_threshold, 2) + QLatin1Char(' ') + m_statisticUnit;
+    m_label->text = labelText();
     setAccessibleDescription(tr("Threshold at %1").arg(thresholdText()));
     replot();
 }
@@ -393,6 +421,7 @@ void ExceedancePlot::contextMenuEvent(QContextMenuEvent *event)
         action->setChecked(unit == m_unit);
         connect(action, &QAction::triggered, this, [this, unit = unit] { setUnit(unit); });
     }
+    emit contextMenuRequested(&menu);
     menu.exec(event->globalPos());
 }
 

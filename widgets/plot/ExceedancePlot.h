@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+class QMenu;
 class QwtPlotCurve;
 class QwtPlotGrid;
 class QwtPlotHistogram;
@@ -51,11 +52,23 @@ public:
     /// What the statistic is measured in: "nat" unless said otherwise.
     void setStatisticUnit(const QString &unit);
 
+    /// What is known of the noise of this recording: how many false alarms come for one of the calibration's noise, or
+    /// "more" or "fewer" where that was not counted.
+    struct OwnNoise {
+        std::optional<double> ratio;
+        QString words;
+        bool operator==(const OwnNoise &) const = default;
+    };
+    /// The label of the threshold says so beside the rate; an empty value takes it away.
+    void setOwnNoise(const OwnNoise &noise);
+
     double threshold() const { return m_threshold; }
     Unit unit() const { return m_unit; }
 
     /// The threshold in words, in the chosen unit: "14.2 nat", "Pfa 3·10⁻⁷ per cell", "0.8 false alarms/h".
     QString thresholdText() const;
+    /// What stands beside the line: the threshold, the rate on this recording's own noise, nats.
+    QString labelText() const;
 
     QSize sizeHint() const override { return {380, 260}; }
     QSize minimumSizeHint() const override { return {240, 170}; }
@@ -68,6 +81,7 @@ signals:
     void thresholdRequested(double nats); ///< live, while dragging
     void thresholdCommitted(double nats); ///< at release, or after a key
     void unitChanged(faintline::ExceedancePlot::Unit unit);
+    void contextMenuRequested(QMenu *menu); ///< about to be shown: others may add to it
 
 protected:
     void keyPressEvent(QKeyEvent *event) override;
@@ -83,6 +97,7 @@ private:
     void drawRecording();
     void nameCurves();
     void updateThresholdLine();
+    QString ownNoiseText() const;
     void dragTo(double canvasX);
     void step(int quarterNats);
     bool isRate() const { return m_unit == Unit::FalseAlarmsPerHour; }
@@ -95,6 +110,7 @@ private:
     std::vector<double> m_counts;
     QPolygonF m_closedFormPoints;
     QPolygonF m_selectionPoints;
+    OwnNoise m_ownNoise;
     double m_threshold = 20.0;
     Unit m_unit = Unit::FalseAlarmsPerHour;
     QString m_statisticUnit = QStringLiteral("nat");

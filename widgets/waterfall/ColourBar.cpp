@@ -20,7 +20,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr double histogramWidth = 20.0;
+    constexpr double histogramWidth = 10.0;
+    constexpr double leftMargin = 2.0;
     constexpr double barWidth = 13.0;
     constexpr double topMargin = 26.0; ///< unit, and half a label
     constexpr double bottomMargin = 12.0;
@@ -129,7 +130,7 @@ void ColourBar::chooseScale()
 /// The bar, its histogram, and the numbers beside it.
 int ColourBar::usualWidth()
 {
-    return 45 + static_cast<int>(std::lround(33.0 * Theme::plotScale()));
+    return 33 + static_cast<int>(std::lround(33.0 * Theme::plotScale()));
 }
 
 QRectF ColourBar::barRect() const
@@ -140,7 +141,7 @@ QRectF ColourBar::barRect() const
         top = std::max<double>(top, canvas.y());
         bottom = std::min<double>(bottom, canvas.y() + m_view->canvas()->height());
     }
-    return {4.0 + histogramWidth, top, barWidth, std::max(bottom - top, 10.0)};
+    return {leftMargin + histogramWidth, top, barWidth, std::max(bottom - top, 10.0)};
 }
 
 double ColourBar::yOf(double value) const

@@ -1,0 +1,107 @@
+#include "app/control/BoxAnalysis.h"
+
+#include "app/control/AnalysisController.h"
+#include "app/document/Document.h"
+#include "widgets/waterfall/WaterfallView.h"
+
+#include <QAction>
+#include <QMenu>
+
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    /// A power of ten, at most a tenth of the step.
+    double unitOf(double step)
+    {
+        return std::pow(10.0, std::floor(std::log10(step)) - 1.0);
+    }
+
+    /// A multiple of the unit as it is written in decimals.
+    double multiple(double count, double unit)
+    {
+        return unit < 1.0 ? count / std::round(1.0 / unit) : count * std::round(unit);
+    }
+
+    double down(double value, double step)
+    {
+        const double unit = unitOf(step);
+        return multiple(std::floor(value / unit), unit);
+    }
+
+    double up(double value, double step)
+    {
+        const double unit = unitOf(step);
+        return multiple(std::ceil(value / unit), unit);
+    }
+
+} // namespace
+
+AnalysisSettings inBox(AnalysisSettings settings, double fromSeconds, double toSeconds, double lowHz, double highHz,
+                       double frameSeconds, double binHz)
+{
+    SelectionSettings &selection = settings.selection;
+    selection.fromSeconds = std::max(0.0, down(fromSeconds, frameSeconds));
+    selection.toSeconds = up(toSeconds, frameSeconds);
+    selection.lowHz = down(lowHz, binHz);
+    selection.highHz = up(highHz, binHz);
+    return settings;
+}
+
+BoxAnalysis::BoxAnalysis(Document &document, AnalysisController &controller, const std::vector<WaterfallView *> &views,
+                         QObject *parent)
+    : QObject(parent), m_document(document), m_controller(controller),
+      m_box(new QAction(tr("Analyse this bo&x"), this)), m_all(new QAction(tr("Analyse the &whole recording"), this))
+{
+    m_box->setShortcut(QKeySequence(Qt::CTRL | Qt::Key_Return));
+    m_box->setToolTip(tr("Restrict the analysis to the time and band of the measured box (M)"));
+    m_all->setShortcut(QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Return));
+    m_all->setToolTip(tr("Analyse all times and frequencies again"));
+    connect(m_box, &QAction::triggered, this, &BoxAnalysis::analyseBox);
+    connect(m_all, &QAction::triggered, this, &BoxAnalysis::analyseAll);
+    for (WaterfallView *view : views)
+        connect(view, &WaterfallView::contextMenuRequested, this,
+                [this](QMenu *menu, double, double) { addActionsTo(*menu); });
+    connect(&document.viewport(), &Viewport::selectionChanged, this, &BoxAnalysis::enable);
+    connect(&document, &Document::opened, this, &BoxAnalysis::enable);
+    connect(&document, &Document::settingsChanged, this, &BoxAnalysis::enable);
+    connect(&document, &Document::analysisChanged, this, &BoxAnalysis::enable);
+    enable();
+}
+
+void BoxAnalysis::addActionsTo(QMenu &menu)
+{
+    menu.addSeparator();
+    menu.addActions({m_box, m_all});
+}
+
+void BoxAnalysis::analyseBox()
+{
+    const auto box = m_document.viewport().selection();
+    const auto &analysis = m_document.analysis();
+    if (!box || !analysis || m_document.hasPings())
+        return;
+    const AnalysisSettings after =
+        inBox(m_document.settings(), box->time.low, box->time.high, box->frequency.low, box->frequency.high,
+              analysis->time().step, analysis->grid().axes.front().step);
+    m_document.viewport().clearSelection();
+    m_controller.setSettings(after, tr("Analyse a box"));
+}
+
+void BoxAnalysis::analyseAll()
+{
+    AnalysisSettings after = m_document.settings();
+    after.selection = {.channel = after.selection.channel};
+    m_controller.setSettings(after, tr("Analyse the whole recording"));
+}
+
+void BoxAnalysis::enable()
+{
+    const SelectionSettings &selection = m_document.settings().selection;
+    m_box->setEnabled(m_document.recording() && m_document.analysis() && m_document.viewport().selection());
+    m_all->setEnabled(m_document.recording() && selection != SelectionSettings{.channel = selection.channel});
+}
+
+} // namespace faintline

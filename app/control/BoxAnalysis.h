@@ -1,0 +1,45 @@
+#pragma once
+
+#include "analysis/AnalysisSettings.h"
+
+#include <QObject>
+
+class QAction;
+class QMenu;
+
+namespace faintline {
+
+class AnalysisController;
+class Document;
+class WaterfallView;
+
+/// The settings with the analysis restricted to a box of time (s) and frequency (Hz), rounded outwards to whole steps of
+/// a tenth of a frame and of a bin.
+AnalysisSettings inBox(AnalysisSettings settings, double fromSeconds, double toSeconds, double lowHz, double highHz,
+                       double frameSeconds, double binHz);
+
+/// *Analyse this box*: the measured box becomes the part of the recording that is analysed, and back to the whole. In
+/// the menu, and in those of the pictures.
+class BoxAnalysis : public QObject
+{
+    Q_OBJECT
+
+public:
+    BoxAnalysis(Document &document, AnalysisController &controller, const std::vector<WaterfallView *> &views,
+                QObject *parent = nullptr);
+
+    void addActionsTo(QMenu &menu);
+
+    void analyseBox();
+    void analyseAll();
+
+private:
+    void enable();
+
+    Document &m_document;
+    AnalysisController &m_controller;
+    QAction *m_box;
+    QAction *m_all;
+};
+
+} // namespace faintline

@@ -1,0 +1,92 @@
+#include "app/document/recordingFiles.h"
+
+#include "app/base/filePath.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace faintline {
+
+namespace {
+
+    QString tr(const char *text)
+    {
+        return QCoreApplication::translate("recordingFiles", text);
+    }
+
+    bool isNamedLikeRecording(const QString &path)
+    {
+        const QStringList endings = recordingEndings();
+        return std::any_of(endings.begin(), endings.end(), [&](const QString &ending) {
+            return path.endsWith(QLatin1Char('.') + ending, Qt::CaseInsensitive);
+        });
+    }
+
+    /// Numbers with as many digits as any: 2 before 10.
+    QString sortKey(const QString &path)
+    {
+        constexpr qsizetype digits = 20;
+        QString key;
+        for (qsizetype i = 0; i < path.size();) {
+            qsizetype end = i;
+            while (end < path.size() && path[end].isDigit())
+                ++end;
+            if (end > i)
+                key += path.mid(i, end - i).rightJustified(digits, QLatin1Char('0'));
+            else
+                key += path[end++].toLower();
+            i = end;
+        }
+        return key;
+    }
+
+    QStringList recordingsBeside(const QString &path)
+    {
+        QStringList files;
+        std::error_code failure;
+        const std::filesystem::path folder = std::filesystem::path(pathBytes(path)).parent_path();
+        for (auto it = std::filesystem::directory_iterator(folder, failure);
+             !failure && it != std::filesystem::directory_iterator(); it.increment(failure)) {
+            const QString file = pathText(it->path().string());
+            if (file == path || (isNamedLikeRecording(file) && isRegularFile(file)))
+                files << file;
+        }
+        std::sort(files.begin(), files.end(),
+                  [](const QString &a, const QString &b) { return sortKey(a) < sortKey(b); });
+        return files;
+    }
+
+} // namespace
+
+QStringList recordingEndings()
+{
+    return {QStringLiteral("wav"),  QStringLiteral("flac"),       QStringLiteral("ogg"),  QStringLiteral("oga"),
+            QStringLiteral("opus"), QStringLiteral("mp3"),        QStringLiteral("aif"),  QStringLiteral("aiff"),
+            QStringLiteral("aifc"), QStringLiteral("au"),         QStringLiteral("caf"),  QStringLiteral("w64"),
+            QStringLiteral("rf64"), QStringLiteral("sigmf-meta"), QStringLiteral("hdf5"), QStringLiteral("h5"),
+            QStringLiteral("fil"),  QStringLiteral("npy")};
+}
+
+QString openFilter()
+{
+    QStringList patterns;
+    for (const QString &ending : recordingEndings())
+        patterns << QStringLiteral("*.") + ending << QStringLiteral("*.") + ending.toUpper();
+    return QStringList{tr("Recordings (%1)").arg(patterns.join(QLatin1Char(' '))), tr("Sessions (*.faintline)"),
+                       tr("Scenarios and lessons (*.json)"), tr("All files (*)")}
+        .join(QStringLiteral(";;"));
+}
+
+QString FileSequence::neighbour(const QString &path, int by) const
+{
+    const QString here = absolutePath(path);
+    if (here.isEmpty() || here.startsWith(QLatin1Char(':')))
+        return {};
+    const QStringList files = m_files.contains(here) ? m_files : recordingsBeside(here);
+    const auto index = files.indexOf(here);
+    return index < 0 ? QString() : files.value(index + by);
+}
+
+} // namespace faintline

@@ -1,0 +1,113 @@
+#include "app/panels/SpectrumPanel.h"
+
+#include "app/base/VisibilityWatcher.h"
+#include "app/document/Document.h"
+#include "widgets/plot/ChartPlot.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace faintline {
+
+namespace {
+
+    constexpr std::size_t mostPoints = 3000;
+
+    /// In dB, the largest of each group where there are more than can be drawn.
+    Curve curveOf(const char *name, const std::vector<double> &hz, const std::vector<double> &values, const Span &band,
+                  double addedDb)
+    {
+        const auto first = std::lower_bound(hz.begin(), hz.end(), band.low) - hz.begin();
+        const auto end = std::upper_bound(hz.begin(), hz.end(), band.high) - hz.begin();
+        const auto step = std::max<std::ptrdiff_t>(1, (end - first) / static_cast<std::ptrdiff_t>(mostPoints));
+        Curve curve{name, Curve::Kind::Measured, {}};
+        for (std::ptrdiff_t i = first; i < end; i += step) {
+            const auto largest =
+                std::max_element(values.begin() + i, values.begin() + std::min(i + step, end)) - values.begin();
+            if (const double value = values[static_cast<std::size_t>(largest)]; value > 0.0)
+                curve.points.push_back({hz[static_cast<std::size_t>(largest)], 10.0 * std::log10(value) + addedDb, {}});
+        }
+        return curve;
+    }
+
+} // namespace
+
+SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
+    : QWidget(parent), m_document(document), m_level(new QComboBox), m_calibration(new QDoubleSpinBox),
+      m_plot(new ChartPlot), m_sight(new VisibilityWatcher(*this))
+{
+    m_level->addItems({tr("dB over noise"), tr("dB re full scale²/Hz")});
+    m_level->setAccessibleName(tr("Level of the spectrum"));
+    m_calibration->setRange(-300.0, 300.0);
+    m_calibration->setDecimals(1);
+    m_calibration->setPrefix(tr("calibration "));
+    m_calibration->setSuffix(tr(" dB"));
+    m_calibration->setAccessibleName(tr("Calibration of the level"));
+    m_calibration->setToolTip(
+        tr("Added to the level: the unit of the sensor that a full-scale sample stands for, in dB"));
+    m_plot->setEmptySentence(tr("The spectrum at the cursor and the mean of what is visible appear here."));
+    auto *top = new QHBoxLayout;
+    top->setContentsMargins(8, 4, 8, 2);
+    top->addWidget(m_level);
+    top->addWidget(m_calibration);
+    top->addStretch(1);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addLayout(top);
+    layout->addWidget(m_plot, 1);
+
+    connect(m_level, &QComboBox::activated, this, &SpectrumPanel::follow);
+    connect(m_calibration, &QDoubleSpinBox::valueChanged, this, &SpectrumPanel::follow);
+    connect(m_sight, &VisibilityWatcher::came, this, &SpectrumPanel::follow);
+    connect(&document, &Document::analysisChanged, this, &SpectrumPanel::follow);
+    connect(&document, &Document::opened, this, [this] { m_plot->setChart({}); });
+    connect(&document.viewport(), &Viewport::cursorChanged, this, &SpectrumPanel::follow);
+    connect(&document.viewport(), &Viewport::spanChanged, this, &SpectrumPanel::follow);
+    connect(&m_runner, &JobRunner::finished, this, &SpectrumPanel::settled);
+    connect(&m_runner, &JobRunner::cancelled, this, &SpectrumPanel::settled);
+    connect(&m_runner, &JobRunner::failed, this, &SpectrumPanel::settled);
+    follow();
+}
+
+SpectrumLevel SpectrumPanel::chosenLevel() const
+{
+    return m_level->currentIndex() == 0 ? SpectrumLevel::OverNoise : SpectrumLevel::Density;
+}
+
+void SpectrumPanel::follow()
+{
+    m_level->setEnabled(!m_document.isEmpty() && m_document.recording());
+    m_calibration->setVisible(chosenLevel() == SpectrumLevel::Density);
+    const auto &analysis = m_document.analysis();
+    if (!analysis || m_document.hasPings() || !m_sight->isOn())
+        return;
+    const Span visible = m_document.viewport().time();
+    const auto &cursor = m_document.viewport().cursor();
+    const double seconds = cursor ? cursor->seconds : visible.middle();
+    const SpectrumLevel level = m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise;
+    m_runner.start([this, analysis, visible, seconds, level](const RunContext &context) -> JobRunner::Delivery {
+        Spectra spectra = spectraOf(*analysis, seconds, visible.low, visible.high, level, context);
+        return [this, spectra = std::move(spectra)] { show(spectra); };
+    });
+}
+
+void SpectrumPanel::show(const Spectra &spectra)
+{
+    const bool isDensity = chosenLevel() == SpectrumLevel::Density && m_document.recording();
+    const double added = isDensity ? m_calibration->value() : 0.0;
+    const Span &band = m_document.viewport().frequency();
+    Chart chart{"Spectrum", "Frequency (Hz)", isDensity ? "Level (dB re 1/Hz)" : "Level (dB over noise)", false, false,
+                {}};
+    chart.curves.push_back(curveOf("at the cursor", spectra.position, spectra.frame, band, added));
+    chart.curves.push_back(curveOf("mean of what is visible", spectra.position, spectra.mean, band, added));
+    m_plot->setChart(chart);
+}
+
+} // namespace faintline

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "analysis/spectra.h"
+#include "app/base/JobRunner.h"
+
+#include <QWidget>
+
+class QComboBox;
+class QDoubleSpinBox;
+
+namespace faintline {
+
+class ChartPlot;
+class Document;
+class VisibilityWatcher;
+
+/// The spectrum at the cursor, and the mean over the time that is visible, of the band that is visible: over the noise,
+/// or as a density in dB re full scale²/Hz, to which a calibration is added. Worked out while it is seen.
+class SpectrumPanel : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit SpectrumPanel(Document &document, QWidget *parent = nullptr);
+
+    bool isBusy() const { return m_runner.isRunning(); }
+    ChartPlot &plot() { return *m_plot; }
+    QComboBox *level() const { return m_level; }
+    QDoubleSpinBox *calibration() const { return m_calibration; }
+
+    QSize sizeHint() const override { return {360, 300}; }
+
+signals:
+    void settled();
+
+private:
+    void follow();
+    void show(const Spectra &spectra);
+    SpectrumLevel chosenLevel() const;
+
+    Document &m_document;
+    QComboBox *m_level;
+    QDoubleSpinBox *m_calibration;
+    ChartPlot *m_plot;
+    VisibilityWatcher *m_sight;
+    JobRunner m_runner; ///< last, so that its jobs end first
+};
+
+} // namespace faintline

@@ -1,0 +1,96 @@
+#include "app/views/ChartMenus.h"
+
+#include "app/base/filePath.h"
+#include "app/control/EventReviews.h"
+#include "app/document/saveView.h"
+#include "app/panels/EvaluatePanel.h"
+#include "app/panels/SweepPanel.h"
+#include "app/views/WindowParts.h"
+#include "app/views/chartCaption.h"
+#include "exchange/writeChart.h"
+#include "widgets/plot/ChartFigure.h"
+#include "widgets/plot/ChartPlot.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/plot/StripPlot.h"
+#include "widgets/plot/plotCsv.h"
+
+#include <QFileDialog>
+#include <QMenu>
+
+namespace faintline {
+
+namespace {
+
+    std::string csvOf(QWidget &chart)
+    {
+        if (const auto *plot = qobject_cast<ChartPlot *>(&chart))
+            return chartCsv(plot->chart());
+        if (const auto *plot = qobject_cast<ExceedancePlot *>(&chart))
+            return plotCsv(*plot, true);
+        return plotCsv(static_cast<QwtPlot &>(static_cast<StripPlot &>(chart)), false);
+    }
+
+} // namespace
+
+ChartMenus::ChartMenus(WindowParts &parts, QWidget *window) : QObject(window), m_parts(parts), m_window(window)
+{
+    const auto offer = [this](QWidget *chart) {
+        if (chart->contextMenuPolicy() == Qt::CustomContextMenu)
+            return;
+        chart->setContextMenuPolicy(Qt::CustomContextMenu);
+        connect(chart, &QWidget::customContextMenuRequested, this, [this, chart](const QPoint &at) {
+            QMenu menu;
+            menu.addAction(tr("Save chart…"), this, [this, chart] { ask(*chart); });
+            menu.exec(chart->mapToGlobal(at));
+        });
+    };
+    for (ChartPlot *chart : window->findChildren<ChartPlot *>())
+        offer(chart);
+    for (StripPlot *chart : window->findChildren<StripPlot *>())
+        offer(chart);
+    connect(&parts.thresholdPlot(), &ExceedancePlot::contextMenuRequested, this, [this](QMenu *menu) {
+        menu->addSeparator();
+        menu->addAction(tr("Save chart…"), this, [this] { ask(m_parts.thresholdPlot()); });
+    });
+}
+
+QString ChartMenus::captionFor(const QWidget &chart) const
+{
+    const auto of = [this](int experiment) {
+        const Experiments::Entry *entry = m_parts.experiments().entry(experiment);
+        return entry ? captionOf(*entry) : captionOf(m_parts.document());
+    };
+    if (m_parts.evaluation().isAncestorOf(&chart))
+        return of(m_parts.evaluation().shown());
+    if (m_parts.sweep().isAncestorOf(&chart))
+        return of(m_parts.sweep().shown());
+    return captionOf(m_parts.document());
+}
+
+void ChartMenus::ask(QWidget &chart)
+{
+    const QString path = QFileDialog::getSaveFileName(m_window, tr("Save chart"), QStringLiteral("chart.svg"),
+                                                      tr("Drawing (*.svg);;Document (*.pdf);;Picture (*.png);;Numbers "
+                                                         "(*.csv)"));
+    if (!path.isEmpty())
+        saveTo(chart, path);
+}
+
+void ChartMenus::saveTo(QWidget &chart, const QString &path)
+{
+    const auto save = [this, path, &chart](const std::string &provenance) {
+        try {
+            const auto *plot = qobject_cast<ChartPlot *>(&chart);
+            const QString caption = captionFor(chart);
+            const auto figure =
+                plot ? std::make_unique<ChartFigure>(*plot, caption) : std::make_unique<ChartFigure>(chart, caption);
+            saveView(*figure, csvOf(chart), path, provenance);
+            emit written(path);
+        } catch (const Error &error) {
+            emit failed(error);
+        }
+    };
+    m_parts.document().isEmpty() ? save({}) : m_parts.reviews().provenance().with(save);
+}
+
+} // namespace faintline

@@ -1,0 +1,57 @@
+#include "analysis/advice.h"
+
+#include <algorithm>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index readFrames = 200;
+    constexpr Index leastFrames = 16;
+    constexpr double constantVariance = 0.05; ///< in that of noise
+    constexpr double mostCells = 0.9;
+
+} // namespace
+
+std::optional<Advice> adviceOnConstantCells(const Analysis &analysis, const RunContext &context)
+{
+    const NormalisedFrames &frames = *analysis.frames;
+    const auto cells = static_cast<std::size_t>(frames.grid().size());
+    const Index count = std::min(frames.time().count, readFrames);
+    if (count < leastFrames)
+        return {};
+    const Index first = (frames.time().count - count) / 2;
+    std::vector<float> y(cells);
+    std::vector<double> sum(cells), squares(cells), observed(cells);
+    for (Index frame = first; frame < first + count; ++frame) {
+        context.checkpoint(0.0, "looking for noise");
+        frames.read(frame, 1, y);
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            const auto value = static_cast<double>(y[cell]);
+            if (!(value >= 0.0))
+                continue;
+            sum[cell] += value;
+            squares[cell] += value * value;
+            observed[cell] += 1.0;
+        }
+    }
+    std::size_t known = 0;
+    std::size_t constant = 0;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        if (observed[cell] < static_cast<double>(leastFrames))
+            continue;
+        ++known;
+        const double mean = sum[cell] / observed[cell];
+        constant += squares[cell] / observed[cell] - mean * mean <= constantVariance * mean * mean;
+    }
+    if (known == 0 || static_cast<double>(constant) < mostCells * static_cast<double>(known))
+        return {};
+    return Advice{
+        "constantCells",
+        "the power of nearly every cell is constant in time; this recording holds no noise, so rates of false "
+        "alarms and SNR mean nothing here",
+        {},
+        analysis.settings};
+}
+
+} // namespace faintline

@@ -1,0 +1,86 @@
+#include "analysis/spectra.h"
+
+#include "spectrum/Spectrogram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faintline {
+
+namespace {
+
+    constexpr Index mostFrames = 400;
+
+    Index nearestFrame(const Axis &time, double seconds)
+    {
+        return std::clamp<Index>(static_cast<Index>(std::llround(time.position(seconds))), 0, time.count - 1);
+    }
+
+    /// Frames of an analysis as what the level asks for.
+    class Reader
+    {
+    public:
+        Reader(const Analysis &analysis, SpectrumLevel level)
+            : m_frames(*analysis.frames),
+              m_spectrogram(level == SpectrumLevel::Density ? analysis.frames->spectrogram() : nullptr),
+              m_values(static_cast<std::size_t>(analysis.grid().size()))
+        {
+            if (!m_spectrogram)
+                return;
+            const RecordingInfo &info = m_spectrogram->recording().info();
+            m_unit = (info.isComplex ? 1.0 : 2.0) * std::pow(4.0, m_spectrogram->scaleExponent()) / info.sampleRateHz;
+        }
+
+        double value(std::size_t cell) const { return m_unit * static_cast<double>(m_values[cell]); }
+
+        void read(Index frame, const RunContext &context)
+        {
+            if (m_spectrogram)
+                m_spectrogram->read(frame, 1, m_values, context);
+            else
+                m_frames.read(frame, 1, m_values);
+        }
+
+    private:
+        const NormalisedFrames &m_frames;
+        const Spectrogram *m_spectrogram;
+        double m_unit = 1.0;
+        std::vector<float> m_values;
+    };
+
+} // namespace
+
+Spectra spectraOf(const Analysis &analysis, double seconds, double fromSeconds, double toSeconds, SpectrumLevel level,
+                  const RunContext &context)
+{
+    const Axis &time = analysis.time();
+    const Axis &axis = analysis.grid().axes.back();
+    const auto cells = static_cast<std::size_t>(analysis.grid().size());
+    Reader reader(analysis, level);
+    Spectra spectra;
+    std::vector<double> counts(cells, 0.0);
+    spectra.mean.assign(cells, 0.0);
+    const Index first = nearestFrame(time, fromSeconds);
+    const Index last = std::max(first, nearestFrame(time, toSeconds));
+    const Index frames = std::min(last - first + 1, mostFrames);
+    for (Index i = 0; i < frames; ++i) {
+        context.checkpoint(static_cast<double>(i) / static_cast<double>(frames), "averaging spectra");
+        reader.read(frames == 1 ? first : first + i * (last - first) / (frames - 1), context);
+        for (std::size_t cell = 0; cell < cells; ++cell)
+            if (const double value = reader.value(cell); std::isfinite(value)) {
+                spectra.mean[cell] += value;
+                counts[cell] += 1.0;
+            }
+    }
+    reader.read(nearestFrame(time, seconds), context);
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        spectra.position.push_back(axis.value(static_cast<double>(cell)));
+        spectra.frame.push_back(reader.value(cell));
+        spectra.mean[cell] =
+            counts[cell] > 0.0 ? spectra.mean[cell] / counts[cell] : std::numeric_limits<double>::quiet_NaN();
+    }
+    return spectra;
+}
+
+} // namespace faintline

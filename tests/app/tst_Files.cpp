@@ -1,0 +1,132 @@
+#include "app/base/MessageBar.h"
+#include "app/base/distinctLabels.h"
+#include "app/control/EventReviews.h"
+#include "app/document/recordingFiles.h"
+#include "app/openWindow.h"
+#include "app/views/WindowViews.h"
+#include "recording/SimulatedRecording.h"
+#include "recording/writeRecording.h"
+#include "widgets/events/EventTable.h"
+
+#include <QDir>
+#include <QDropEvent>
+#include <QLineEdit>
+#include <QMimeData>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// From file to file: what goes along, what does not, and how files of one name are told apart.
+class tst_Files : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase()
+    {
+        LineScene scene;
+        scene.sampleRateHz = 200.0;
+        scene.durationSeconds = 30.0;
+        QVERIFY(QDir(m_folder.path()).mkpath("site 2"));
+        for (const char *name : {"night 2.wav", "night 10.wav", "site 2/night 2.wav"}) {
+            writeRecording(SimulatedRecording(scene), path(name).toStdString());
+            ++scene.seed;
+        }
+        writeFile(m_folder, "night 3.txt", "no recording");
+    }
+
+    void neighboursAreRecordingsInTheOrderOfTheirNumbers()
+    {
+        FileSequence files;
+        QCOMPARE(files.neighbour(path("night 2.wav"), 1), path("night 10.wav"));
+        QCOMPARE(files.neighbour(path("night 10.wav"), -1), path("night 2.wav"));
+        QCOMPARE(files.neighbour(path("night 10.wav"), 1), QString());
+        QCOMPARE(files.neighbour(":/scenarios/faint-line.json", 1), QString());
+        files.setFiles({path("night 10.wav"), path("site 2/night 2.wav")});
+        QCOMPARE(files.neighbour(path("night 10.wav"), 1), path("site 2/night 2.wav"));
+        QCOMPARE(files.neighbour(path("night 2.wav"), 1), path("night 10.wav")); // none of the list: its folder
+    }
+
+    void openOffersRecordingsFirst()
+    {
+        QVERIFY(openFilter().startsWith("Recordings (*.wav "));
+        QVERIFY(openFilter().endsWith("All files (*)"));
+    }
+
+    void namesAreToldApart()
+    {
+        QCOMPARE(distinctLabels({"/a/x/n.wav", "/a/y/n.wav", "/a/y/m.wav"}),
+                 QStringList({"n.wav (x)", "n.wav (y)", "m.wav"}));
+        QCOMPARE(distinctLabels({"/a/x/1/n.wav", "/a/y/1/n.wav"}), QStringList({"n.wav (x/1)", "n.wav (y/1)"}));
+    }
+
+    void settingsGoAlongFilterAndPartDoNot()
+    {
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, path("night 2.wav"), [](AnalysisSettings &settings) {
+            settings.spectrogram.windowSeconds = 0.5;
+            settings.selection.fromSeconds = 10.0;
+            settings.selection.highHz = 80.0;
+        }));
+        window->eventTable().filter()->setText("stat>5");
+        QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QCOMPARE(window->document().source().path, path("night 10.wav"));
+        const AnalysisSettings &settings = window->document().settings();
+        QCOMPARE(settings.spectrogram.windowSeconds, 0.5);
+        QCOMPARE(settings.selection.highHz, 80.0);
+        QCOMPARE(settings.selection.fromSeconds, 0.0);
+        QCOMPARE(window->eventTable().filter()->text(), QString());
+        QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ControlModifier);
+        QVERIFY(window->messages().text().contains("This is the last recording of its folder."));
+        QTest::keyClick(window.get(), Qt::Key_PageUp, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QCOMPARE(window->document().source().path, path("night 2.wav"));
+    }
+
+    void ofSeveralDroppedNoneIsLost()
+    {
+        const auto window = newWindow();
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(path("night 10.wav")), QUrl::fromLocalFile(path("site 2/night 2.wav"))});
+        QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(window.get(), &enter);
+        QDropEvent event(QPointF(50.0, 50.0), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(window.get(), &event);
+        QVERIFY(settle(*window));
+        QCOMPARE(window->document().source().path, path("night 10.wav"));
+        QTRY_VERIFY(window->messages().text().contains("2 files"));
+        QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ControlModifier);
+        QVERIFY(settle(*window));
+        QCOMPARE(window->document().source().path, path("site 2/night 2.wav"));
+    }
+
+    void titlesOfOneNameTellTheFolder()
+    {
+        const auto window =
+            newWindow({1400, 900}, std::make_unique<QSettings>(path("memory.ini"), QSettings::IniFormat));
+        QVERIFY(openAndSettle(*window, path("night 2.wav")));
+        QCOMPARE(window->windowTitle(), QString("night 2.wav[*] — Faintline"));
+        QVERIFY(openAndSettle(*window, path("site 2/night 2.wav")));
+        QCOMPARE(window->windowTitle(), QString("night 2.wav (site 2)[*] — Faintline"));
+    }
+
+    void exportsSayWhereTheyWrote()
+    {
+        const auto window = newWindow();
+        QVERIFY(openAndSettle(*window, path("night 2.wav")));
+        window->reviews().exportTo(path("out.csv"));
+        QTRY_VERIFY2(window->messages().text().contains("out.csv"), qPrintable(window->messages().text()));
+        window->messages().dismiss();
+        window->views().saveTo("events", path("events.png"));
+        QTRY_VERIFY2(window->messages().text().contains(path("events.png")), qPrintable(window->messages().text()));
+    }
+
+private:
+    QString path(const char *name) const { return m_folder.filePath(QString::fromLatin1(name)); }
+
+    QTemporaryDir m_folder;
+};
+
+QTEST_MAIN(tst_Files)
+#include "tst_Files.moc"

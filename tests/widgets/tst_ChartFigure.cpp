@@ -1,0 +1,79 @@
+#include "widgets/plot/ChartFigure.h"
+
+#include "widgets/base/Theme.h"
+#include "widgets/plot/ChartPlot.h"
+#include "widgets/plot/ExceedancePlot.h"
+#include "widgets/plot/plotCsv.h"
+
+#include <QCheckBox>
+#include <QLabel>
+#include <QtTest>
+
+using namespace faintline;
+
+/// A chart as it is printed: light whatever the theme, without controls, with a caption.
+class tst_ChartFigure : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { Theme::apply(Theme::Kind::Dark); }
+
+    void lightWithACaptionAndWhatIsShown()
+    {
+        ChartPlot chart;
+        chart.setChart({"Pd", "SNR (dB)", "Pd", false, false, {curve("one"), curve("two")}});
+        chart.setShown(1, false);
+        chart.show();
+        const QImage before = chart.grab().toImage();
+        ChartFigure figure(chart, "night.wav; window = 0.5 s");
+        const QImage image = figure.grab().toImage();
+        QVERIFY2(image.pixelColor(3, 3).lightness() > 240, qPrintable(image.pixelColor(3, 3).name()));
+        QVERIFY(image.pixelColor(image.width() - 4, image.height() - 4).lightness() > 240);
+        QCOMPARE(figure.findChildren<QLabel *>().last()->text(), QString("night.wav; window = 0.5 s"));
+        QStringList names;
+        for (const QCheckBox *box : figure.findChildren<QCheckBox *>())
+            if (box->isVisible())
+                names << box->text();
+        QCOMPARE(names, QStringList{"one"});
+        QCOMPARE(chart.grab().toImage(), before); // what is on the screen keeps its looks
+    }
+
+    void anyPlotIsRecordedLight()
+    {
+        ExceedancePlot plot;
+        plot.resize(400, 260);
+        plot.show();
+        const QImage before = plot.grab().toImage();
+        ChartFigure figure(plot, {});
+        QVERIFY(figure.width() >= 760);
+        const QImage image = figure.grab().toImage();
+        QVERIFY2(image.pixelColor(10, 10).lightness() > 200, qPrintable(image.pixelColor(10, 10).name()));
+        QCOMPARE(plot.size(), QSize(400, 260));
+        QCOMPARE(plot.grab().toImage(), before);
+    }
+
+    void numbersOfACurve()
+    {
+        ExceedancePlot plot;
+        auto calibration = std::make_shared<Calibration>();
+        calibration->anchorNats = 5.0;
+        calibration->eventRate = 1e-3;
+        calibration->tailSlope = 0.5;
+        calibration->levels = {0.0, 1.0};
+        calibration->exceedance = {1.0, 0.5};
+        plot.setCalibration(calibration, 1e6);
+        const QString csv = QString::fromStdString(plotCsv(plot, true));
+        QVERIFY2(csv.startsWith("curve,x,y\n\"noise, fitted law\",5,1000"), qPrintable(csv.left(80)));
+    }
+
+private:
+    static Curve curve(const char *name)
+    {
+        return {
+            name, Curve::Kind::Measured, {{-3.0, 0.1, {0.05, 0.2}}, {0.0, 0.5, {0.4, 0.6}}, {3.0, 0.9, {0.8, 0.95}}}};
+    }
+};
+
+QTEST_MAIN(tst_ChartFigure)
+#include "tst_ChartFigure.moc"
