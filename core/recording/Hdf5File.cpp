@@ -19,8 +19,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t largestChunk = std::size_t(256) << 20;
-    constexpr std::size_t cacheBytes = std::size_t(32) << 20;
+    constexpr std::size_t largestChunk = std::size_t(64) << 20;
+    constexpr std::size_t cacheBytes = std::size_t(128) << 20; // a chunk that does not fit is unpacked for every read
     constexpr std::size_t cacheSlots = 1009;
     constexpr H5Z_filter_t bitshuffle = 32008;
     constexpr unsigned bitshuffleLz4 = 2;
@@ -132,8 +132,10 @@ namespace {
         }
     }
 
-    void checkStorage(hid_t dataset, std::size_t elementBytes, const std::string &where)
+    /// The sizes of a dataset's chunks; empty where it has none.
+    std::vector<Index> checkStorage(hid_t dataset, std::size_t elementBytes, const std::string &where)
     {
+        std::vector<Index> chunk;
         const Handle plan(H5Dget_create_plist(dataset), H5Pclose);
         if (H5Pget_external_count(plan) != 0)
             throw Error(where, "has its values in other files, which are not read");
@@ -145,7 +147,9 @@ namespace {
             for (int axis = 0; axis < axes; ++axis)
                 bytes *= static_cast<double>(sizes[static_cast<std::size_t>(axis)]);
             if (axes < 1 || bytes > static_cast<double>(largestChunk))
-                throw Error(where, "has chunks of more than 256 MiB, which would have to be held in memory");
+                throw Error(where, "has chunks of more than 64 MiB, which would have to be held in memory; repack it "
+                                   "(h5repack)");
+            chunk.assign(sizes.begin(), sizes.begin() + axes);
             break;
         }
         case H5D_COMPACT:
@@ -155,6 +159,7 @@ namespace {
             throw Error(where, "is put together from other datasets or files, which are not read");
         }
         checkFilters(plan, where);
+        return chunk;
     }
 
     /// Lengths may lie: what was never written is no part of the file, and no filter packs numbers better than this.
@@ -236,11 +241,14 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
     if (axes < 1
         || std::any_of(sizes.begin(), sizes.begin() + axes, [](hsize_t size) { return size < 1 || size > mostValues; }))
         throw Error(where, "holds no values, or more than can be");
-    checkStorage(handle, H5Tget_size(type), where);
+    std::vector<Index> chunk = checkStorage(handle, H5Tget_size(type), where);
+    if (!chunk.empty() && (std::ssize(chunk) != axes || std::find(chunk.begin(), chunk.end(), 0) != chunk.end()))
+        throw Error(where, "is damaged: its chunks are of another shape");
     checkLength(handle, std::span(sizes).first(static_cast<std::size_t>(axes)), H5Tget_size(type), where);
 
     std::unique_ptr<Hdf5Dataset> dataset(new Hdf5Dataset(m_path, handle.release()));
     dataset->m_shape.assign(sizes.begin(), sizes.begin() + axes);
+    dataset->m_chunk = std::move(chunk);
     dataset->m_isFloat = kind == H5T_FLOAT;
     dataset->m_isSigned = kind == H5T_FLOAT || H5Tget_sign(type) == H5T_SGN_2;
     dataset->m_bits = 8 * static_cast<int>(H5Tget_size(type));
@@ -304,8 +312,26 @@ std::optional<std::string> Hdf5Dataset::text(const std::string &name) const
     return std::string(value.c_str());
 }
 
+/// Where a small part lies in more chunks than are kept, all of them would be unpacked again for the next one.
+void Hdf5Dataset::checkChunks(const std::vector<Index> &first, const std::vector<Index> &count) const
+{
+    constexpr double mostUnpacked = 16.0; // times what is read
+    double wanted = 0.125 * m_bits;
+    double unpacked = wanted;
+    for (std::size_t axis = 0; axis < m_chunk.size(); ++axis) {
+        const Index chunks = (first[axis] + count[axis] - 1) / m_chunk[axis] - first[axis] / m_chunk[axis] + 1;
+        wanted *= static_cast<double>(count[axis]);
+        unpacked *= static_cast<double>(chunks) * static_cast<double>(m_chunk[axis]);
+    }
+    if (unpacked > static_cast<double>(cacheBytes) && unpacked > mostUnpacked * wanted)
+        throw Error(m_path, "has chunks of which " + std::to_string(std::llround(unpacked / 0x1p20))
+                                + " MiB would have to be unpacked for every " + std::to_string(std::llround(wanted))
+                                + " bytes; choose a narrower band, or repack it (h5repack)");
+}
+
 void Hdf5Dataset::read(const std::vector<Index> &first, const std::vector<Index> &count, std::span<float> out) const
 {
+    checkChunks(first, count);
     const LibraryUse use;
     const std::vector<hsize_t> from(first.begin(), first.end());
     const std::vector<hsize_t> size(count.begin(), count.end());
