@@ -1,7 +1,8 @@
 #!/bin/sh
-# Feeds made-up bytes to every parser, MINUTES in all, with clang's libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer:
+# Feeds made-up bytes to every parser, MINUTES of a processor in all, with clang's libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer:
 #     sh tests/fuzz.sh [MINUTES] [PARSER...]
-# What breaks a parser is kept in build-fuzz/found, to become a test's file. Corpora grow in build-fuzz/corpus from run to run.
+# What breaks a parser is kept in build-fuzz/found, to be moved to tests/fuzz/files, which a test feeds to all of them. Corpora grow in
+# build-fuzz/corpus from run to run. The processor's time counts, not the clock's: a busy machine takes longer, and does as much.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -29,9 +30,14 @@ window=$PWD/build-fuzz/tests/faintline-fuzz-window
 ofWindow=" $(FAINTLINE_FUZZ=LIST "$window" | tr '\n' ' ')"
 parsers=${*:-$(FAINTLINE_FUZZ=LIST "$core")$ofWindow}
 export QT_QPA_PLATFORM=offscreen
+# As in strict.sh: where a large request fails, so does the parser.
+export ASAN_OPTIONS="allocator_may_return_null=1:${ASAN_OPTIONS:-}"
+export LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0:${LSAN_OPTIONS:-}"
+export UBSAN_OPTIONS="print_stacktrace=1:${UBSAN_OPTIONS:-}"
 count=$(echo $parsers | wc -w)
-seconds=$((minutes * 60 / count))
-[ "$seconds" -gt 0 ] || seconds=1
+FAINTLINE_FUZZ_SECONDS=$((minutes * 60 / count))
+[ "$FAINTLINE_FUZZ_SECONDS" -gt 0 ] || FAINTLINE_FUZZ_SECONDS=1
+export FAINTLINE_FUZZ_SECONDS
 
 # What the parsers begin with: the repository's own files, and what the program writes of them.
 seeds=build-fuzz/seeds
@@ -79,19 +85,31 @@ EOF
 MAAOEAH40//+EAAAAASUVORK5CYII= | base64 -d > picture.png
     )
 fi
+cp tests/fuzz/files/* "$seeds"
 
 mkdir -p build-fuzz/found
+TMPDIR=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) # in memory: a disk would be the slowest part of most parsers
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
+seconds() { # what `times` says that all children took so far
+    sed -n 2p "$TMPDIR/times" | awk '{ gsub(/[ms]/, " "); print int(60 * $1 + $2 + 60 * $3 + $4) }'
+}
+
 status=0
 for parser in $parsers; do
     corpus=build-fuzz/corpus/$parser
     mkdir -p "$corpus"
     log=build-fuzz/$parser.log
     case $ofWindow in *" $parser "*) fuzz=$window ;; *) fuzz=$core ;; esac
-    FAINTLINE_FUZZ=$parser "$fuzz" "$corpus" "$seeds" -dict=tests/fuzz/words.dict -max_total_time="$seconds" -timeout=10 -rss_limit_mb=1024 \
+    times > "$TMPDIR/times"
+    before=$(seconds)
+    # A minute on the clock: feeding (feed.cpp) ends what takes long of a processor.
+    FAINTLINE_FUZZ=$parser "$fuzz" "$corpus" "$seeds" -dict=tests/fuzz/words.dict -timeout=60 -rss_limit_mb=1024 \
         -max_len=65536 -artifact_prefix="build-fuzz/found/$parser-" -print_final_stats=1 > "$log" 2>&1 || status=1
+    times > "$TMPDIR/times"
+    took=$(($(seconds) - before))
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
     cover=$(grep -o 'cov: [0-9]*' "$log" | tail -1)
-    echo "$parser: ${runs:-0} inputs, ${cover:-cov: ?} edges$(ls build-fuzz/found | grep -q "^$parser-" && echo ', FOUND SOMETHING: see build-fuzz/found')"
+    echo "$parser: ${runs:-0} inputs, ${cover:-cov: ?} edges, $took s$(ls build-fuzz/found | grep -q "^$parser-" && echo ', FOUND SOMETHING: see build-fuzz/found')"
 done
-rm -rf /dev/shm/faintline-fuzz-*
 exit $status

@@ -31,7 +31,7 @@ inline float fastLn(float x)
     return (m + tail) + 0.693359375f * e; // ln 2 in two parts
 }
 
-/// eˣ, x held within -87 … 88 so that the result is a normal number.
+/// eˣ, x held within -87 … 88 so that the result is a normal number; NaN stays what it is.
 inline float fastExp(float x)
 {
     x = x < -87.0f ? -87.0f : x;
@@ -46,7 +46,8 @@ inline float fastExp(float x)
     p = p * r + 1.6666665459e-1f;
     p = p * r + 5.0000001201e-1f;
     const float mantissa = (p * (r * r) + r) + 1.0f;
-    return mantissa * std::bit_cast<float>((static_cast<std::int32_t>(n) + 127) << 23);
+    const float power = n == n ? n : 0.0f; // no integer stands for NaN
+    return mantissa * std::bit_cast<float>((static_cast<std::int32_t>(power) + 127) << 23);
 }
 
 struct SineCosine {

@@ -1,11 +1,13 @@
 #include "recording/AudioDecoder.h"
 
 #include "base/Error.h"
+#include "recording/listChunk.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <string_view>
 
 namespace faintline {
 
@@ -53,11 +55,13 @@ namespace {
 
 } // namespace
 
-/// What libsndfile reads through: a shared file, an offset of its own, and 4 bytes that may read as 0xFF … instead.
+/// What libsndfile reads through: a shared file, an offset of its own, and 4 bytes that may read as 0xFF … instead. While
+/// it reads the header, name by name, lists in which it would lose its way get a name that it does not know.
 struct AudioDecoder::Source {
     std::shared_ptr<const FileBytes> file;
     std::optional<Index> patched;
     Index offset = 0;
+    bool isOpening = true;
 
     static Source &of(void *user) { return *static_cast<Source *>(user); }
 
@@ -89,7 +93,19 @@ struct AudioDecoder::Source {
             if (const Index at = *source.patched + i - source.offset; at >= 0 && at < got)
                 bytes[static_cast<std::size_t>(at)] = std::byte(0xff);
         source.offset += got;
+        if (source.isOpening && got > 0 && source.isBehindBadList())
+            bytes[static_cast<std::size_t>(got - 1)] = std::byte('x');
         return got;
+    }
+
+    bool isBehindBadList() const
+    {
+        std::array<std::byte, 4> name;
+        const Index chunk = offset - std::ssize(name);
+        if (chunk < 0 || file->readAt(chunk, name) < name.size())
+            return false;
+        const std::string_view text(reinterpret_cast<const char *>(name.data()), name.size());
+        return (text == "LIST" || text == "INFO") && leadsBackwards(*file, chunk);
     }
 };
 
@@ -115,6 +131,7 @@ std::unique_ptr<AudioDecoder> AudioDecoder::open(std::shared_ptr<const FileBytes
         why = sf_strerror(nullptr);
         return nullptr;
     }
+    source->isOpening = false;
     return std::unique_ptr<AudioDecoder>(new AudioDecoder(std::move(source), handle, format));
 }
 

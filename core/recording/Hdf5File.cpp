@@ -5,6 +5,10 @@
 #include "recording/FileBytes.h"
 #include "recording/bitshuffle.h"
 
+#include <H5FDpublic.h>
+#if __has_include(<H5FDdevelop.h>)
+#include <H5FDdevelop.h>
+#endif
 #include <H5PLpublic.h>
 #include <hdf5.h>
 
@@ -19,8 +23,8 @@ namespace faintline {
 
 namespace {
 
-    constexpr std::size_t largestChunk = std::size_t(256) << 20;
-    constexpr std::size_t cacheBytes = std::size_t(32) << 20;
+    constexpr std::size_t largestChunk = std::size_t(64) << 20;
+    constexpr std::size_t cacheBytes = std::size_t(128) << 20; // a chunk that does not fit is unpacked for every read
     constexpr std::size_t cacheSlots = 1009;
     constexpr H5Z_filter_t bitshuffle = 32008;
     constexpr unsigned bitshuffleLz4 = 2;
@@ -132,8 +136,10 @@ namespace {
         }
     }
 
-    void checkStorage(hid_t dataset, std::size_t elementBytes, const std::string &where)
+    /// The sizes of a dataset's chunks; empty where it has none.
+    std::vector<Index> checkStorage(hid_t dataset, std::size_t elementBytes, const std::string &where)
     {
+        std::vector<Index> chunk;
         const Handle plan(H5Dget_create_plist(dataset), H5Pclose);
         if (H5Pget_external_count(plan) != 0)
             throw Error(where, "has its values in other files, which are not read");
@@ -145,7 +151,9 @@ namespace {
             for (int axis = 0; axis < axes; ++axis)
                 bytes *= static_cast<double>(sizes[static_cast<std::size_t>(axis)]);
             if (axes < 1 || bytes > static_cast<double>(largestChunk))
-                throw Error(where, "has chunks of more than 256 MiB, which would have to be held in memory");
+                throw Error(where, "has chunks of more than 64 MiB, which would have to be held in memory; repack it "
+                                   "(h5repack)");
+            chunk.assign(sizes.begin(), sizes.begin() + axes);
             break;
         }
         case H5D_COMPACT:
@@ -155,6 +163,7 @@ namespace {
             throw Error(where, "is put together from other datasets or files, which are not read");
         }
         checkFilters(plan, where);
+        return chunk;
     }
 
     /// Lengths may lie: what was never written is no part of the file, and no filter packs numbers better than this.
@@ -169,6 +178,119 @@ namespace {
             throw Error(where, "claims " + std::to_string(std::llround(claimed / fewBytes))
                                    + " MiB of values, of which the file holds next to nothing");
     }
+
+    /// How the library reads: through FileBytes, and nothing but what is there.
+    ///
+    /// Its own drivers let it keep what it last read of a file's structure in a buffer, whose reach it compares with
+    /// addresses that a damaged file chose, without looking whether their sum wraps (1.10: a file of a kilobyte ended
+    /// the program). This one has no such buffer, and no locks, which a read-only folder need not allow.
+    namespace reading {
+
+        constexpr haddr_t farthest = ~haddr_t(0) >> 1;
+
+        /// The library's part comes first, by which it knows the whole.
+        struct OpenFile {
+            H5FD_t library{};
+            std::unique_ptr<const FileBytes> bytes;
+            haddr_t end = 0; ///< of what the file says to be its own
+
+            static OpenFile &of(H5FD_t *file) { return *reinterpret_cast<OpenFile *>(file); }
+            static const OpenFile &of(const H5FD_t *file) { return *reinterpret_cast<const OpenFile *>(file); }
+            haddr_t size() const { return static_cast<haddr_t>(bytes->size()); }
+        };
+
+        // No exception may pass through C.
+        H5FD_t *open(const char *path, unsigned flags, hid_t, haddr_t)
+        {
+            if (flags & H5F_ACC_RDWR)
+                return nullptr;
+            try {
+                auto file = std::make_unique<OpenFile>();
+                file->bytes = std::make_unique<const FileBytes>(path);
+                return &file.release()->library;
+            } catch (const std::exception &) {
+                return nullptr;
+            }
+        }
+
+        herr_t close(H5FD_t *file)
+        {
+            delete &OpenFile::of(file);
+            return 0;
+        }
+
+        herr_t query(const H5FD_t *, unsigned long *flags)
+        {
+            *flags = H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_IGNORE_DRVRINFO;
+            return 0;
+        }
+
+        haddr_t endOf(const H5FD_t *file, H5FD_mem_t)
+        {
+            return OpenFile::of(file).end;
+        }
+
+        herr_t setEnd(H5FD_t *file, H5FD_mem_t, haddr_t end)
+        {
+            OpenFile::of(file).end = end;
+            return 0;
+        }
+
+        haddr_t sizeOf(const H5FD_t *file, H5FD_mem_t)
+        {
+            return OpenFile::of(file).size();
+        }
+
+        herr_t read(H5FD_t *file, H5FD_mem_t, hid_t, haddr_t address, std::size_t count, void *out)
+        {
+            const OpenFile &open = OpenFile::of(file);
+            if (!out || address > open.size() || count > open.size() - address)
+                return -1;
+            try {
+                const std::span<std::byte> bytes(static_cast<std::byte *>(out), count);
+                return open.bytes->readAt(static_cast<Index>(address), bytes) == count ? 0 : -1;
+            } catch (const Error &) {
+                return -1;
+            }
+        }
+
+        herr_t refuseToWrite(H5FD_t *, H5FD_mem_t, hid_t, haddr_t, std::size_t, const void *)
+        {
+            return -1;
+        }
+
+        H5FD_class_t makeDriver()
+        {
+            H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION
+            driver.version = H5FD_CLASS_VERSION;
+            driver.value = static_cast<H5FD_class_value_t>(600); // of those that are nobody's
+#endif
+            driver.name = "faintline";
+            driver.maxaddr = farthest;
+            driver.fc_degree = H5F_CLOSE_WEAK;
+            driver.open = open;
+            driver.close = close;
+            driver.query = query;
+            driver.get_eoa = endOf;
+            driver.set_eoa = setEnd;
+            driver.get_eof = sizeOf;
+            driver.read = read;
+            driver.write = refuseToWrite; // without one, no driver is taken
+            // As H5FD_FLMAP_SINGLE: all kinds of content lie in one address space.
+            for (H5FD_mem_t &kind : driver.fl_map)
+                kind = H5FD_MEM_SUPER;
+            return driver;
+        }
+
+        /// To be given back with H5FDunregister once the file is open; negative where the library refuses it.
+        hid_t registerDriver()
+        {
+            static const H5FD_class_t driver = makeDriver();
+            return H5FDregister(&driver);
+        }
+
+    } // namespace reading
 
     /// Whether a name leads on within the file.
     bool follows(hid_t file, const std::string &name, const std::string &path)
@@ -200,7 +322,11 @@ Hdf5File::Hdf5File(const std::string &path) : m_path(path)
 {
     const FileBytes check(path); // says what is wrong with a name
     const LibraryUse use;
-    m_handle = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const Handle driver(reading::registerDriver(), H5FDunregister);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    if (H5Pset_driver(access, driver, nullptr) < 0)
+        throw Error(path, "cannot be opened: the HDF5 library takes no driver", Error::Kind::Failure);
+    m_handle = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
     if (m_handle < 0)
         throw Error(path, "is no HDF5 file, or damaged or cut short");
 }
@@ -236,11 +362,14 @@ std::unique_ptr<Hdf5Dataset> Hdf5File::dataset(const std::string &name) const
     if (axes < 1
         || std::any_of(sizes.begin(), sizes.begin() + axes, [](hsize_t size) { return size < 1 || size > mostValues; }))
         throw Error(where, "holds no values, or more than can be");
-    checkStorage(handle, H5Tget_size(type), where);
+    std::vector<Index> chunk = checkStorage(handle, H5Tget_size(type), where);
+    if (!chunk.empty() && (std::ssize(chunk) != axes || std::find(chunk.begin(), chunk.end(), 0) != chunk.end()))
+        throw Error(where, "is damaged: its chunks are of another shape");
     checkLength(handle, std::span(sizes).first(static_cast<std::size_t>(axes)), H5Tget_size(type), where);
 
     std::unique_ptr<Hdf5Dataset> dataset(new Hdf5Dataset(m_path, handle.release()));
     dataset->m_shape.assign(sizes.begin(), sizes.begin() + axes);
+    dataset->m_chunk = std::move(chunk);
     dataset->m_isFloat = kind == H5T_FLOAT;
     dataset->m_isSigned = kind == H5T_FLOAT || H5Tget_sign(type) == H5T_SGN_2;
     dataset->m_bits = 8 * static_cast<int>(H5Tget_size(type));
@@ -304,8 +433,26 @@ std::optional<std::string> Hdf5Dataset::text(const std::string &name) const
     return std::string(value.c_str());
 }
 
+/// Where a small part lies in more chunks than are kept, all of them would be unpacked again for the next one.
+void Hdf5Dataset::checkChunks(const std::vector<Index> &first, const std::vector<Index> &count) const
+{
+    constexpr double mostUnpacked = 16.0; // times what is read
+    double wanted = 0.125 * m_bits;
+    double unpacked = wanted;
+    for (std::size_t axis = 0; axis < m_chunk.size(); ++axis) {
+        const Index chunks = (first[axis] + count[axis] - 1) / m_chunk[axis] - first[axis] / m_chunk[axis] + 1;
+        wanted *= static_cast<double>(count[axis]);
+        unpacked *= static_cast<double>(chunks) * static_cast<double>(m_chunk[axis]);
+    }
+    if (unpacked > static_cast<double>(cacheBytes) && unpacked > mostUnpacked * wanted)
+        throw Error(m_path, "has chunks of which " + std::to_string(std::llround(unpacked / 0x1p20))
+                                + " MiB would have to be unpacked for every " + std::to_string(std::llround(wanted))
+                                + " bytes; choose a narrower band, or repack it (h5repack)");
+}
+
 void Hdf5Dataset::read(const std::vector<Index> &first, const std::vector<Index> &count, std::span<float> out) const
 {
+    checkChunks(first, count);
     const LibraryUse use;
     const std::vector<hsize_t> from(first.begin(), first.end());
     const std::vector<hsize_t> size(count.begin(), count.end());

@@ -27,16 +27,18 @@ public:
     std::optional<std::string> text(const std::string &attribute) const;
 
     /// Reads a box, last axis contiguous, converted to single precision. Precondition: it lies within the shape. Throws
-    /// Error where the file is damaged there.
+    /// Error where the file is damaged there, or packed in chunks of which a small box needs more than are kept.
     void read(const std::vector<Index> &first, const std::vector<Index> &count, std::span<float> out) const;
 
 private:
     friend class Hdf5File;
     Hdf5Dataset(std::string path, std::int64_t handle);
+    void checkChunks(const std::vector<Index> &first, const std::vector<Index> &count) const;
 
     std::string m_path; ///< of the file
     std::int64_t m_handle;
     std::vector<Index> m_shape;
+    std::vector<Index> m_chunk; ///< empty where the values lie in one piece
     bool m_isFloat = false;
     bool m_isSigned = false;
     int m_bits = 0;
@@ -47,7 +49,7 @@ private:
 /// Only hard links are followed: no external and no soft ones. Datasets whose values lie in other files (external
 /// storage, virtual datasets) are refused. No plug-in is ever loaded, wherever the file or the environment say that
 /// they are: filters are those that are built into the library, and bitshuffle with or without LZ4, decoded here.
-/// Chunks of more than 256 MiB are refused, and lengths that what is stored cannot have been unpacked to. The library
+/// Chunks of more than 64 MiB are refused, and lengths that what is stored cannot have been unpacked to. The library
 /// is used by one thread at a time (a lock of this class), so the classes are thread-safe, and left as it was found,
 /// for others of the process may use it. This is the only place that knows HDF5.
 class Hdf5File

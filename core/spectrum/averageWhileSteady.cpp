@@ -35,7 +35,8 @@ namespace {
                    float *sum, float *count)
     {
         for (std::size_t cell = 0; cell < cells; ++cell) {
-            sum[cell] += counts[cell] * fastExp(values[cell] - level - about[cell]);
+            const float ratio = fastExp(values[cell] - level - about[cell]);
+            sum[cell] += counts[cell] > 0.0f ? ratio : 0.0f; // it may be no number where it does not count
             count[cell] += counts[cell];
         }
     }

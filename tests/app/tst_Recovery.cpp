@@ -7,6 +7,7 @@
 #include <QApplication>
 #include <QFile>
 #include <QProcess>
+#include <QRandomGenerator>
 #include <QToolButton>
 
 #include <cstdio>
@@ -45,6 +46,22 @@ int beKilled(const QString &scene, const QString &recoveryFolder)
     return QApplication::exec();
 }
 
+/// One edit after the other, each told of as soon as it is kept.
+int editUntilKilled(const QString &scene, const QString &recoveryFolder)
+{
+    const auto window = openedWindow(scene, recoveryFolder);
+    QSignalSpy kept(&window->recovery(), &Recovery::kept);
+    for (int version = 2;; ++version) { // 1 is the default
+        window->controller().edit("decide.falseAlarmsPerHour", static_cast<double>(version), "false alarms");
+        do {
+            if (!kept.wait(patience))
+                return 1;
+        } while (readSession(kept.last()[0].toString()).settings.decide.falseAlarmsPerHour != version);
+        std::printf("%d\n", version);
+        std::fflush(stdout);
+    }
+}
+
 } // namespace
 
 class tst_Recovery : public QObject
@@ -54,6 +71,7 @@ class tst_Recovery : public QObject
 private slots:
     void keptAsLongAsItIsUnsaved();
     void survivesAKill();
+    void editsSurviveKillsAtAnyMoment();
     void withoutAFolderNothingIsKept();
 };
 
@@ -105,6 +123,37 @@ void tst_Recovery::survivesAKill()
     QVERIFY2(Recovery::leftBehind(recovery).isEmpty(), "it belongs to this program now");
 }
 
+void tst_Recovery::editsSurviveKillsAtAnyMoment()
+{
+    const int kills =
+        qEnvironmentVariableIsSet("FAINTLINE_KILLS") ? qEnvironmentVariableIntValue("FAINTLINE_KILLS") : 2;
+    QTemporaryDir folder;
+    const QString scene = writeScene(folder);
+    const QString recovery = folder.filePath("recovery");
+    QRandomGenerator random(1);
+    for (int kill = 0; kill < kills; ++kill) {
+        QProcess program;
+        program.start(QCoreApplication::applicationFilePath(), {"--edit-until-killed", scene, recovery});
+        int version = 0;
+        const auto listen = [&] {
+            while (program.canReadLine())
+                version = program.readLine().trimmed().toInt();
+        };
+        for (const int wanted = 2 + random.bounded(2); version < wanted; listen())
+            QVERIFY(program.waitForReadyRead(patience));
+        QTest::qSleep(random.bounded(1300)); // an edit is kept after a second
+        program.kill();
+        QVERIFY(program.waitForFinished(patience));
+        listen();
+
+        const QStringList left = Recovery::leftBehind(recovery);
+        QCOMPARE(left.size(), 1);
+        const double recovered = readSession(left.front()).settings.decide.falseAlarmsPerHour;
+        QVERIFY2(recovered == version || recovered == version + 1, qPrintable(QString::number(recovered)));
+        Recovery::discard(left.front());
+    }
+}
+
 void tst_Recovery::withoutAFolderNothingIsKept()
 {
     QTemporaryDir folder;
@@ -119,6 +168,8 @@ int main(int argc, char *argv[])
     Theme::apply(Theme::Kind::Light);
     if (argc == 4 && qstrcmp(argv[1], "--be-killed") == 0)
         return beKilled(QString::fromLocal8Bit(argv[2]), QString::fromLocal8Bit(argv[3]));
+    if (argc == 4 && qstrcmp(argv[1], "--edit-until-killed") == 0)
+        return editUntilKilled(QString::fromLocal8Bit(argv[2]), QString::fromLocal8Bit(argv[3]));
     tst_Recovery test;
     return QTest::qExec(&test, argc, argv);
 }

@@ -42,6 +42,7 @@ private slots:
     void annotationsThatAreNoFile();
     void picturesCutOff();
     void reportOfALesson();
+    void windowWithoutADisplay();
 
 private:
     struct Outcome {
@@ -414,6 +415,19 @@ void tst_cliBadInput::reportOfALesson()
     QCOMPARE(told.err,
              QByteArray("error: lesson.json: is a lesson; a report requires a recording, pings or a session\n"));
     QVERIFY(named("o.html*").isEmpty());
+}
+
+void tst_cliBadInput::windowWithoutADisplay()
+{
+    if (!QFile::exists(QStringLiteral(FAINTLINE_BINARY_DIR "/app/faintline")))
+        QSKIP("no window is built");
+    const Outcome told = run(QStringLiteral("faintline"), {}, [] {
+        ::unsetenv("DISPLAY");
+        ::unsetenv("WAYLAND_DISPLAY");
+        ::setenv("QT_QPA_PLATFORM", "xcb", 1);
+    });
+    QCOMPARE(told.code, 1);
+    QVERIFY2(isOneLine(told) && told.err.contains("no display is available"), told.err.constData());
 }
 
 QTEST_GUILESS_MAIN(tst_cliBadInput)

@@ -5,8 +5,10 @@
 #include "analysis/AnalysisSettings.h"
 #include "analysis/CalibrationStore.h"
 #include "analysis/Review.h"
+#include "analysis/sourceFingerprint.h"
 #include "app/cli/readProvenance.h"
 #include "app/cli/windowExport.h"
+#include "base/checksum.h"
 #include "base/fileName.h"
 #include "base/json.h"
 #include "base/oneLine.h"
@@ -17,17 +19,23 @@
 #include "exchange/openFrames.h"
 #include "exchange/readAnnotations.h"
 #include "live/wavHeader.h"
+#include "recording/KiwiRecording.h"
 #include "recording/PingTruth.h"
 #include "recording/ScanScene.h"
 #include "recording/SimulatedRecording.h"
 #include "recording/Truth.h"
+#include "recording/bitshuffle.h"
 #include "recording/openRecording.h"
 #include "spectrum/SimulatedPings.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -65,13 +73,145 @@ void readSigmf(const Input &input)
     readSome(openRecording(input.path));
 }
 
-/// A calibration's file is looked for under its key.
+void writeFile(const std::filesystem::path &path, const std::string &bytes)
+{
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string fromTo(const std::string &text, std::size_t begin, std::size_t end)
+{
+    return text.substr(std::min(begin, text.size()), end - begin);
+}
+
+/// The chunks in which receivers and recorders tell when and where, in a WAV file that is otherwise sound. The first
+/// byte chooses one.
+void readReceiverChunk(const Input &input)
+{
+    constexpr std::array<const char *, 4> names{"harp", "auxi", "bext", "LIST"};
+    const unsigned choice = input.text.empty() ? 0 : static_cast<unsigned char>(input.text.front());
+    const auto littleEndian = [](std::uint32_t value) {
+        std::string bytes;
+        for (unsigned i = 0; i < 4; ++i)
+            bytes += static_cast<char>(value >> (8 * i));
+        return bytes;
+    };
+    const auto chunk = [&](const std::string &name, const std::string &content) {
+        return name + littleEndian(static_cast<std::uint32_t>(content.size())) + content
+               + std::string(content.size() % 2, '\0');
+    };
+    constexpr std::array<char, 16> stereo{1, 0, 2, 0, -24, 3, 0, 0, -96, 15, 0, 0, 4, 0, 16, 0}; // 16 bits, 1000 Hz
+    writeFile(input.path,
+              chunk("RIFF", "WAVE" + chunk("fmt ", {stereo.data(), stereo.size()})
+                                + chunk(names[choice % names.size()], fromTo(input.text, 1, input.text.size()))
+                                + chunk("data", std::string(400, '\1'))));
+    OpenOptions options;
+    options.iq = choice >= 128;
+    readSome(openRecording(input.path, options));
+}
+
+void readSomeFrames(const NormalisedFramesPointer &frames)
+{
+    if (!frames)
+        return;
+    constexpr Index values = 1 << 16;
+    const Index cells = frames->grid().size();
+    const Index count = std::min(frames->time().count, std::max<Index>(1, values / cells));
+    std::vector<float> out(static_cast<std::size_t>(count * cells));
+    for (const Index first : {Index(0), frames->time().count - count})
+        frames->read(first, count, out);
+}
+
+void readFrameFile(const Input &input)
+{
+    readSomeFrames(openFrames(input.path));
+}
+
+/// The axes in a line of their own, then the stack.
+void readPowerStack(const Input &input)
+{
+    const std::size_t end = input.text.find('\n');
+    writeFile(gridPathOf(input.path), input.text.substr(0, end));
+    writeFile(input.path, end == std::string::npos ? std::string() : input.text.substr(end + 1));
+    readSomeFrames(openFrames(input.path));
+}
+
+/// The layout in the first three bytes, then a chunk.
+void unpackBitshuffle(const Input &input)
+{
+    if (input.text.size() < 3)
+        return;
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(input.text[i]); };
+    const BitshuffleLayout layout{byte(0), byte(1), byte(2) % 2 == 1};
+    constexpr std::size_t most = 1 << 20;
+    const std::span<const char> chunk(input.text);
+    if (undoBitshuffle(std::as_bytes(chunk.subspan(3)), layout, most).size() > most)
+        std::abort();
+}
+
+/// A calibration's file is looked for under its key, and counts with the checksum of what it holds: both are given to
+/// what has the rest.
 void readCalibration(const Input &input)
 {
     const CalibrationStore store(std::filesystem::path(input.path).parent_path() / "calibrations");
     std::filesystem::create_directories(store.fileFor("key").parent_path());
-    std::ofstream(store.fileFor("key"), std::ios::binary) << input.text;
-    store.load("key");
+    std::string text = input.text;
+    if (Json json = Json::parse(text, nullptr, false); json.is_object() && json.contains("calibration")) {
+        json["sources"] = sourceFingerprint();
+        json["key"] = "key";
+        json.erase("checksum");
+        json["checksum"] = checksum(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+        text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+    writeFile(store.fileFor("key"), text);
+    if (const auto calibration = store.load("key")) {
+        for (const double nats : {-5.0, 3.0, 40.0})
+            calibration->eventRateAt(nats), calibration->exceedanceAt(nats);
+        for (const double rate : {1e-12, 1e-3, 0.9})
+            calibration->thresholdForEventRate(rate), calibration->thresholdForPfa(rate);
+    }
+}
+
+/// A shard, and what its curve is made of.
+void readShard(const Input &input)
+{
+    const Campaign campaign = readCampaign(input.path);
+    writeCurve(campaign, input.path + ".csv");
+    merge({campaign});
+}
+
+/// What a killed campaign left, whose lines count with their checksums: they are given to it.
+void readCampaignParts(const Input &input)
+{
+    std::istringstream lines(input.text);
+    std::string text;
+    std::optional<Experiment> experiment;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.ends_with('}')) {
+            const std::string own = checksum(line);
+            line.pop_back();
+            line += ",\"checksum\":\"" + own + "\"}";
+        }
+        if (!experiment) {
+            const Json head = parseJson(line, "head");
+            if (!head.is_object() || !head.contains("experiment"))
+                return;
+            experiment = experimentFromJson(head["experiment"], "experiment");
+        }
+        text += line + '\n';
+    }
+    if (!experiment)
+        return;
+    const std::string parts = input.path + ".part";
+    writeFile(parts, text);
+    std::stop_source stop;
+    stop.request_stop();
+    RunContext context;
+    context.stop = stop.get_token();
+    try {
+        carryOutResumably(*experiment, {}, input.path, context);
+    } catch (const Cancelled &) {
+    }
+    std::filesystem::remove(parts);
 }
 
 /// Up to where something is computed of it.
@@ -120,11 +260,15 @@ const std::vector<Parser> &faintline::fuzz::parsers()
 {
     static const std::vector<Parser> all{
         {"audio", ".wav", [](const Input &input) { readSome(openRecording(input.path)); }},
+        {"receiverChunk", ".wav", readReceiverChunk},
+        {"kiwi", ".wav", [](const Input &input) { readSome(std::make_shared<KiwiRecording>(input.path)); }},
         {"sigmf", ".sigmf-meta", readSigmf},
         {"raw", ".bin", readRaw},
         {"numpy", ".npy", [](const Input &input) { readFrames(input.path, {}); }},
-        {"filterbank", ".fil", [](const Input &input) { openFrames(input.path); }},
-        {"filterbankHdf5", ".h5", [](const Input &input) { openFrames(input.path); }},
+        {"numpyPower", ".npy", readPowerStack},
+        {"filterbank", ".fil", readFrameFile},
+        {"filterbankHdf5", ".h5", readFrameFile},
+        {"bitshuffle", ".bin", unpackBitshuffle},
         {"strain", ".hdf5", [](const Input &input) { readSome(openRecording(input.path)); }},
         {"numpyDoubles", ".npy", [](const Input &input) { readDoubleFrames(input.path); }},
         {"grid", ".json",
@@ -145,7 +289,8 @@ const std::vector<Parser> &faintline::fuzz::parsers()
          [](const Input &input) { annotationsFromJson(parseJson(input.text, "reviews"), "reviews"); }},
         {"experiment", ".json",
          [](const Input &input) { experimentFromJson(parseJson(input.text, "experiment"), "experiment"); }},
-        {"campaign", ".json", [](const Input &input) { readCampaign(input.path); }},
+        {"campaign", ".json", readShard},
+        {"campaignParts", ".json", readCampaignParts},
         {"curve", ".csv", [](const Input &input) { readCurve(input.path); }},
         {"annotations", ".txt", [](const Input &input) { readAnnotations(input.path, {}); }},
         {"calibration", ".json", readCalibration},

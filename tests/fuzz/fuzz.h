@@ -20,4 +20,11 @@ struct Parser {
 /// Those of this program: core.cpp's or window.cpp's.
 const std::vector<Parser> &parsers();
 
+/// Gives it an input. Aborts where the parser refuses without a word, or takes more than 10 s of a processor; any
+/// exception but a refusal comes through.
+void feed(const Parser &parser, const std::string &text);
+
+/// Removes what feeding has left behind.
+void cleanUp();
+
 } // namespace faintline::fuzz

@@ -63,8 +63,7 @@ const std::vector<Parser> &faintline::fuzz::parsers()
 {
     static const std::vector<Parser> all{
         {"session", ".faintline", readSessions},
-        {"lesson", ".json",
-         [](const Input &input) { lessonFromJson(input.text, QStringLiteral("/dev/shm/lesson.json")); }},
+        {"lesson", ".json", [](const Input &input) { lessonFromJson(input.text, QStringLiteral("lesson.json")); }},
         {"scans", ".json", [](const Input &input) { readScanTest(pathText(input.path)); }},
         {"source", ".json", [](const Input &input) { sourceOf(pathText(input.path)); }},
         {"picture", ".png", [](const Input &input) { scaleOf(readPicture(pathText(input.path))); }},

@@ -130,7 +130,7 @@ class Hdf5Filterbanks(InFolder):
             soft: "link to elsewhere",
             outside: "other files",
             virtual: "put together",
-            bomb: "256 MiB",
+            bomb: "64 MiB",
             enormous: "next to nothing",
             texts: "no numbers",
             flat: "frames, polarisations and channels",
@@ -150,6 +150,21 @@ class Hdf5Filterbanks(InFolder):
                 with h5py.File(path, "w") as file:
                     make(file)
                 self.assertIn(part, self.refusal(fl.open, path).what)
+
+    def test_chunks_that_lie_across(self):
+        """A frame is in all chunks: they are kept where they fit, or it is said that each would take them all."""
+        path = self.folder / "across.h5"
+        for frames in (2**16, 2**18):
+            with h5py.File(path, "w") as file:
+                data = file.create_dataset("data", (frames, 1, 256), "f4", chunks=(frames, 1, 32), compression="gzip")
+                for channel in range(0, 256 if frames == 2**16 else 0, 32):  # a chunk at a time
+                    data[:, :, channel : channel + 32] = 1.0
+                data.attrs.update(AXES)
+            if frames == 2**16:
+                self.assertEqual(fl.open(path).shape, (frames, 256))
+            else:
+                self.assertLess(path.stat().st_size, 1_000_000)
+                self.assertIn("narrower band", self.refusal(fl.open, path).what)
 
     def test_damaged_files(self):
         made = self.write(self.values(), chunks=(16, 1, 64), compression="gzip")

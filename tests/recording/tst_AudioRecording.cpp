@@ -31,6 +31,7 @@ private slots:
     void streamOfUnknownLength();
     void shrinkingWhileOpen();
     void startTimeFromBext();
+    void listsThatLeadBackwards();
     void startTimeAndCentreFromAuxi();
     void threadsReadTheSame_data();
     void threadsReadTheSame();
@@ -252,6 +253,25 @@ void tst_AudioRecording::truncatedFilesGiveWhatIsThere()
     const std::vector<float> part = readAll(recording);
     QVERIFY(largestDifference(part, {whole.begin(), whole.begin() + count}) <= tolerance);
     QVERIFY(readInPieces(AudioRecording(path("part"), false), 50000) == part);
+}
+
+/// Lengths with which libsndfile would go round in circles. A sound list beside them is read.
+void tst_AudioRecording::listsThatLeadBackwards()
+{
+    const auto chunk = [](const char *name, const QByteArray &content) {
+        return name + littleEndian(std::uint64_t(content.size()), 4) + content;
+    };
+    const QByteArray sound = chunk("LIST", "INFO" + chunk("ICRD", "2024-07-26T01:02:03Z"));
+    for (const std::uint32_t length : {0xfffffff8u, 0xfffffff0u, 0xffffffe0u, 0xffffff00u})
+        for (const char *name : {"LIST", "INFO"})
+            for (const char *kind : {"INFO", "adtl", "exif"}) {
+                const QByteArray bad = chunk(name, QByteArray(kind, 4) + chunk("abcd", "efgh") + "ijkl"
+                                                       + littleEndian(length, 4) + QByteArray(64, 'x'));
+                writeBytes(path("list.wav"), wave(1, 8000, fiveSamples, 10, bad + sound));
+                const AudioRecording recording(path("list.wav"), false);
+                QCOMPARE(recording.info().sampleCount, Index(5));
+                QCOMPARE(recording.info().startUnixSeconds, std::optional(1721955723.0));
+            }
 }
 
 void tst_AudioRecording::aiffRatesThatAreNone_data()
