@@ -172,6 +172,9 @@ void tst_EventTable::textsOfAnEvent()
     model.setEvents({event});
     QCOMPARE(text(EventModel::Confirmation), QString("1:00:01"));
     QCOMPARE(text(EventModel::Onset), QString("12.3"));
+    model.setEvents({test::event(1, 0.01234, 0.5, 40000.0)}); // a whistle
+    QCOMPARE(text(EventModel::Onset), QString("0.0123"));
+    model.setEvents({event});
     model.setOrigin(1721952000.0, 2.5e6);
     QCOMPARE(text(EventModel::Utc), QString("2024-07-26T00:00:12.3Z"));
     QCOMPARE(text(EventModel::Radio), QString("2514095.60"));

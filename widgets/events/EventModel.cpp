@@ -7,6 +7,7 @@
 #include <QGuiApplication>
 #include <QPalette>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,10 +30,10 @@ namespace {
     }
 
     /// Seconds without their unit, which every row would repeat.
-    QString timeText(double seconds)
+    QString timeText(double seconds, int decimals)
     {
         constexpr double asClockFrom = 600.0;
-        return std::abs(seconds) < asClockFrom || !std::isfinite(seconds) ? numberText(seconds, 1)
+        return std::abs(seconds) < asClockFrom || !std::isfinite(seconds) ? numberText(seconds, decimals)
                                                                           : clockText(seconds, 0, true);
     }
 
@@ -78,6 +79,10 @@ void EventModel::setEvents(std::vector<Event> events)
 {
     beginResetModel();
     m_events = std::move(events);
+    double last = 0.0;
+    for (const Event &event : m_events)
+        last = std::max(last, event.endSeconds);
+    m_timeDecimals = last < 3.0 ? 4 : last < 30.0 ? 2 : 1; // whistles last milliseconds
     endResetModel();
 }
 
@@ -140,13 +145,13 @@ QString EventModel::text(const Event &event, int column) const
         return mark + QString::number(event.id);
     }
     case Onset:
-        return timeText(event.onsetSeconds);
+        return timeText(event.onsetSeconds, m_timeDecimals);
     case Detection:
-        return timeText(event.detectSeconds);
+        return timeText(event.detectSeconds, m_timeDecimals);
     case Confirmation:
-        return timeText(event.confirmSeconds);
+        return timeText(event.confirmSeconds, m_timeDecimals);
     case End:
-        return timeText(event.endSeconds);
+        return timeText(event.endSeconds, m_timeDecimals);
     case Utc:
         return m_startUnixSeconds
                    ? QString::fromStdString(formatUtc(toTenths(*m_startUnixSeconds + event.onsetSeconds)))

@@ -78,6 +78,7 @@ private:
     std::vector<Axis> m_axes;
     std::optional<double> m_startUnixSeconds;
     double m_centreHz = 0.0;
+    int m_timeDecimals = 1; ///< of seconds, as short as the recording allows
     QString m_statisticUnit = QStringLiteral("nat");
 };
 

@@ -221,8 +221,8 @@ void OverlayItem::draw(QPainter *painter, const QwtScaleMap &xMap, const QwtScal
         drawLines(canvas, tracks, linePen(colours.track, 1.0));
     }
     if (hasEvents)
-        drawBoxes(canvas, areas, linePen(colours.track, 1.0, Qt::DotLine));
-    drawBoxes(canvas, boxes, linePen(colours.cursor, 1.0));
+        drawBoxes(canvas, areas, linePen(colours.track, 1.0, Qt::DotLine), Labels::WhereTheyFit);
+    drawBoxes(canvas, boxes, linePen(colours.cursor, 1.0), Labels::All);
     drawHarmonics(canvas);
     drawSidebands(canvas);
     drawCursor(canvas);
@@ -286,7 +286,7 @@ bool OverlayItem::isFaint(int event) const
            && std::find(faintEvents.begin(), faintEvents.end(), event) != faintEvents.end();
 }
 
-void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<Box> &some, const QPen &pen) const
+void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<Box> &some, const QPen &pen, Labels labels) const
 {
     for (const Box &box : some) {
         const QRectF rect =
@@ -299,7 +299,9 @@ void OverlayItem::drawBoxes(const Canvas &canvas, const std::vector<Box> &some, 
                        {rect.bottomRight(), rect.bottomLeft()},
                        {rect.bottomLeft(), rect.topLeft()}},
                       pen);
-        if (!box.text.isEmpty())
+        const QSizeF size = QFontMetricsF(canvas.painter.font()).size(0, box.text);
+        const bool fits = size.width() < rect.width() && size.height() < rect.height();
+        if (!box.text.isEmpty() && (labels == Labels::All || fits))
             canvas.label(rect.topLeft() + QPointF(2.0, 2.0), box.text, pen.color());
     }
     canvas.painter.setOpacity(1.0);

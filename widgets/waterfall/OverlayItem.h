@@ -82,7 +82,8 @@ private:
     void drawLines(const Canvas &canvas, const std::vector<Line> &lines, const QPen &pen) const;
     void drawSelectedBand(const Canvas &canvas) const;
     void drawEvents(const Canvas &canvas) const;
-    void drawBoxes(const Canvas &canvas, const std::vector<Box> &some, const QPen &pen) const;
+    enum class Labels { All, WhereTheyFit };
+    void drawBoxes(const Canvas &canvas, const std::vector<Box> &some, const QPen &pen, Labels labels) const;
     bool isFaint(int event) const;
     void drawHarmonics(const Canvas &canvas) const;
     void drawSidebands(const Canvas &canvas) const;
