@@ -75,11 +75,12 @@ std::vector<float> runningMedian(const std::vector<float> &sequence, Index half)
     };
     const float low = pivot(0);
     const float high = pivot(std::max<Index>(0, n - pivotCells));
+    const Index centre = (std::min(pivotCells, n) - 1) / 2; // of a slope the pivot's value is that of its middle
     const auto at = [&](Index i) {
         if (i < 0)
-            return 2.0f * low - sequence[static_cast<std::size_t>(std::min(-i, n - 1))];
+            return 2.0f * low - sequence[static_cast<std::size_t>(std::min(2 * centre - i, n - 1))];
         if (i >= n)
-            return 2.0f * high - sequence[static_cast<std::size_t>(std::max<Index>(0, 2 * (n - 1) - i))];
+            return 2.0f * high - sequence[static_cast<std::size_t>(std::max<Index>(0, 2 * (n - 1 - centre) - i))];
         return sequence[static_cast<std::size_t>(i)];
     };
     // A sorted window that one value enters and one leaves.
