@@ -188,14 +188,16 @@ void DetectionChain::updateTrackers(Index frame, std::span<const float> y)
     if (m_trackers.empty())
         return;
     m_models.front().likelihood.apply(y, m_lambda);
-    for (const std::vector<Index> &place : m_settings.excluded)
-        boxRound(place, y, excludedMargin).forEachCell(m_grid, [this](Index cell) {
-            m_lambda[static_cast<std::size_t>(cell)] = nothingSeen();
-        });
+    for (const std::vector<Index> &place : m_settings.excluded) {
+        const CellBox box = boxRound(place, y, excludedMargin);
+        if (box.halfWidth.back() > m_settings.inhibitCells.back()) // there is a constant, with side lobes
+            box.forEachCell(m_grid, [this](Index cell) { m_lambda[static_cast<std::size_t>(cell)] = nothingSeen(); });
+    }
     std::vector<HmmTracker> going;
     std::vector<std::vector<Index>> places; // as of the last frame: some trackers are about to move or end
     for (const HmmTracker &tracker : m_trackers)
         places.push_back(tracker.coordinates());
+    places.insert(places.end(), m_settings.excluded.begin(), m_settings.excluded.end());
     const PlaceIndex index(m_grid, std::move(places));
     for (std::size_t i = 0; i < m_trackers.size(); ++i) {
         HmmTracker &tracker = m_trackers[i];

@@ -34,8 +34,17 @@ namespace {
         return std::sqrt(share / (1.0 - share) / count) / quantileOfNoise();
     }
 
-    /// The quantile over that of noise of mean 1; 1 where too little was observed.
-    double levelOf(const PathStrip &strip, Side side, Index at, Index reach, std::vector<float> &values)
+    /// What one side says, or both.
+    struct Level {
+        double mean;        ///< the quantile over that of noise of mean 1
+        double independent; ///< values that it was taken of; 0: too few
+
+        /// Less what chance may bring.
+        double least() const { return independent > 0.0 ? mean * (1.0 - deviations * scatterOf(independent)) : 1.0; }
+    };
+
+    Level levelOf(const PathStrip &strip, Side side, Index at, Index reach, double binsPerCell,
+                  std::vector<float> &values)
     {
         values.clear();
         const Index end = std::min(strip.frameCount() - 1, at + reach);
@@ -45,10 +54,17 @@ namespace {
                     !std::isnan(y))
                     values.push_back(y);
         if (values.size() < fewestValues)
-            return 1.0;
-        const auto quantile = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+            return {1.0, 0.0};
+        const auto count = static_cast<double>(values.size());
+        const auto quantile = values.begin() + static_cast<std::ptrdiff_t>(share * count);
         std::nth_element(values.begin(), quantile, values.end());
-        return static_cast<double>(*quantile) / quantileOfNoise();
+        return {static_cast<double>(*quantile) / quantileOfNoise(), count / (framesPerWindow * binsPerCell)};
+    }
+
+    double leastOf(const Level &below, const Level &above)
+    {
+        const Level both{0.5 * (below.mean + above.mean), below.independent + above.independent};
+        return std::max({below.least(), above.least(), both.least()});
     }
 
 } // namespace
@@ -65,17 +81,12 @@ std::vector<double> levelBeside(const PathStrip &strip, double binsPerCell)
     std::vector<double> levels(static_cast<std::size_t>(strip.frameCount()), 1.0);
     std::vector<float> values;
     for (const Index reach : reaches) {
-        const double windows = static_cast<double>(2 * reach + 1) / framesPerWindow;
-        const double cells = static_cast<double>(far - near + 1) / binsPerCell;
-        const double scatter = deviations * scatterOf(windows * cells); // of one side
         const Index step = std::max<Index>(1, reach / valuesPerReach);
         for (Index from = 0; from < strip.frameCount(); from += step) {
             const Index end = std::min(strip.frameCount(), from + step);
             const Index at = (from + end) / 2;
-            const double below = levelOf(strip, {-far, -near}, at, reach, values);
-            const double above = levelOf(strip, {near, far}, at, reach, values);
-            const double least = std::max(std::max(below, above) * (1.0 - scatter),
-                                          0.5 * (below + above) * (1.0 - scatter / std::numbers::sqrt2));
+            const double least = leastOf(levelOf(strip, {-far, -near}, at, reach, binsPerCell, values),
+                                         levelOf(strip, {near, far}, at, reach, binsPerCell, values));
             for (Index frame = from; frame < end; ++frame) {
                 double &level = levels[static_cast<std::size_t>(frame)];
                 level = std::max(level, least);

@@ -200,7 +200,7 @@ void tst_DetectionChain::noTrackWandersOntoABlindPlace()
         lines.push_back([cell](Index) { return cell; });
     lines.push_back([](Index t) { return t < 150 ? Index(10) : t < 160 ? Index(160 - t) : Index(-1); });
     ChainSettings chain = settings(line64, 15.0);
-    chain.inhibitCells = {6};
+    chain.leakageExtent = [](double y) { return y > 1.0 ? Index(6) : Index(0); };
     chain.excluded = {{0}};
     const auto tracks = run({64, 400, lines}, chain, line64);
     QCOMPARE(tracks.size(), std::size_t(1));
