@@ -149,6 +149,11 @@ namespace {
         return line.dump(-1, ' ', false, Json::error_handler_t::replace);
     }
 
+    std::string endedEarly(const StreamFormat &format)
+    {
+        return format.origin + " ended before one window was complete";
+    }
+
     void listenTo(SampleSource &source, const ListenOptions &options, const ListenSettings &settings,
                   const RunContext &context)
     {
@@ -170,6 +175,8 @@ namespace {
         };
         const ListenResult result = listen(source, settings, sinks, context);
         std::string words = std::to_string(result.events.size()) + " event(s)";
+        if (!result.plan.frames)
+            words += "; " + endedEarly(format);
         if (!result.isAnalysedToTheEnd)
             words += "; not all that was heard was analysed before the end";
         if (command && command->leftOutCount() > 0)
@@ -179,9 +186,7 @@ namespace {
         lines.check();
         if (!options.events.empty()) {
             if (!result.plan.frames)
-                throw Error(options.events,
-                            "was not written: " + format.origin + " ended before one window was complete",
-                            Error::Kind::Failure);
+                throw Error(options.events, "was not written: " + endedEarly(format), Error::Kind::Failure);
             const bool isCsv = options.events.ends_with(".csv");
             // A disk may take longer than a request to stop is patient.
             writeTextFile(options.events,

@@ -64,10 +64,13 @@ SpectrumPanel::SpectrumPanel(Document &document, QWidget *parent)
     layout->addWidget(m_plot, 1);
 
     connect(m_level, &QComboBox::activated, this, &SpectrumPanel::follow);
-    connect(m_calibration, &QDoubleSpinBox::valueChanged, this, &SpectrumPanel::follow);
+    connect(m_calibration, &QDoubleSpinBox::valueChanged, this, &SpectrumPanel::show);
     connect(m_sight, &VisibilityWatcher::came, this, &SpectrumPanel::follow);
     connect(&document, &Document::analysisChanged, this, &SpectrumPanel::follow);
-    connect(&document, &Document::opened, this, [this] { m_plot->setChart({}); });
+    connect(&document, &Document::opened, this, [this] {
+        m_spectra = {};
+        m_plot->setChart({});
+    });
     connect(&document.viewport(), &Viewport::cursorChanged, this, &SpectrumPanel::follow);
     connect(&document.viewport(), &Viewport::spanChanged, this, &SpectrumPanel::follow);
     connect(&m_runner, &JobRunner::finished, this, &SpectrumPanel::settled);
@@ -94,19 +97,29 @@ void SpectrumPanel::follow()
     const SpectrumLevel level = m_document.recording() ? chosenLevel() : SpectrumLevel::OverNoise;
     m_runner.start([this, analysis, visible, seconds, level](const RunContext &context) -> JobRunner::Delivery {
         Spectra spectra = spectraOf(*analysis, seconds, visible.low, visible.high, level, context);
-        return [this, spectra = std::move(spectra)] { show(spectra); };
+        return [this, spectra = std::move(spectra)]() mutable {
+            m_spectra = std::move(spectra);
+            show();
+        };
     });
 }
 
-void SpectrumPanel::show(const Spectra &spectra)
+void SpectrumPanel::show()
 {
+    if (m_spectra.position.empty())
+        return;
     const bool isDensity = chosenLevel() == SpectrumLevel::Density && m_document.recording();
     const double added = isDensity ? m_calibration->value() : 0.0;
     const Span &band = m_document.viewport().frequency();
-    Chart chart{"Spectrum", "Frequency (Hz)", isDensity ? "Level (dB re 1/Hz)" : "Level (dB over noise)", false, false,
+    Chart chart{"Spectrum",
+                "Frequency (Hz)",
+                isDensity ? (added == 0.0 ? "Level (dB re full scale²/Hz)" : "Level (dB, calibrated, in 1 Hz)")
+                          : "Level (dB over noise)",
+                false,
+                false,
                 {}};
-    chart.curves.push_back(curveOf("at the cursor", spectra.position, spectra.frame, band, added));
-    chart.curves.push_back(curveOf("mean of what is visible", spectra.position, spectra.mean, band, added));
+    chart.curves.push_back(curveOf("at the cursor", m_spectra.position, m_spectra.frame, band, added));
+    chart.curves.push_back(curveOf("mean of what is visible", m_spectra.position, m_spectra.mean, band, added));
     m_plot->setChart(chart);
 }
 

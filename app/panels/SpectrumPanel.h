@@ -35,7 +35,7 @@ signals:
 
 private:
     void follow();
-    void show(const Spectra &spectra);
+    void show();
     SpectrumLevel chosenLevel() const;
 
     Document &m_document;
@@ -43,6 +43,7 @@ private:
     QDoubleSpinBox *m_calibration;
     ChartPlot *m_plot;
     VisibilityWatcher *m_sight;
+    Spectra m_spectra;  ///< shown, without the calibration
     JobRunner m_runner; ///< last, so that its jobs end first
 };
 

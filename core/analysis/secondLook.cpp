@@ -227,8 +227,9 @@ namespace {
             }
         }
 
-        /// Divides the strip by the floor; answers whether a signal is left that the detector would still have found.
-        bool takeFloorOff(const Track &track, PathStrip &strip)
+        /// Divides the strip by the floor; answers whether a line is left that the detector would still have found. Of
+        /// what is none, the areas it runs through are kept.
+        bool isLineOverFloor(const Track &track, PathStrip &strip)
         {
             const PathStrip before = strip;
             double statistic = track.peakStatistic;
@@ -254,7 +255,7 @@ namespace {
             PathStrip &strip = piece.strip;
             m_model.lnK.assign(m_analysis.lnK.begin() + strip.firstFrame,
                                m_analysis.lnK.begin() + strip.firstFrame + strip.frameCount());
-            if (takeFloorOff(*piece.track, strip)) {
+            if (isLineOverFloor(*piece.track, strip)) {
                 const BothWays seen = lookBothWays(strip, m_model);
                 for (const Stretch &stretch : stretchesOf(piece, seen))
                     propose(piece, seen, stretch);

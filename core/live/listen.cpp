@@ -89,6 +89,9 @@ namespace {
         {
             AnalysisPlan &plan = m_result.plan;
             const AnalysisSettings &settings = plan.settings;
+            const double window = settings.spectrogram.windowSeconds * m_format.sampleRateHz;
+            if (m_buffer->isEnded() && static_cast<double>(m_buffer->length()) < std::floor(window))
+                return false; // it was over at once: there is nothing to lay out frames over
             const auto endless = std::make_shared<StreamRecording>(m_buffer, std::nullopt);
             const Spectrogram geometry(endless, settings.spectrogram, settings.selection);
             // It takes seconds the first time: meanwhile the first block comes in.

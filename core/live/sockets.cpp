@@ -3,8 +3,10 @@
 #include "base/Error.h"
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <memory>
+#include <system_error>
 
 #include <netdb.h>
 #include <poll.h>
@@ -17,8 +19,20 @@ namespace {
 
     using Addresses = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 
+    /// Of a number; the library would take it modulo 65536.
+    bool isPort(const std::string &text)
+    {
+        unsigned port = 0;
+        const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), port);
+        return end != text.data() + text.size() || (failure == std::errc() && port >= 1 && port <= 65535);
+    }
+
     Addresses resolve(const HostAndPort &address, int type, int flags, std::string &reason)
     {
+        if (!isPort(address.port)) {
+            reason = "a port lies in 1 … 65535";
+            return {nullptr, &::freeaddrinfo};
+        }
         addrinfo wanted = {};
         wanted.ai_family = AF_UNSPEC;
         wanted.ai_socktype = type;

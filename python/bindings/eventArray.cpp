@@ -9,13 +9,13 @@ namespace py = pybind11;
 
 namespace {
 
-    /// One number of every event, as T.
-    template <class T, class Take>
-    Column column(const std::string &name, const std::vector<Event> &events, const Take &take)
+    /// One number of every event or area, as T.
+    template <class T, class One, class Take>
+    Column column(const std::string &name, const std::vector<One> &all, const Take &take)
     {
-        py::array_t<T> values(static_cast<py::ssize_t>(events.size()));
-        for (std::size_t i = 0; i < events.size(); ++i)
-            values.mutable_at(i) = static_cast<T>(take(events[i]));
+        py::array_t<T> values(static_cast<py::ssize_t>(all.size()));
+        for (std::size_t i = 0; i < all.size(); ++i)
+            values.mutable_at(i) = static_cast<T>(take(all[i]));
         return {name, values};
     }
 
@@ -50,6 +50,16 @@ py::array eventArray(const Analysis &analysis)
         number("noise_probability", [](const Event &e) { return e.noiseProbability; });
     }
     return tableOf(columns);
+}
+
+py::array areaArray(const Analysis &analysis)
+{
+    const std::vector<AreaEvent> areas = areaEvents(analysis);
+    return tableOf({column<double>("t_onset", areas, [](const AreaEvent &a) { return a.onsetSeconds; }),
+                    column<double>("t_end", areas, [](const AreaEvent &a) { return a.endSeconds; }),
+                    column<double>("f_low", areas, [](const AreaEvent &a) { return a.low; }),
+                    column<double>("f_high", areas, [](const AreaEvent &a) { return a.high; }),
+                    column<double>("level_db", areas, [](const AreaEvent &a) { return a.levelDb; })});
 }
 
 } // namespace faintline::python

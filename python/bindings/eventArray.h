@@ -10,4 +10,7 @@ namespace faintline::python {
 /// columns.
 pybind11::array eventArray(const Analysis &analysis);
 
+/// Its areas of raised level without a line, with the names of the command line's JSON.
+pybind11::array areaArray(const Analysis &analysis);
+
 } // namespace faintline::python

@@ -274,6 +274,8 @@ void tst_networkSources::mistakes()
     QVERIFY(contains(errorOf([] { parseSequenceNumbers("u8"); }), "u16le"));
     QVERIFY(contains(errorOf([] { UdpSource("no-such-address.invalid:9", bytesFormat()); }), "--udp"));
     QVERIFY(contains(errorOf([] { UdpSource("127.0.0.1:port", bytesFormat()); }), "expected PORT"));
+    QVERIFY(contains(errorOf([] { UdpSource("99999", bytesFormat()); }), "1 … 65535"));
+    QVERIFY(contains(errorOf([] { RtlTcpSource("127.0.0.1:0", {1e8, 1e6, {}, 0}); }), "1 … 65535"));
     const Server server;
     std::jthread serving([&] {
         const int client = server.accept();

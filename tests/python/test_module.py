@@ -5,8 +5,10 @@ import ast
 import gc
 import inspect
 import json
+import os
 import pathlib
 import pickle
+import tempfile
 import threading
 import time
 import unittest
@@ -107,6 +109,23 @@ class Arrays(InFolder):
         self.assertAlmostEqual((steps["llr"] + steps["ln_transition"] + steps["ln_k"]).sum(), steps["sum"][-1], delta=1e-6)
         self.refusal(result.explain, 1e6, 100.0)
         self.refusal(result.explain, 1.0)
+
+    def test_areas_are_those_of_the_json(self):
+        rng = np.random.default_rng(5)
+        t = np.arange(120 * 400) / 400
+        x = rng.normal(size=len(t))
+        burst = (t >= 50) & (t < 60)
+        for hz, phase in zip(rng.uniform(80, 120, 400), rng.uniform(0, 2 * np.pi, 400)):
+            x[burst] += 0.1 * np.cos(2 * np.pi * hz * t[burst] + phase)
+        result = fl.detect(x, 400, window_seconds=0.25)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "e.json")
+            result.save(events=path)
+            with open(path) as file:
+                areas = json.load(file)["areas"]
+        self.assertGreater(len(areas), 0)
+        names = result.areas.dtype.names
+        self.assertEqual([tuple(area[name] for name in names) for area in areas], result.areas.tolist())
 
     def test_samples_of_any_kind(self):
         x = fl.simulate(SCENE).read()

@@ -30,6 +30,7 @@ private slots:
     void aKillLosesNoMoreThanASecond();
     void mistakes_data();
     void mistakes();
+    void overBeforeAWindow();
     void memoryStaysFlat();
 
 private:
@@ -299,6 +300,16 @@ void tst_cliListen::mistakes()
     QCOMPARE(told.code, 2);
     QVERIFY(told.err.startsWith("error: ") && told.err.count('\n') == 1);
     QVERIFY2(told.err.contains(words), told.err.constData());
+}
+
+// A stream that is over before there is a frame is no mistake, whenever it ends.
+void tst_cliListen::overBeforeAWindow()
+{
+    for (const int samples : {0, 1, 200}) {
+        const Outcome told = listen({"-", "--raw-type", "ri16_le", "--raw-rate", "1000"}, QByteArray(2 * samples, 1));
+        QCOMPARE(told.code, 0);
+        QVERIFY2(told.out.contains("ended before one window was complete"), told.out.constData());
+    }
 }
 
 // Two hours of noise at 8 kHz as fast as it goes: the most that the process took in the first fifth is the most that it
