@@ -112,8 +112,7 @@ void AnalysisController::edit(const QString &field, const FieldValue &value, con
     if (const SlopeUnit unit = after.model.slopeUnit;
         unit != m_document.settings().model.slopeUnit && m_document.recording()) {
         after.model = m_document.settings().model; // the same slopes in the other unit
-        after.model =
-            withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after.spectrogram, m_document.recording()->info()));
+        after.model = withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after, m_document.recording()->info()));
     }
     m_document.edit(after, text, field);
 }

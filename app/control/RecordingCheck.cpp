@@ -103,8 +103,7 @@ AnalysisSettings RecordingCheck::remedied(const Advice &advice) const
     AnalysisSettings after = advice.settings;
     const SlopeUnit unit = m_document.settings().model.slopeUnit;
     if (m_document.recording())
-        after.model =
-            withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after.spectrogram, m_document.recording()->info()));
+        after.model = withSlopesIn(unit, after.model, hzPerSecondOfABinAFrame(after, m_document.recording()->info()));
     return after;
 }
 

@@ -114,10 +114,9 @@ void PipelinePanel::showRecording()
 void PipelinePanel::showSettings()
 {
     m_form->setSettings(m_document.settings());
-    m_form->setHzPerSecondOfABinAFrame(m_document.recording() ? hzPerSecondOfABinAFrame(
-                                           m_document.settings().spectrogram, m_document.recording()->info())
-                                                              : 0.0);
-    for (const char *stage : {"selection", "spectrogram", "noise"})
+    m_form->setHzPerSecondOfABinAFrame(
+        m_document.recording() ? hzPerSecondOfABinAFrame(m_document.settings(), m_document.recording()->info()) : 0.0);
+    for (const char *stage : {"selection", "spectrogram", "noise", "family"})
         m_form->setSectionShown(QString::fromLatin1(stage), m_document.isEmpty() || m_document.recording());
     m_form->setSectionShown(QStringLiteral("conventional"), m_document.hasPings());
     int taken = 1;

@@ -261,6 +261,7 @@ const std::vector<Field<AnalysisSettings>> &AnalysisSettings::fields()
         append(all, "selection", &S::selection);
         append(all, "spectrogram", &S::spectrogram);
         append(all, "noise", &S::noise);
+        append(all, "family", &S::family);
         append(all, "model", &S::model);
         all.push_back(detectorKind());
         appendDetectors(all, std::make_index_sequence<detectorNames.size()>());
@@ -309,6 +310,7 @@ void checkSettings(const AnalysisSettings &settings)
     for (const auto &f : AnalysisSettings::fields())
         if (const auto value = f.get(settings))
             checkFieldValue(f, *value);
+    checkFamily(settings.family);
     checkSlopes(settings.model);
     if (settings.conventional.hits > settings.conventional.window)
         throw fieldError("conventional.hits", std::to_string(settings.conventional.hits),
@@ -324,7 +326,7 @@ Stage firstStale(const AnalysisSettings &before, const AnalysisSettings &after)
 {
     if (!(before.selection == after.selection && before.spectrogram == after.spectrogram))
         return Stage::Spectrogram;
-    if (!(before.noise == after.noise))
+    if (!(before.noise == after.noise && before.family == after.family))
         return Stage::Noise;
     return before == after ? Stage::Nothing : Stage::Detector;
 }

@@ -3,6 +3,7 @@
 #include "base/Field.h"
 #include "detect/makeDetector.h"
 #include "model/MarkovModel.h"
+#include "spectrum/Family.h"
 #include "spectrum/NoiseNormaliser.h"
 #include "spectrum/Spectrogram.h"
 #include "track/ConventionalTracker.h"
@@ -84,6 +85,7 @@ struct AnalysisSettings {
     SelectionSettings selection;
     SpectrogramSettings spectrogram;
     NormaliserSettings noise;
+    FamilySettings family;
     ModelSettings model;
     DetectorSettings detector;
     DecideSettings decide;

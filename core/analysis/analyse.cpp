@@ -2,6 +2,7 @@
 
 #include "analysis/ProgressPublisher.h"
 #include "analysis/chain.h"
+#include "analysis/familyGhosts.h"
 #include "analysis/plan.h"
 #include "analysis/regulation.h"
 #include "analysis/secondLook.h"
@@ -169,11 +170,12 @@ namespace {
         pictures.finish();
         pings.finish();
         analysis.tracks = chain->takeJoinedTracks();
-        if (!looksTwice(analysis))
-            return;
-        SecondView seen = lookTwice(analysis, std::move(analysis.tracks), context.part(0.9, 1.0));
-        analysis.tracks = std::move(seen.tracks);
-        analysis.areas = std::move(seen.areas);
+        if (looksTwice(analysis)) {
+            SecondView seen = lookTwice(analysis, std::move(analysis.tracks), context.part(0.9, 1.0));
+            analysis.tracks = std::move(seen.tracks);
+            analysis.areas = std::move(seen.areas);
+        }
+        analysis.tracks = withoutGhosts(analysis, std::move(analysis.tracks));
     }
 
     /// A recording that is not over has no length to choose a window by.
@@ -206,8 +208,10 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
         analysis->inputAlong = previous->inputAlong;
     } else {
         const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
-        publisher = ProgressPublisher(pictures, spectrogram->time(), spectrogram->frequency(), settings);
-        publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
+        publisher =
+            ProgressPublisher(pictures, spectrogram->time(), familyAxis(settings.family, *spectrogram), settings);
+        if (settings.family.isNone())
+            publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
         normalisePlan(*analysis, spectrogram, context.part(0.01, 0.2));
     }
     calibratePlan(*analysis, context.part(0.2, 0.5), calibrationDepth);

@@ -22,7 +22,7 @@ namespace {
         scene.seed = 1000 + number;
         const auto spectrogram =
             std::make_shared<Spectrogram>(std::make_shared<SimulatedRecording>(scene), bare.spectrogram);
-        return normalise(spectrogram, bare.noise);
+        return familyFrames(normalise(spectrogram, bare.noise), bare.family, FamilyFrames::Band::Closed);
     }
 
 } // namespace

@@ -98,7 +98,8 @@ namespace {
             binsPerCell = spectrogram->binsPerCell();
             chain.leakageExtent = leakageExtentOf(*spectrogram);
             chain.skirtStep = static_cast<Index>(std::ceil(binsPerCell));
-            chain.excluded = excludedPlaces(*spectrogram, inBins(settings.decide.inhibitCells).back());
+            if (settings.family.isNone()) // a family leaves its members out there
+                chain.excluded = excludedPlaces(*spectrogram, inBins(settings.decide.inhibitCells).back());
         }
         chain.inhibitCells = inBins(settings.decide.inhibitCells);
         if (!settings.decide.forgetCells.empty())

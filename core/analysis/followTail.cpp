@@ -32,6 +32,45 @@ namespace {
         std::vector<float> m_y;
     };
 
+    /// Noise of a family's members, on a band that closes on itself.
+    class FamilyNoise final : public NoiseStream
+    {
+    public:
+        FamilyNoise(std::unique_ptr<NoiseStream> lines, FamilyMap map)
+            : m_lines(std::move(lines)), m_map(std::move(map)), m_y(static_cast<std::size_t>(m_lines->cells()))
+        {
+        }
+        Index cells() const override { return m_map.frequency().count; }
+        void next(Random &random, std::span<float> y) override
+        {
+            m_lines->next(random, m_y);
+            m_map.apply(m_y, y);
+        }
+        std::vector<float> state() const override { return m_lines->state(); }
+        void setState(std::span<const float> state) override { m_lines->setState(state); }
+
+    private:
+        std::unique_ptr<NoiseStream> m_lines;
+        FamilyMap m_map;
+        std::vector<float> m_y;
+    };
+
+    /// The frames' noise, of windows of so many samples; a family's members get room to lie apart.
+    std::unique_ptr<NoiseStream> noiseOf(const AnalysisSettings &settings, int windowSamples)
+    {
+        constexpr int roomiest = 4;
+        const FamilySettings &family = settings.family;
+        if (family.isNone())
+            return spectralNoise(settings.spectrogram, windowSamples);
+        const int room = std::min(roomiest, static_cast<int>(family.members.size()));
+        auto lines = spectralNoise(settings.spectrogram, room * windowSamples);
+        const Index bins = lines->cells();
+        return std::make_unique<FamilyNoise>(
+            std::move(lines), FamilyMap::onRing(family, bins,
+                                                settings.spectrogram.windowSeconds
+                                                    * static_cast<double>(settings.spectrogram.binsPerCell)));
+    }
+
 } // namespace
 
 RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, const AnalysisSettings &settings,
@@ -44,8 +83,7 @@ RareRates followTail(const NormalisedFrames &frames, const MarkovModel &model, c
     const bool isSpectral = frames.spectrogram() != nullptr;
     const Index independentCells = std::max<Index>(pieceCells, 8 * axis.largestDisplacement() + 1);
     const std::function<std::unique_ptr<NoiseStream>()> makeNoise = [&] {
-        return isSpectral ? spectralNoise(settings.spectrogram, effort.pieceWindowSamples)
-                          : independentNoise(independentCells);
+        return isSpectral ? noiseOf(settings, effort.pieceWindowSamples) : independentNoise(independentCells);
     };
     axis.cells = makeNoise()->cells();
     axis.cyclic = true;
@@ -70,7 +108,7 @@ RareRates followBand(const AnalysisSettings &bare, double lnK, Index bins, bool 
     while (!isCyclic && samples < bins) // twice as many bins and more, so that the ends do not meet
         samples *= 2;
     const auto makeNoise = [&]() -> std::unique_ptr<NoiseStream> {
-        auto wide = spectralNoise(bare.spectrogram, samples);
+        auto wide = noiseOf(bare, samples);
         if (isCyclic)
             return wide;
         return std::make_unique<BandNoise>(std::move(wide), bins);

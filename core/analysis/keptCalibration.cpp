@@ -26,6 +26,8 @@ AnalysisSettings dimensionless(AnalysisSettings settings)
     settings.decide = withoutThreshold(settings.decide);
     settings.conventional = {};
     settings.track.bothWays = TrackSettings{}.bothWays; // works on what was found
+    if (settings.spectrogram.windowSeconds > 0.0)
+        settings.family = scaledFamily(settings.family, settings.spectrogram.windowSeconds / calibrationWindowSamples);
     settings.spectrogram.windowSeconds = calibrationWindowSamples;
     return settings;
 }

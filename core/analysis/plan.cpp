@@ -18,6 +18,7 @@ void normalisePlan(AnalysisPlan &plan, std::shared_ptr<const Spectrogram> spectr
         plan.background = estimateBackground(*spectrogram, settings, context);
         plan.frames = std::make_shared<NormalisedSpectrogram>(spectrogram, plan.background, settings);
     }
+    plan.frames = familyFrames(plan.frames, plan.settings.family);
     if (spectrogram->recording().info().sampleCount < endlessSamples) // whose samples can be looked at
         checkUsable(*spectrogram, *plan.background, context.part(1.0, 1.0));
 }

@@ -242,6 +242,8 @@ namespace {
                 if (statistic < m_analysis.threshold)
                     return false;
             }
+            if (!m_analysis.settings.family.isNone())
+                return true; // beside a family lie its own members, one cell off
             const std::vector<double> levels = levelBeside(strip, m_model.binsPerCell);
             const double loss = lossOver(levels, strip);
             if (loss <= 0.0 || statistic - loss >= m_analysis.threshold)

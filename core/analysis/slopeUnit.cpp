@@ -18,10 +18,10 @@ namespace {
 
 } // namespace
 
-double hzPerSecondOfABinAFrame(const SpectrogramSettings &settings, const RecordingInfo &info)
+double hzPerSecondOfABinAFrame(const AnalysisSettings &settings, const RecordingInfo &info)
 {
-    const Spectrogram::Steps steps = Spectrogram::stepsOf(settings, info);
-    return steps.hz / steps.seconds;
+    const Spectrogram::Steps steps = Spectrogram::stepsOf(settings.spectrogram, info);
+    return steps.hz / (steps.seconds * familyCellsPerBin(settings.family));
 }
 
 ModelSettings withSlopesIn(SlopeUnit unit, ModelSettings model, double hzPerSecond)
@@ -44,8 +44,7 @@ ModelSettings withSlopesIn(SlopeUnit unit, ModelSettings model, double hzPerSeco
 AnalysisSettings withSlopesInBins(AnalysisSettings settings, const RecordingInfo &info)
 {
     if (settings.model.slopeUnit != SlopeUnit::BinsPerFrame)
-        settings.model =
-            withSlopesIn(SlopeUnit::BinsPerFrame, settings.model, hzPerSecondOfABinAFrame(settings.spectrogram, info));
+        settings.model = withSlopesIn(SlopeUnit::BinsPerFrame, settings.model, hzPerSecondOfABinAFrame(settings, info));
     return settings;
 }
 

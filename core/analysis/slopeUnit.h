@@ -8,7 +8,8 @@ namespace faintline {
 
 /// How many Hz/s a slope of one bin a frame is where a recording is cut so: bin width over time from frame to frame,
 /// about k_t/(k_f·T_FT²).
-double hzPerSecondOfABinAFrame(const SpectrogramSettings &settings, const RecordingInfo &info);
+/// Of harmonics: of their fundamental's bins.
+double hzPerSecondOfABinAFrame(const AnalysisSettings &settings, const RecordingInfo &info);
 
 /// The same slopes in another unit. `hzPerSecond`: of one bin a frame. In bins a frame they lie on the set of multiples
 /// of 1/slopesPerBin, taken outwards, so that what may occur is among them; in Hz/s they have four digits.

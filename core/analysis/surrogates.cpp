@@ -25,9 +25,9 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
     checkSettings(settings);
     const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
     const auto background = estimateBackground(spectrogram, settings.noise, context.part(0.0, 0.05));
-    const auto calibration = calibrateBand(settings, spectrogram.frequency().count, context.part(0.05, 0.2));
-    const double cellFramesPerHour =
-        static_cast<double>(spectrogram.frequency().count) * 3600.0 / spectrogram.time().step;
+    const Index cells = familyAxis(settings.family, spectrogram).count;
+    const auto calibration = calibrateBand(settings, cells, context.part(0.05, 0.2));
+    const double cellFramesPerHour = static_cast<double>(cells) * 3600.0 / spectrogram.time().step;
 
     SurrogateCount result;
     result.runs = runs;

@@ -46,7 +46,8 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
         for (const auto &field : AnalysisSettings::fields()) {
             if (random.uniform() < 0.5 || field.name == "model.slopeChange" || field.name == "model.lowestSlope"
                 || field.name == "model.highestSlope" || field.name == "conventional.hits"
-                || field.name == "model.rangeRateChange" || field.name == "model.bearingRateChange") // held by others
+                || field.name == "model.rangeRateChange" || field.name == "model.bearingRateChange"
+                || field.name == "family.relation") // held by others
                 continue;
             switch (field.kind) {
             case FieldKind::Flag:
@@ -68,6 +69,8 @@ void tst_AnalysisSettings::roundTripOfRandomSettings()
                 break;
             }
         }
+        if (!settings.family.members.empty())
+            settings.family.relation = FamilySettings::Relation::Harmonics;
         const double slope = 1.0 / settings.model.slopesPerBin;
         settings.model.lowestSlope = -slope * std::floor(random.uniform() * 20.0);
         settings.model.highestSlope = slope * std::floor(random.uniform() * 20.0);

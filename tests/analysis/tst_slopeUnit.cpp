@@ -63,13 +63,19 @@ void tst_slopeUnit::aBinAFrameIsTheFramesOwn()
     QFETCH(int, steps);
     QFETCH(int, bins);
     const RecordingPointer recording = recordingOf(rate, 20.0);
-    SpectrogramSettings settings;
-    settings.windowSeconds = window;
-    settings.stepsPerWindow = steps;
-    settings.binsPerCell = bins;
-    const Spectrogram spectrogram(recording, settings);
+    AnalysisSettings settings;
+    settings.spectrogram.windowSeconds = window;
+    settings.spectrogram.stepsPerWindow = steps;
+    settings.spectrogram.binsPerCell = bins;
+    const Spectrogram spectrogram(recording, settings.spectrogram);
     QCOMPARE(hzPerSecondOfABinAFrame(settings, recording->info()),
              spectrogram.frequency().step / spectrogram.time().step);
+    if (spectrogram.frequency().count < 64)
+        return;
+    // The fundamental's bins are as fine as its highest multiple needs them.
+    settings.family = {FamilySettings::Relation::Harmonics, {1.0, 2.0, 3.0}, FamilySettings::Present::Together};
+    const Axis fundamental = familyAxis(settings.family, spectrogram);
+    QCOMPARE(hzPerSecondOfABinAFrame(settings, recording->info()), fundamental.step / spectrogram.time().step);
 }
 
 void tst_slopeUnit::slopesAreTakenOutwards()
