@@ -1,0 +1,125 @@
+#include "app/cli/CommandLineTest.h"
+
+#include "base/Random.h"
+#include "recording/ArrayRecording.h"
+#include "recording/writeRecording.h"
+
+#include <QtTest>
+
+#include <cmath>
+#include <numbers>
+
+using namespace faintline;
+using namespace faintline::test;
+
+/// straighten: a line that moves, kept at one frequency.
+class tst_cliStraighten : public CommandLineTest
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase() { simulateLine(); }
+
+    void keepsADriftingLineAtOneFrequency();
+    void saysWhatCannotBeStraightened();
+    void decodesADriftingMessage();
+
+private:
+    void writeMessage(const std::vector<int> &tones, double driftHz, double snrDb) const;
+};
+
+void tst_cliStraighten::keepsADriftingLineAtOneFrequency()
+{
+    const Outcome made =
+        run(QStringList{"straighten", "line.wav", "--out", "straight.wav", "--curve", "curve.csv"} + lineSettings);
+    QCOMPARE(made.err, QByteArray());
+    QCOMPARE(made.code, 0);
+    QVERIFY2(made.out.startsWith("event 1 of 1, "), made.out.data());
+    // 210 Hz at 8 s and 0.2 Hz/s from there.
+    for (const QByteArray &line : content("curve.csv").split('\n').mid(1)) {
+        const QList<QByteArray> values = line.split(',');
+        if (const double t = values[0].toDouble(); values.size() == 2 && t > 9.0 && t < 22.0)
+            QVERIFY2(std::abs(values[1].toDouble() - (210.0 + 0.2 * (t - 8.0))) < 0.3, line.data());
+    }
+    QVERIFY(QFile::exists(path("straight.wav.provenance.json")));
+    const Outcome found = run(QStringList{"detect", "straight.wav", "--events", "events.csv"} + lineSettings);
+    QCOMPARE(found.code, 0);
+    const QList<QByteArray> rows = content("events.csv").trimmed().split('\n');
+    QCOMPARE(rows.size(), 2);
+    const QList<QByteArray> names = rows[0].split(',');
+    const QList<QByteArray> values = rows[1].split(',');
+    QVERIFY(std::abs(values[names.indexOf("f")].toDouble() - 211.5) < 1.5);
+    QVERIFY(std::abs(values[names.indexOf("drift_hz_per_s")].toDouble()) < 0.1);
+}
+
+void tst_cliStraighten::saysWhatCannotBeStraightened()
+{
+    const auto refused = [this](const QStringList &arguments, const char *why) {
+        const Outcome outcome = run(arguments + lineSettings);
+        QCOMPARE(outcome.code, 2);
+        QVERIFY2(outcome.err.contains(why), outcome.err.data());
+        QCOMPARE(outcome.err.count('\n'), 1);
+        QVERIFY(!QFile::exists(path("none.wav")));
+    };
+    refused({"straighten", "line.wav", "--event", "7", "--out", "none.wav"}, "no such event; found were 1 … 1");
+    refused({"straighten", "line.wav", "--from", "24", "--out", "none.wav"}, "lower the threshold");
+    refused({"straighten", "line.wav", "--target", "900", "--out", "none.wav"}, "must lie in the recording's band");
+    refused({"straighten", "line.wav", "--smooth", "0.1", "--out", "none.wav"}, "at least two frames");
+    refused({"straighten", "line.wav", "--set", "family.relation=offsets", "--out", "none.wav"}, "at least one member");
+}
+
+/// Four tones, 1.4648 Hz apart, one at a time, in noise: 120 s at 12 kHz, SNR in 2500 Hz.
+void tst_cliStraighten::writeMessage(const std::vector<int> &tones, double driftHz, double snrDb) const
+{
+    constexpr double rate = 12000.0;
+    constexpr Index symbol = 8192;
+    const auto samples = std::make_shared<std::vector<float>>(static_cast<std::size_t>(120.0 * rate));
+    Random random(17, 0);
+    random.normals(*samples, 0.05f);
+    const double amplitude = 0.05 * std::sqrt(2.0 * std::pow(10.0, 0.1 * snrDb) * 2500.0 / (0.5 * rate));
+    const Index length = std::ssize(tones) * symbol;
+    double cycles = 0.0;
+    for (Index n = 0; n < length; ++n) {
+        const double tone = tones[static_cast<std::size_t>(n / symbol)];
+        const double part = static_cast<double>(n) / static_cast<double>(length);
+        cycles += (1470.0 + tone * rate / symbol + driftHz * (part - 0.5)) / rate;
+        (*samples)[static_cast<std::size_t>(n) + 12000] +=
+            static_cast<float>(amplitude * std::sin(2.0 * std::numbers::pi * cycles));
+    }
+    const ArrayRecording recording("message", std::shared_ptr<const float>(samples, samples->data()),
+                                   ArrayLayout{rate, std::ssize(*samples), 1, false, 0.0});
+    writeRecording(recording, pathOf("200101_0000.wav"), WrittenType::Int16);
+}
+
+/// Modulator and decoder are those of wsjtx; tests/wspr.py takes hundreds of such messages.
+void tst_cliStraighten::decodesADriftingMessage()
+{
+    const QString simulator = QStandardPaths::findExecutable("wsprsim");
+    const QString decoder = QStandardPaths::findExecutable("wsprd");
+    if (simulator.isEmpty() || decoder.isEmpty())
+        QSKIP("wsprsim and wsprd of wsjtx are not installed");
+    const auto output = [this](const QString &program, const QStringList &arguments) {
+        QProcess process;
+        process.setWorkingDirectory(folder());
+        process.start(program, arguments);
+        return process.waitForFinished(patience) ? process.readAllStandardOutput() : QByteArray();
+    };
+    const QByteArray message = "K1ABC FN42 33";
+    std::vector<int> tones;
+    const QByteArray told = output(simulator, {"-c", message});
+    for (const QByteArray &word : told.mid(told.indexOf("symbols:") + 8).simplified().split(' '))
+        tones.push_back(word.toInt());
+    QCOMPARE(tones.size(), std::size_t(162));
+    writeMessage(tones, 20.0, -23.0);
+    QVERIFY(!output(decoder, {"200101_0000.wav"}).contains(message));
+    const Outcome made = run({"straighten", "200101_0000.wav", "--low", "1390", "--high", "1610", "--set",
+                              "spectrogram.windowSeconds=0.683", "--set", "family.relation=offsets", "--set",
+                              "family.members=0,1.4648,2.9297,4.3945", "--set", "family.present=inTurn", "--type",
+                              "int16", "--out", "200101_0002.wav"});
+    QCOMPARE(made.err, QByteArray());
+    QCOMPARE(made.code, 0);
+    QVERIFY(output(decoder, {"200101_0002.wav"}).contains(message));
+}
+
+QTEST_GUILESS_MAIN(tst_cliStraighten)
+#include "tst_cliStraighten.moc"

@@ -1,0 +1,133 @@
+#include "base/Error.h"
+#include "recording/ArrayRecording.h"
+#include "spectrum/StraightenedRecording.h"
+
+#include <QtTest>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+using namespace faintline;
+
+namespace {
+
+constexpr double rate = 2000.0;
+constexpr Index count = 60000;
+
+/// 300 + 4 t + 3 sin(2π t/7) Hz at t seconds.
+double frequencyAt(double t)
+{
+    return 300.0 + 4.0 * t + 3.0 * std::sin(2.0 * std::numbers::pi * t / 7.0);
+}
+
+double cyclesAt(double t) // its integral
+{
+    return 300.0 * t + 2.0 * t * t
+           + 21.0 / (2.0 * std::numbers::pi) * (1.0 - std::cos(2.0 * std::numbers::pi * t / 7.0));
+}
+
+RecordingPointer chirp(bool isComplex)
+{
+    const auto samples = std::make_shared<std::vector<float>>();
+    for (Index n = 0; n < count; ++n) {
+        const double angle = 2.0 * std::numbers::pi * cyclesAt(static_cast<double>(n) / rate);
+        samples->push_back(static_cast<float>(std::cos(angle)));
+        if (isComplex)
+            samples->push_back(static_cast<float>(std::sin(angle)));
+    }
+    return std::make_shared<ArrayRecording>("chirp", std::shared_ptr<const float>(samples, samples->data()),
+                                            ArrayLayout{rate, count, 1, isComplex, 0.0});
+}
+
+FrequencyCurve curve()
+{
+    const Axis time{"time", "s", 0.0, 0.02, 1501, false};
+    std::vector<double> hz;
+    for (Index i = 0; i < time.count; ++i)
+        hz.push_back(frequencyAt(time.value(static_cast<double>(i))));
+    return {time, hz};
+}
+
+/// Amplitude of a frequency in samples first … first+length-1.
+double amplitudeAt(const Recording &recording, double hz, Index first, Index length)
+{
+    const auto floats = static_cast<std::size_t>(recording.info().floatsPerSample());
+    std::vector<float> samples(static_cast<std::size_t>(length) * floats);
+    recording.read(0, first, length, samples);
+    std::complex<double> sum = 0.0;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(length); ++n) {
+        const std::complex<double> x(static_cast<double>(samples[floats * n]),
+                                     floats > 1 ? static_cast<double>(samples[floats * n + 1]) : 0.0);
+        sum += x * std::polar(1.0, -2.0 * std::numbers::pi * hz * static_cast<double>(n) / rate);
+    }
+    return std::abs(sum) / static_cast<double>(length) * (floats > 1 ? 1.0 : 2.0);
+}
+
+} // namespace
+
+/// A line that moves, kept at one frequency.
+class tst_StraightenedRecording : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void integratesItsCurve();
+    void makesALineConstant_data();
+    void makesALineConstant();
+    void doesNotDependOnHowItIsRead();
+    void refusesATargetOutsideTheBand();
+};
+
+void tst_StraightenedRecording::integratesItsCurve()
+{
+    const FrequencyCurve line({"time", "s", 10.0, 2.0, 3, false}, {100.0, 104.0, 104.0});
+    QCOMPARE(line.at(5.0), 100.0);
+    QCOMPARE(line.at(11.0), 102.0);
+    QCOMPARE(line.at(30.0), 104.0);
+    QCOMPARE(line.cyclesAt(10.0), 0.0);
+    QCOMPARE(line.cyclesAt(11.0), 101.0); // 100 + 2 t, t = 1
+    QCOMPARE(line.cyclesAt(12.0), 204.0);
+    QCOMPARE(line.cyclesAt(20.0), 204.0 + 8.0 * 104.0);
+    QCOMPARE(line.cyclesAt(8.0), -200.0);
+    QVERIFY_EXCEPTION_THROWN(FrequencyCurve({"time", "s", 0.0, 1.0, 0, false}, {}), Error);
+}
+
+void tst_StraightenedRecording::makesALineConstant_data()
+{
+    QTest::addColumn<bool>("isComplex");
+    QTest::newRow("real") << false;
+    QTest::newRow("I/Q") << true;
+}
+
+/// All of 30 s in one transform: nothing of the amplitude is lost, so the phase has no jump and no curvature is left.
+void tst_StraightenedRecording::makesALineConstant()
+{
+    QFETCH(bool, isComplex);
+    const StraightenedRecording straight(chirp(isComplex), 0, curve(), 440.0);
+    QVERIFY(amplitudeAt(*chirp(isComplex), 440.0, 0, count) < 0.05);
+    const double amplitude = amplitudeAt(straight, 440.0, 0, count);
+    QVERIFY2(std::abs(amplitude - 1.0) < 0.01, qPrintable(QString::number(amplitude)));
+}
+
+void tst_StraightenedRecording::doesNotDependOnHowItIsRead()
+{
+    const StraightenedRecording straight(chirp(false), 0, curve(), 440.0);
+    std::vector<float> whole(20000);
+    straight.read(0, -100, 20000, whole);
+    std::vector<float> part(333);
+    straight.read(0, 7001, 333, part);
+    for (std::size_t n = 0; n < part.size(); ++n)
+        QCOMPARE(part[n], whole[7101 + n]);
+    QCOMPARE(whole[50], 0.0f); // before the recording
+}
+
+void tst_StraightenedRecording::refusesATargetOutsideTheBand()
+{
+    QVERIFY_EXCEPTION_THROWN(StraightenedRecording(chirp(false), 0, curve(), 1500.0), Error);
+    QVERIFY_EXCEPTION_THROWN(StraightenedRecording(chirp(false), 0, curve(), -1.0), Error);
+    QVERIFY_EXCEPTION_THROWN(StraightenedRecording(chirp(false), 1, curve(), 100.0), Error);
+}
+
+QTEST_APPLESS_MAIN(tst_StraightenedRecording)
+#include "tst_StraightenedRecording.moc"
