@@ -16,6 +16,7 @@ namespace {
 
     constexpr double width = 720.0;
     constexpr double height = 480.0;
+    constexpr double lowerHeight = 280.0; ///< of charts below another
     constexpr double left = 72.0;
     constexpr double right = 16.0;
     constexpr double top = 40.0;
@@ -150,10 +151,10 @@ namespace {
         }
         svg += "<rect x=\"" + pixels(x.from) + "\" y=\"" + pixels(y.to) + "\" width=\"" + pixels(x.to - x.from)
                + "\" height=\"" + pixels(y.from - y.to) + "\" fill=\"none\" stroke=\"#444444\"/>\n";
-        svg += text(0.5 * (x.from + x.to), height - 16.0, "middle", chart.xLabel);
+        svg += text(0.5 * (x.from + x.to), y.from + bottom - 16.0, "middle", chart.xLabel);
         const double middle = 0.5 * (y.from + y.to);
         svg += text(18.0, middle, "middle", chart.yLabel, " transform=\"rotate(-90 18 " + pixels(middle) + ")\"");
-        svg += text(0.5 * (x.from + x.to), 24.0, "middle", chart.title, " font-weight=\"bold\"");
+        svg += text(0.5 * (x.from + x.to), y.to + 24.0 - top, "middle", chart.title, " font-weight=\"bold\"");
         return svg;
     }
 
@@ -201,42 +202,64 @@ namespace {
         return svg;
     }
 
+    /// Pixels that the names of the curves take to the right of the canvas.
+    double legendWidth(std::span<const Chart> charts)
+    {
+        constexpr double pixelsPerLetter = 7.0;
+        std::size_t longestName = 0;
+        for (const Chart &chart : charts)
+            for (const Curve &curve : chart.curves)
+                longestName = std::max(longestName, curve.name.size());
+        return 48.0 + pixelsPerLetter * static_cast<double>(longestName);
+    }
+
+    /// One chart, its canvas between two heights; the number tells its canvas from others.
+    std::string drawChart(const Chart &chart, double canvasTop, double canvasBottom, std::size_t number)
+    {
+        Scale x;
+        Scale y;
+        x.from = left;
+        x.to = width - right;
+        y.from = canvasBottom;
+        y.to = canvasTop;
+        x.isLogarithmic = chart.isLogarithmicX;
+        y.isLogarithmic = chart.isLogarithmicY;
+        for (const Curve &curve : chart.curves)
+            for (const Curve::Point &point : curve.points) {
+                x.include(point.x);
+                y.include(point.y);
+            }
+        x.settle();
+        y.settle();
+        const std::string canvas = number == 0 ? "canvas" : "canvas" + std::to_string(number);
+        std::string svg = "<defs><clipPath id=\"" + canvas + "\"><rect x=\"" + pixels(x.from - 4.0) + "\" y=\""
+                          + pixels(y.to - 4.0) + "\" width=\"" + pixels(x.to - x.from + 8.0) + "\" height=\""
+                          + pixels(y.from - y.to + 8.0) + "\"/></clipPath></defs>\n";
+        svg += drawAxes(chart, x, y);
+        svg += "<g clip-path=\"url(#" + canvas + ")\">\n";
+        for (std::size_t i = 0; i < chart.curves.size(); ++i)
+            svg += drawCurve(chart.curves[i], std::string(colours[i % colours.size()]), x, y);
+        return svg + "</g>\n" + drawLegend(chart, x, y);
+    }
+
 } // namespace
 
 std::string chartSvg(const Chart &chart)
 {
-    std::size_t longestName = 0;
-    for (const Curve &curve : chart.curves)
-        longestName = std::max(longestName, curve.name.size());
-    constexpr double pixelsPerLetter = 7.0;
-    const double legend = 48.0 + pixelsPerLetter * static_cast<double>(longestName);
-    Scale x;
-    Scale y;
-    x.from = left;
-    x.to = width - right;
-    y.from = height - bottom;
-    y.to = top;
-    x.isLogarithmic = chart.isLogarithmicX;
-    y.isLogarithmic = chart.isLogarithmicY;
-    for (const Curve &curve : chart.curves)
-        for (const Curve::Point &point : curve.points) {
-            x.include(point.x);
-            y.include(point.y);
-        }
-    x.settle();
-    y.settle();
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(width + legend) + "\" height=\""
-                      + pixels(height)
+    return chartsSvg({&chart, 1});
+}
+
+std::string chartsSvg(std::span<const Chart> charts)
+{
+    const double lower = static_cast<double>(charts.size() - 1) * lowerHeight;
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + pixels(width + legendWidth(charts))
+                      + "\" height=\"" + pixels(height + lower)
                       + "\" font-family=\"Inter, sans-serif\" font-size=\"12\" fill=\"#222222\">\n<rect width=\"100%\" "
                         "height=\"100%\" fill=\"white\"/>\n";
-    svg += "<defs><clipPath id=\"canvas\"><rect x=\"" + pixels(x.from - 4.0) + "\" y=\"" + pixels(y.to - 4.0)
-           + "\" width=\"" + pixels(x.to - x.from + 8.0) + "\" height=\"" + pixels(y.from - y.to + 8.0)
-           + "\"/></clipPath></defs>\n";
-    svg += drawAxes(chart, x, y);
-    svg += "<g clip-path=\"url(#canvas)\">\n";
-    for (std::size_t i = 0; i < chart.curves.size(); ++i)
-        svg += drawCurve(chart.curves[i], std::string(colours[i % colours.size()]), x, y);
-    return svg + "</g>\n" + drawLegend(chart, x, y) + "</svg>\n";
+    double end = height;
+    for (std::size_t i = 0; i < charts.size(); ++i, end += lowerHeight)
+        svg += drawChart(charts[i], i == 0 ? top : end - lowerHeight + top / 2.0, end - bottom, i);
+    return svg + "</svg>\n";
 }
 
 std::string chartCsv(const Chart &chart)

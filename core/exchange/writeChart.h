@@ -2,6 +2,7 @@
 
 #include "evaluate/experiments/Chart.h"
 
+#include <span>
 #include <string>
 
 namespace faintline {
@@ -9,6 +10,9 @@ namespace faintline {
 /// A chart as SVG text, 720 × 480 pixels: measured curves with their intervals, theory as dashed lines, publications'
 /// points hollow. The same chart gives the same bytes.
 std::string chartSvg(const Chart &chart);
+
+/// The first chart as above, the others below it, 280 pixels high: for charts over the same x.
+std::string chartsSvg(std::span<const Chart> charts);
 
 /// A chart's points as CSV: "curve,kind,x,y,low,high", a row per point; low and high are empty without an interval.
 std::string chartCsv(const Chart &chart);

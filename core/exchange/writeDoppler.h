@@ -1,0 +1,51 @@
+#pragma once
+
+#include "analysis/DopplerPass.h"
+#include "analysis/dopplerTrack.h"
+#include "analysis/events.h"
+#include "evaluate/experiments/Chart.h"
+
+#include <string>
+#include <vector>
+
+namespace faintline {
+
+/// A fit with the events and the points that it was made from.
+struct DopplerReport {
+    std::vector<Event> events;
+    double centreHz = 0.0; ///< that was added to the frequencies of the frames
+    DopplerTrack track;
+    DopplerFit fit;
+};
+
+/// One parameter as tables show it.
+struct DopplerRow {
+    std::string name; ///< "rest frequency"
+    std::string unit;
+    double value = 0.0;
+    DopplerBounds bounds;
+};
+
+/// Rest frequency, speed, range and time of closest approach (at the source), in this order.
+std::vector<DopplerRow> dopplerRows(const DopplerFit &fit);
+
+/// "12.3 … 14.0", to two digits of its width; "above 12.3", "below 14", or "open".
+std::string boundsText(const DopplerBounds &bounds);
+/// A value to as many digits.
+std::string valueText(double value, const DopplerBounds &bounds);
+
+/// "3" or "3, 5".
+std::string eventNumbers(const DopplerReport &report);
+/// What cannot be told, of the track and of the fit.
+std::vector<std::string> dopplerNotes(const DopplerReport &report);
+
+/// Parameters with their intervals (null where open), residuals, and what cannot be told, as JSON.
+std::string dopplerJson(const DopplerReport &report);
+/// A row per point: t, f, deviation, fitted, residual, left_out (1: took no part).
+std::string dopplerCsv(const DopplerReport &report);
+
+/// Frequency against time with the fitted curve, and the residuals below. Bars on the frequencies are their own 5-95 %
+/// bands; points that were left out are a curve of their own.
+std::vector<Chart> dopplerCharts(const DopplerReport &report);
+
+} // namespace faintline
