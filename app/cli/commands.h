@@ -71,6 +71,7 @@ void addCompare(CLI::App &app, Common &common);
 void addReplay(CLI::App &app, Common &common);
 void addListen(CLI::App &app, Common &common);
 void addStraighten(CLI::App &app, Common &common);
+void addDoppler(CLI::App &app, Common &common);
 
 /// Does what a command line asks for. Throws CLI::ParseError, Error, Cancelled.
 void runCommandLine(const std::vector<std::string> &arguments, Common common);

@@ -1,0 +1,178 @@
+#include "app/cli/commands.h"
+#include "app/cli/provenance.h"
+
+#include "analysis/chooseWindow.h"
+#include "analysis/dopplerFit.h"
+#include "analysis/dopplerTrack.h"
+#include "base/AtomicFile.h"
+#include "exchange/writeChart.h"
+#include "exchange/writeDoppler.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace faintline::cli {
+
+namespace {
+
+    struct DopplerOptions {
+        AnalysisOptions analysis;
+        std::vector<int> events; ///< none: the strongest
+        std::string medium = "air";
+        std::optional<double> propagation;
+        std::optional<double> centreHz;
+        std::string out;
+        std::string chart;
+    };
+
+    const std::map<std::string, double> media{
+        {"air", propagation::air}, {"water", propagation::water}, {"light", propagation::light}};
+
+    void checkNames(const DopplerOptions &options)
+    {
+        if (!options.out.empty() && !options.out.ends_with(".json") && !options.out.ends_with(".csv"))
+            throw Error(options.out, "the file name must end in .json or .csv");
+        if (!options.chart.empty() && !options.chart.ends_with(".svg"))
+            throw Error(options.chart, "the file name must end in .svg");
+        checkOutputs({options.out, options.chart});
+    }
+
+    std::shared_ptr<const Analysis> analysed(const DopplerOptions &options, const RunContext &context)
+    {
+        AnalysisSettings settings = options.analysis.settings();
+        if (const NormalisedFramesPointer frames = options.analysis.frames(settings, context))
+            return analyse(frames, settings, context);
+        return analyseInChosenWindow(options.analysis.recording(), settings, context);
+    }
+
+    /// What 0 Hz of the frames stands for.
+    double centreOf(const DopplerOptions &options, const Analysis &analysis)
+    {
+        if (options.centreHz)
+            return *options.centreHz;
+        if (!analysis.recording || !analysis.recording->info().isComplex)
+            return 0.0;
+        const double centreHz = analysis.recording->info().centreHz;
+        if (centreHz <= 0.0)
+            throw Error(options.analysis.file, "is I/Q and does not say its centre frequency; the fit needs absolute "
+                                               "frequencies, so give --centre HZ");
+        return centreHz;
+    }
+
+    Event eventOf(const std::vector<Event> &found, int number)
+    {
+        const auto wanted =
+            std::find_if(found.begin(), found.end(), [&](const Event &event) { return event.id == number; });
+        if (wanted == found.end())
+            throw Error("--event " + std::to_string(number),
+                        "there is no such event; 'detect' lists the " + std::to_string(found.size()) + " there are");
+        return *wanted;
+    }
+
+    std::vector<Event> eventsOf(const DopplerOptions &options, const Analysis &analysis)
+    {
+        const std::vector<Event> found = events(analysis);
+        if (found.empty())
+            throw Error(options.analysis.file, "no event was detected, so there is no track to fit");
+        std::vector<Event> wanted;
+        for (const int number : options.events)
+            wanted.push_back(eventOf(found, number));
+        if (wanted.empty())
+            wanted.push_back(*std::max_element(
+                found.begin(), found.end(), [](const Event &a, const Event &b) { return a.statistic < b.statistic; }));
+        return wanted;
+    }
+
+    DopplerReport reportOf(const DopplerOptions &options, const Analysis &analysis)
+    {
+        DopplerReport report;
+        report.events = eventsOf(options, analysis);
+        report.centreHz = centreOf(options, analysis);
+        std::vector<DopplerTrack> tracks;
+        for (const Event &event : report.events)
+            for (const Track &track : analysis.tracks)
+                if (track.id == event.id)
+                    tracks.push_back(dopplerTrack(analysis, track, report.centreHz));
+        report.track = joined(tracks);
+        report.fit = fitDopplerPass(report.track.points, options.propagation.value_or(media.at(options.medium)));
+        return report;
+    }
+
+    void print(const DopplerReport &report, bool isChosen, std::size_t eventCount)
+    {
+        const DopplerFit &fit = report.fit;
+        const std::vector<DopplerPoint> &points = report.track.points;
+        std::printf("%s %s%s: %.6g … %.6g s, %zu points\n", report.events.size() == 1 ? "event" : "events",
+                    eventNumbers(report).c_str(),
+                    isChosen ? "" : (", the strongest of " + std::to_string(eventCount)).c_str(),
+                    points.front().seconds, points.back().seconds, points.size());
+        std::printf("%-28s %-5s %16s   %s\n", "parameter", "unit", "estimate", "90 % interval");
+        for (const DopplerRow &row : dopplerRows(fit))
+            std::printf("%-28s %-5s %16s   %s\n", row.name.c_str(), row.unit.c_str(),
+                        valueText(row.value, row.bounds).c_str(), boundsText(row.bounds).c_str());
+        std::printf("%-28s %-5s %16s\n", "  heard at", "s", valueText(fit.heardSeconds(), fit.closestSeconds).c_str());
+        std::printf("%-28s %-5s %16.4g\n", "  slope there", "Hz/s", fit.slopeHzPerSecond());
+        std::printf(
+            "residuals: rms %.3g Hz, %.3g times the track's own errors; they count as %.0f independent points\n",
+            fit.rmsHz, fit.deviationScale, fit.effectivePoints);
+        if (report.centreHz != 0.0)
+            std::printf("note: %.10g Hz, the centre frequency, is added to the frequencies of the events.\n",
+                        report.centreHz);
+        for (const std::string &sentence : dopplerNotes(report))
+            std::printf("note: %s\n", sentence.c_str());
+    }
+
+    void doppler(const DopplerOptions &options, const Common &common)
+    {
+        checkNames(options);
+        const auto analysis = analysed(options, common.context());
+        const DopplerReport report = reportOf(options, *analysis);
+        CommitTogether files;
+        writeProvenance(common, options.analysis.inputs(), {options.out, options.chart});
+        if (!options.out.empty())
+            writeTextFile(options.out, options.out.ends_with(".csv") ? dopplerCsv(report) : dopplerJson(report));
+        if (!options.chart.empty())
+            writeTextFile(options.chart, chartsSvg(dopplerCharts(report)));
+        files.commit();
+        print(report, !options.events.empty(), analysis->tracks.size());
+    }
+
+} // namespace
+
+void addDoppler(CLI::App &app, Common &common)
+{
+    const auto options = std::make_shared<DopplerOptions>();
+    CLI::App *command = app.add_subcommand("doppler", "Fit a source that passes at constant speed to an event's track: "
+                                                      "rest frequency, speed, range, closest approach");
+    options->analysis.addTo(*command, common);
+    command
+        ->add_option(
+            "--event", options->events,
+            "Number of the event, as 'detect' lists it; may be repeated for the pieces of one pass; by default "
+            "the strongest")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->check(CLI::Range(1, 1000000000));
+    CLI::Option *medium =
+        command->add_option("--medium", options->medium, "Speed of propagation: air (343 m/s), water (1500), light")
+            ->check(CLI::IsMember({"air", "water", "light"}))
+            ->capture_default_str();
+    command->add_option("--speed-of-sound", options->propagation, "Speed of propagation, m/s")
+        ->check(CLI::Range(1e-3, 1e12))
+        ->excludes(medium);
+    command
+        ->add_option("--centre", options->centreHz,
+                     "Frequency that 0 Hz stands for, Hz; by default the one of the file, which I/Q needs")
+        ->check(CLI::Range(0.0, 1e15));
+    addOutput(*command, common, "--out", options->out, "Write the fit: .json, or .csv for the points and residuals");
+    addOutput(*command, common, "--chart", options->chart,
+              "Chart of the track, the fit and the residuals to write, .svg");
+    command->callback([options, &common] { doppler(*options, common); });
+}
+
+} // namespace faintline::cli
