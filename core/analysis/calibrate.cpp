@@ -15,7 +15,7 @@ namespace {
     NormalisedFramesPointer noiseSegment(const AnalysisSettings &bare, int number)
     {
         LineScene scene;
-        scene.sampleRateHz = 1.0;
+        scene.sampleRateHz = std::ceil(ringBands(bare.family));
         scene.durationSeconds = static_cast<double>(segmentWindows) * calibrationWindowSamples;
         scene.isComplex = true;
         scene.noise.deviation = 1.0;

@@ -4,6 +4,7 @@
 #include "spectrum/NoiseNormaliser.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace faintline {
 
@@ -55,14 +56,13 @@ namespace {
         std::vector<float> m_y;
     };
 
-    /// The frames' noise, of windows of so many samples; a family's members get room to lie apart.
+    /// The frames' noise, of windows of so many samples, or more where a family's members need room to lie apart.
     std::unique_ptr<NoiseStream> noiseOf(const AnalysisSettings &settings, int windowSamples)
     {
-        constexpr int roomiest = 4;
         const FamilySettings &family = settings.family;
         if (family.isNone())
             return spectralNoise(settings.spectrogram, windowSamples);
-        const int room = std::min(roomiest, static_cast<int>(family.members.size()));
+        const int room = static_cast<int>(std::ceil(ringBands(family)));
         auto lines = spectralNoise(settings.spectrogram, room * windowSamples);
         const Index bins = lines->cells();
         return std::make_unique<FamilyNoise>(

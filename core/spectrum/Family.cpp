@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace faintline {
 
@@ -44,22 +45,20 @@ namespace {
         return -std::log(-std::expm1(K * std::log1p(-std::exp(-maximum))));
     }
 
-    /// Of a band, the cells of a fundamental half of whose members lie in it, and whose neighbouring members lie apart.
+    /// Of a band, the cells of a fundamental all of whose members lie in it, neighbouring ones apart.
     Axis fundamentalAxis(const FamilySettings &settings, const Axis &band)
     {
         constexpr double apart = 3.0; // bins between neighbouring multiples
         Axis axis = band;
         axis.step = band.step / familyCellsPerBin(settings);
-        std::vector<double> sorted = settings.members;
-        std::sort(sorted.begin(), sorted.end());
-        const std::size_t half = (sorted.size() + 1) / 2;
-        const double first = std::max(apart * band.step, band.value(0.0) / sorted[sorted.size() - half]);
-        const double last = band.last() / sorted[half - 1];
+        const auto [least, most] = std::minmax_element(settings.members.begin(), settings.members.end());
+        const double first = std::max(apart * band.step, band.value(0.0) / *least);
+        const double last = band.last() / *most;
         axis.first = axis.step * std::ceil(first / axis.step);
         axis.count = static_cast<Index>(std::floor((last - axis.first) / axis.step)) + 1;
         if (axis.count < 1)
             throw fieldError("family.members", formatFieldValue(settings.members),
-                             "no fundamental has half of these multiples in the band");
+                             "no fundamental has all of these multiples in the band");
         return axis;
     }
 
@@ -127,6 +126,15 @@ double familyCellsPerBin(const FamilySettings &settings)
                : 1.0;
 }
 
+double ringBands(const FamilySettings &settings)
+{
+    if (settings.isNone())
+        return 1.0;
+    if (settings.relation == FamilySettings::Relation::Offsets)
+        return static_cast<double>(settings.members.size());
+    return std::accumulate(settings.members.begin(), settings.members.end(), 0.0) / familyCellsPerBin(settings);
+}
+
 std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
 {
     std::vector<double> result;
@@ -159,22 +167,25 @@ FamilyMap::FamilyMap(const FamilySettings &settings, const Axis &frequency, bool
 FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double binsPerHz)
 {
     checkFamily(settings);
+    const std::vector<double> &members = settings.members;
+    const bool isHarmonic = settings.relation == FamilySettings::Relation::Harmonics;
+    const auto [least, most] = std::minmax_element(members.begin(), members.end());
+    const bool fits = !isHarmonic && 2.0 * (*most - *least) * binsPerHz < static_cast<double>(bins);
+    // Otherwise each member has a stretch to itself, or noise would be added to itself where two of them meet.
+    const auto cells = fits ? bins : static_cast<Index>(static_cast<double>(bins) / ringBands(settings));
     FamilyMap map;
     map.m_settings = settings;
     map.m_bins = bins;
-    map.m_frequency = {"frequency", "Hz", 0.0, 1.0, bins, true};
-    const auto [least, most] = std::minmax_element(settings.members.begin(), settings.members.end());
-    const bool isHarmonic = settings.relation == FamilySettings::Relation::Harmonics;
-    const bool fits = !isHarmonic && 2.0 * (*most - *least) * binsPerHz < static_cast<double>(bins);
-    const double ownStep = isHarmonic ? 1.0 / familyCellsPerBin(settings) : 1.0;
-    for (std::size_t k = 0; k < settings.members.size(); ++k) {
-        const double base =
-            fits ? settings.members[k] * binsPerHz
-                 : static_cast<double>(bins) * static_cast<double>(k) / static_cast<double>(settings.members.size());
-        const double step = isHarmonic ? settings.members[k] * ownStep : 1.0;
-        for (Index cell = 0; cell < bins; ++cell)
+    map.m_frequency = {"frequency", "Hz", 0.0, 1.0, cells, true};
+    const Axis ring{"frequency", "Hz", 0.0, 1.0, bins, true};
+    double stretch = 0.0;
+    for (const double member : members) {
+        const double step = isHarmonic ? member / familyCellsPerBin(settings) : 1.0;
+        const double base = fits ? member * binsPerHz : stretch;
+        for (Index cell = 0; cell < cells; ++cell)
             map.m_places.push_back(static_cast<std::int32_t>(
-                map.m_frequency.wrapped(std::lround(base + step * static_cast<double>(cell)))));
+                ring.wrapped(std::lround(std::floor(base + step * static_cast<double>(cell))))));
+        stretch += step * static_cast<double>(cells);
     }
     return map;
 }

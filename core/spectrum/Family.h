@@ -46,6 +46,9 @@ FamilySettings scaledFamily(FamilySettings settings, double factor);
 /// How many cells of the family's axis a bin of the frames is: the largest multiple of harmonics, 1 of others.
 double familyCellsPerBin(const FamilySettings &settings);
 
+/// How many bands of a width, one beside the other, the members go through while the family goes through one; 1 of none.
+double ringBands(const FamilySettings &settings);
+
 /// Where the members lie of a family at `hz`: multiples of it, or at their distances from it.
 std::vector<double> memberFrequencies(const FamilySettings &settings, double hz);
 
@@ -58,8 +61,8 @@ std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
 /// were observed, and without any y is NaN. The sum is sufficient for equal weak members, the maximum close to it for one
 /// member at a time. Every detector works on this y as on any other, and is calibrated on it.
 ///
-/// The axis is the members' own (offsets: that of the frames; harmonics: of the fundamental, in steps of 1/max m_k bin, so
-/// that the highest member moves by a bin). Oracle: direct sums; Boost.Math. Thread-safe.
+/// Axis of offsets: that of the frames. Of harmonics: fundamentals all of whose members lie in the band, in steps of
+/// 1/max m_k bin, so that the highest member moves by a bin. Oracle: direct sums; Boost.Math. Thread-safe.
 class FamilyMap
 {
 public:
@@ -68,7 +71,8 @@ public:
     FamilyMap(const FamilySettings &settings, const Axis &frequency, bool innerOnly);
 
     /// On a band of `bins` that closes on itself, all cells alike: for calibrations. `binsPerHz` converts distances.
-    /// Members farther apart than the band is wide are spread over it.
+    /// Offsets that the band has room for are kept; other members have a stretch of it each, and the family has
+    /// bins/ringBands cells.
     static FamilyMap onRing(const FamilySettings &settings, Index bins, double binsPerHz);
 
     const Axis &frequency() const { return m_frequency; }
