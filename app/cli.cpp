@@ -36,13 +36,7 @@ void addCommands(CLI::App &app, faintline::cli::Common &common)
                            faintline::cli::addReproduce, faintline::cli::addEvaluate, faintline::cli::addMerge,
                            faintline::cli::addCalibrate, faintline::cli::addInject, faintline::cli::addSequential,
                            faintline::cli::addCompare, faintline::cli::addListen, faintline::cli::addStraighten,
-                           faintline::cli::addReplay, faintline::cli::addBench})
-    for (const auto add :
-         {faintline::cli::addInfo, faintline::cli::addDescribe, faintline::cli::addDetect, faintline::cli::addStatistic,
-          faintline::cli::addExplain, faintline::cli::addSimulate, faintline::cli::addReproduce,
-          faintline::cli::addEvaluate, faintline::cli::addMerge, faintline::cli::addCalibrate,
-          faintline::cli::addInject, faintline::cli::addSequential, faintline::cli::addCompare,
-          faintline::cli::addDoppler, faintline::cli::addListen, faintline::cli::addReplay, faintline::cli::addBench})
+                           faintline::cli::addDoppler, faintline::cli::addReplay, faintline::cli::addBench})
         add(app, common);
 }
 

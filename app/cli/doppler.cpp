@@ -2,8 +2,8 @@
 #include "app/cli/provenance.h"
 
 #include "analysis/chooseWindow.h"
-#include "analysis/dopplerFit.h"
-#include "analysis/dopplerTrack.h"
+#include "analysis/doppler/dopplerFit.h"
+#include "analysis/doppler/dopplerTrack.h"
 #include "base/AtomicFile.h"
 #include "exchange/writeChart.h"
 #include "exchange/writeDoppler.h"

@@ -49,7 +49,7 @@ Provenance readProvenance(const std::string &path)
         for (const Json &input : json.at("inputs"))
             provenance.inputs.emplace_back(nameFrom(input.at("file")), input.at("hash"));
         // What was not written by one of these might do anything, or call itself.
-        constexpr std::string_view commands[]{"detect", "compare", "simulate", "inject", "doppler"};
+        constexpr std::string_view commands[]{"detect", "compare", "simulate", "inject", "straighten", "doppler"};
         provenance.arguments = fromCommandOn(provenance.arguments);
         const bool isKnown =
             !provenance.arguments.empty()
@@ -58,7 +58,8 @@ Provenance readProvenance(const std::string &path)
         if (provenance.arguments.size() > most || provenance.outputs.size() > most)
             throw Error(path, "contains a command line that is too long");
         if (provenance.outputs.empty() || !isKnown)
-            throw Error(path, "is not the provenance of an output of detect, compare, simulate, inject or doppler");
+            throw Error(
+                path, "is not the provenance of an output of detect, compare, simulate, inject, straighten or doppler");
         return provenance;
     } catch (const Json::exception &) {
         throw Error(path, "is not a provenance: it needs faintline, folder, arguments, inputs and outputs");

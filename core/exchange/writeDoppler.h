@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/DopplerPass.h"
-#include "analysis/dopplerTrack.h"
+#include "analysis/doppler/DopplerPass.h"
+#include "analysis/doppler/dopplerTrack.h"
 #include "analysis/events.h"
 #include "evaluate/experiments/Chart.h"
 

@@ -1,4 +1,4 @@
-#include "analysis/CorrelatedErrors.h"
+#include "analysis/doppler/CorrelatedErrors.h"
 #include "base/Random.h"
 
 #include <Eigen/Dense>

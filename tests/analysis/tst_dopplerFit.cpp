@@ -1,4 +1,4 @@
-#include "analysis/dopplerFit.h"
+#include "analysis/doppler/dopplerFit.h"
 #include "base/Random.h"
 #include "support/recordings.h"
 

@@ -1,4 +1,4 @@
-#include "analysis/CorrelatedErrors.h"
+#include "analysis/doppler/CorrelatedErrors.h"
 
 #include <Eigen/Dense>
 #include <boost/math/tools/minima.hpp>

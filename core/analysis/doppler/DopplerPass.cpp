@@ -1,4 +1,4 @@
-#include "analysis/DopplerPass.h"
+#include "analysis/doppler/DopplerPass.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "analysis/DopplerProblem.h"
+#include "analysis/doppler/DopplerProblem.h"
 
 #include <Eigen/Dense>
 #include <unsupported/Eigen/AutoDiff>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/CorrelatedErrors.h"
-#include "analysis/DopplerPass.h"
+#include "analysis/doppler/CorrelatedErrors.h"
+#include "analysis/doppler/DopplerPass.h"
 
 #include <Eigen/Core>
 

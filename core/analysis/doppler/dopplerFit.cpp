@@ -1,8 +1,8 @@
-#include "analysis/dopplerFit.h"
+#include "analysis/doppler/dopplerFit.h"
 
-#include "analysis/dopplerLimits.h"
-#include "analysis/dopplerSentences.h"
-#include "analysis/dopplerStarts.h"
+#include "analysis/doppler/dopplerLimits.h"
+#include "analysis/doppler/dopplerSentences.h"
+#include "analysis/doppler/dopplerStarts.h"
 #include "base/Error.h"
 
 #include <Eigen/Dense>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/DopplerPass.h"
+#include "analysis/doppler/DopplerPass.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "analysis/dopplerLimits.h"
+#include "analysis/doppler/dopplerLimits.h"
 
 #include <Eigen/Dense>
 #include <boost/math/tools/toms748_solve.hpp>

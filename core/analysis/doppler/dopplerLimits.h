@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/DopplerProblem.h"
+#include "analysis/doppler/DopplerProblem.h"
 
 #include <array>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "analysis/dopplerSentences.h"
+#include "analysis/doppler/dopplerSentences.h"
 
 #include <algorithm>
 #include <cmath>

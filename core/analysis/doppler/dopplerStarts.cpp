@@ -1,4 +1,4 @@
-#include "analysis/dopplerStarts.h"
+#include "analysis/doppler/dopplerStarts.h"
 
 #include <algorithm>
 #include <cmath>

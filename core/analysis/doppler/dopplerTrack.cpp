@@ -1,4 +1,4 @@
-#include "analysis/dopplerTrack.h"
+#include "analysis/doppler/dopplerTrack.h"
 
 #include "base/Error.h"
 

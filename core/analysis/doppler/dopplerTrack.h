@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/Analysis.h"
-#include "analysis/DopplerPass.h"
+#include "analysis/doppler/DopplerPass.h"
 
 #include <vector>
 
