@@ -66,6 +66,12 @@ namespace {
         double m_near;      ///< Hz
     };
 
+    /// Whether nothing is left of a statistic over what a stronger track's members explain of it.
+    bool isExplained(double statistic, double explained, double threshold)
+    {
+        return explained > 0.0 && (statistic <= most * explained || statistic - explained < threshold);
+    }
+
 } // namespace
 
 std::vector<Track> withoutGhosts(const AnalysisPlan &plan, std::vector<Track> tracks)
@@ -80,8 +86,9 @@ std::vector<Track> withoutGhosts(const AnalysisPlan &plan, std::vector<Track> tr
     std::vector<std::size_t> kept;
     for (const std::size_t number : order)
         if (std::none_of(kept.begin(), kept.end(), [&](std::size_t stronger) {
-                return tracks[number].peakStatistic
-                       <= most * members.sharedBy(tracks[number], tracks[stronger]) * tracks[stronger].peakStatistic;
+                const double explained =
+                    members.sharedBy(tracks[number], tracks[stronger]) * tracks[stronger].peakStatistic;
+                return isExplained(tracks[number].peakStatistic, explained, plan.threshold);
             }))
             kept.push_back(number);
     std::sort(kept.begin(), kept.end());
