@@ -39,9 +39,8 @@ void addCalibrate(CLI::App &app, Common &common)
         if (!options->analysis.file.empty())
             spectrogram =
                 std::make_shared<Spectrogram>(options->analysis.recording(), settings.spectrogram, settings.selection);
-        const Index cells = spectrogram ? familyAxis(settings.family, *spectrogram).count : 0;
-        const auto calibration =
-            spectrogram ? calibrateBand(settings, cells, common.context()) : calibrate(settings, common.context());
+        const auto calibration = spectrogram ? calibrateBand(settings, *spectrogram, common.context())
+                                             : calibrate(settings, common.context());
         Json json{{"detector", std::string(detectorNames[settings.detector.index()])},
                   {"lnK", calibration->lnK},
                   {"continuedFraction", calibration->continuedFraction},
@@ -52,7 +51,7 @@ void addCalibrate(CLI::App &app, Common &common)
             pfa.push_back({{"pfaPerCell", probability}, {"thresholdNats", calibration->thresholdForPfa(probability)}});
         json["thresholds"] = pfa;
         if (spectrogram) {
-            const double cellFramesPerHour = static_cast<double>(cells) * 3600.0 / spectrogram->time().step;
+            const double cellFramesPerHour = cellFramesInAnHour(settings.family, *spectrogram);
             const double nats = thresholdNats(settings.decide, *calibration, cellFramesPerHour);
             const double rate = calibration->eventRateAt(nats);
             const double half = calibration->thresholdUncertainty(rate);

@@ -213,7 +213,7 @@ namespace {
                 if (leavesWindowToRecording(settings))
                     settings = analyseInChosenWindow(recording, settings, context)->settings;
                 const Spectrogram geometry(recording, settings.spectrogram, settings.selection);
-                shape = {geometry.time().count, familyAxis(settings.family, geometry).count};
+                shape = {geometry.time().count, familyAxis(settings.family, geometry.frequency()).count};
             }
             writer.emplace(options.statistic, shape);
             sink = [&writer](Index, std::span<const float> values) { writer->write(values); };

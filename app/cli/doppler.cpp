@@ -64,40 +64,17 @@ namespace {
         return centreHz;
     }
 
-    Event eventOf(const std::vector<Event> &found, int number)
-    {
-        const auto wanted =
-            std::find_if(found.begin(), found.end(), [&](const Event &event) { return event.id == number; });
-        if (wanted == found.end())
-            throw Error("--event " + std::to_string(number),
-                        "there is no such event; 'detect' lists the " + std::to_string(found.size()) + " there are");
-        return *wanted;
-    }
-
-    std::vector<Event> eventsOf(const DopplerOptions &options, const Analysis &analysis)
-    {
-        const std::vector<Event> found = events(analysis);
-        if (found.empty())
-            throw Error(options.analysis.file, "no event was detected, so there is no track to fit");
-        std::vector<Event> wanted;
-        for (const int number : options.events)
-            wanted.push_back(eventOf(found, number));
-        if (wanted.empty())
-            wanted.push_back(*std::max_element(
-                found.begin(), found.end(), [](const Event &a, const Event &b) { return a.statistic < b.statistic; }));
-        return wanted;
-    }
-
     DopplerReport reportOf(const DopplerOptions &options, const Analysis &analysis)
     {
         DopplerReport report;
-        report.events = eventsOf(options, analysis);
+        for (const int number : options.events)
+            report.events.push_back(chosenEvent(analysis, number));
+        if (report.events.empty())
+            report.events.push_back(chosenEvent(analysis, 0));
         report.centreHz = centreOf(options, analysis);
         std::vector<DopplerTrack> tracks;
         for (const Event &event : report.events)
-            for (const Track &track : analysis.tracks)
-                if (track.id == event.id)
-                    tracks.push_back(dopplerTrack(analysis, track, report.centreHz));
+            tracks.push_back(dopplerTrack(analysis, *trackOfId(analysis.tracks, event.id), report.centreHz));
         report.track = joined(tracks);
         report.fit = fitDopplerPass(report.track.points, options.propagation.value_or(media.at(options.medium)));
         return report;

@@ -55,7 +55,8 @@ namespace {
         const AnalysisSettings settings = options.analysis.settings();
         const auto spectrogram =
             std::make_shared<const Spectrogram>(options.analysis.recording(), settings.spectrogram, settings.selection);
-        const NormalisedFramesPointer frames = normalise(spectrogram, settings.noise, context);
+        const NormalisedFramesPointer frames =
+            familyFrames(normalise(spectrogram, settings.noise, context), settings.family);
         const Index bins = frames->grid().size();
         Stages stages;
         if (options.model.empty()) {

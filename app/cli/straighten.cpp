@@ -2,7 +2,9 @@
 #include "app/cli/provenance.h"
 
 #include "analysis/chooseWindow.h"
-#include "analysis/straighten.h"
+#include "analysis/events.h"
+#include "analysis/lineHeight.h"
+#include "analysis/smoothFrequency.h"
 #include "base/AtomicFile.h"
 #include "base/Field.h"
 #include "recording/writeRecording.h"
@@ -30,25 +32,6 @@ namespace {
         std::string type = "float32";
     };
 
-    /// The track of an event; of event 0 the one with the largest statistic.
-    const Track &trackOf(const Analysis &analysis, int event)
-    {
-        const std::vector<Track> &tracks = analysis.tracks;
-        if (tracks.empty())
-            throw Error("no event found", "nothing to straighten along; lower the threshold, for instance --set "
-                                          "decide.falseAlarmsPerHour=10");
-        if (event == 0)
-            return *std::max_element(tracks.begin(), tracks.end(), [&](const Track &a, const Track &b) {
-                return statisticOf(a, analysis) < statisticOf(b, analysis);
-            });
-        const auto found =
-            std::find_if(tracks.begin(), tracks.end(), [event](const Track &track) { return track.id == event; });
-        if (found == tracks.end())
-            throw Error("--event " + std::to_string(event),
-                        "no such event; found were 1 … " + std::to_string(tracks.size()));
-        return *found;
-    }
-
     std::string toCsv(const FrequencyCurve &curve)
     {
         std::string text = "t,f\n";
@@ -57,18 +40,28 @@ namespace {
         return text;
     }
 
-    void printHeights(const Recording &before, const Recording &after, int channel, const Track &track,
-                      const Analysis &analysis, const FrequencyCurve &curve, double toHz)
+    /// How far the line stands out in one spectrum of its duration, before and after.
+    std::string heights(const Recording &before, const StraightenedRecording &after, const Event &event,
+                        const AnalysisPlan &plan, const RunContext &context)
     {
-        const double from = analysis.time().value(static_cast<double>(track.onsetFrame));
-        const double to = analysis.time().value(static_cast<double>(track.endFrame));
-        const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
         constexpr double leastCells = 40.0;
-        const double half = std::max(2.0 * (*most - *least), leastCells / (to - from));
-        const LineHeight was = heightInOneTransform(before, channel, from, to, 0.5 * (*least + *most), half);
-        const LineHeight is = heightInOneTransform(after, 0, from, to, toHz, half);
-        std::printf("one spectrum of its %.6g s: %.1f dB over its surroundings before, %.1f dB after\n", to - from,
-                    was.db, is.db);
+        const FrequencyCurve &curve = after.curve();
+        const double half = 0.5 * plan.time().step;
+        Stretch stretch{plan.settings.selection.channel, event.onsetSeconds - half, event.endSeconds + half};
+        const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
+        stretch.hz = 0.5 * (*least + *most);
+        stretch.halfBandHz = std::max(2.0 * (*most - *least), leastCells / (stretch.toSeconds - stretch.fromSeconds));
+        const double was = lineHeight(before, stretch, context.part(0.0, 0.4)).db;
+        stretch.channel = 0;
+        stretch.hz = after.targetHz();
+        const double is = lineHeight(after, stretch, context.part(0.4, 1.0)).db;
+        if (!std::isfinite(was) || !std::isfinite(is))
+            return "its surroundings are silent";
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "in one spectrum of its %.6g s %.1f dB over its surroundings before, %.1f dB after",
+                      stretch.toSeconds - stretch.fromSeconds, was, is);
+        return text;
     }
 
     void straighten(const StraightenOptions &options, const Common &common)
@@ -76,24 +69,23 @@ namespace {
         checkOutputs({options.out, options.curve});
         const RunContext context = common.context();
         const RecordingPointer recording = options.analysis.recording();
-        const auto analysis = analyseInChosenWindow(recording, options.analysis.settings(), context.part(0.0, 0.7));
-        const Track &track = trackOf(*analysis, options.event);
-        const FrequencyCurve curve = smoothFrequency(*analysis, track, options.smooth);
-        const double toHz = options.target.value_or(curve.meanHz());
-        const int channel = analysis->settings.selection.channel;
-        const StraightenedRecording straight(recording, channel, curve, toHz);
+        const auto analysis = analyseInChosenWindow(recording, options.analysis.settings(), context.part(0.0, 0.6));
+        const Event event = chosenEvent(*analysis, options.event);
+        const FrequencyCurve curve = smoothFrequency(*analysis, *trackOfId(analysis->tracks, event.id), options.smooth);
+        const StraightenedRecording straight(recording, analysis->settings.selection.channel, curve,
+                                             options.target.value_or(curve.meanHz()));
+        const std::string told = heights(*recording, straight, event, *analysis, context.part(0.6, 0.8));
         CommitTogether files;
         writeProvenance(common, options.analysis.inputs(), {options.out, options.curve});
         writeRecording(straight, options.out, options.type == "int16" ? WrittenType::Int16 : WrittenType::Float32,
-                       context.part(0.7, 1.0));
+                       context.part(0.8, 1.0));
         if (!options.curve.empty())
             writeTextFile(options.curve, toCsv(curve));
         files.commit();
         const auto [least, most] = std::minmax_element(curve.hz().begin(), curve.hz().end());
-        std::printf("event %d of %zu, %.6g … %.6g s, %.8g … %.8g Hz: now at %.8g Hz\n", track.id,
-                    analysis->tracks.size(), analysis->time().value(static_cast<double>(track.onsetFrame)),
-                    analysis->time().value(static_cast<double>(track.endFrame)), *least, *most, toHz);
-        printHeights(*recording, straight, channel, track, *analysis, curve, toHz);
+        std::printf("event %d of %zu, %.6g … %.6g s, %.8g … %.8g Hz: now at %.8g Hz\n%s\n", event.id,
+                    analysis->tracks.size(), event.onsetSeconds, event.endSeconds, *least, *most, straight.targetHz(),
+                    told.c_str());
     }
 
 } // namespace
@@ -111,7 +103,7 @@ void addStraighten(CLI::App &app, Common &common)
     command
         ->add_option("--smooth", options->smooth,
                      "Period, s, of a wander of the track that is halved by smoothing; by default 32 frames")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1e-9, 1e9));
     command->add_option("--target", options->target,
                         "Frequency of the straightened line, Hz; by default the track's mean");
     command->add_option("--type", options->type, "Sample type")

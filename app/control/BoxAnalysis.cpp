@@ -7,7 +7,9 @@
 #include <QAction>
 #include <QMenu>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace faintline {
 
@@ -37,6 +39,15 @@ namespace {
         return multiple(std::ceil(value / unit), unit);
     }
 
+    std::pair<double, double> membersOf(const FamilySettings &family, double lowHz, double highHz)
+    {
+        if (family.isNone())
+            return {lowHz, highHz};
+        const std::vector<double> ofLow = memberFrequencies(family, lowHz);
+        const std::vector<double> ofHigh = memberFrequencies(family, highHz);
+        return {*std::min_element(ofLow.begin(), ofLow.end()), *std::max_element(ofHigh.begin(), ofHigh.end())};
+    }
+
 } // namespace
 
 AnalysisSettings inBox(AnalysisSettings settings, double fromSeconds, double toSeconds, double lowHz, double highHz,
@@ -45,8 +56,10 @@ AnalysisSettings inBox(AnalysisSettings settings, double fromSeconds, double toS
     SelectionSettings &selection = settings.selection;
     selection.fromSeconds = std::max(0.0, down(fromSeconds, frameSeconds));
     selection.toSeconds = up(toSeconds, frameSeconds);
-    selection.lowHz = down(lowHz, binHz);
-    selection.highHz = up(highHz, binHz);
+    // The box of a family is one of its own axis; the band has to hold its members.
+    const auto [lowest, highest] = membersOf(settings.family, lowHz, highHz);
+    selection.lowHz = down(lowest, binHz);
+    selection.highHz = up(highest, binHz);
     return settings;
 }
 

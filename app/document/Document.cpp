@@ -168,11 +168,7 @@ std::vector<Track> Document::shownTracks() const
 
 const Track *Document::track(int id) const
 {
-    if (!m_analysis)
-        return nullptr;
-    const auto &tracks = m_analysis->tracks;
-    const auto found = std::find_if(tracks.begin(), tracks.end(), [id](const Track &track) { return track.id == id; });
-    return found == tracks.end() ? nullptr : &*found;
+    return m_analysis ? trackOfId(m_analysis->tracks, id) : nullptr;
 }
 
 void Document::apply(const State &state)

@@ -72,13 +72,6 @@ namespace {
         return QStringLiteral("%1 %2 → %3%4").arg(label, value(difference.a), value(difference.b), unit);
     }
 
-    const Track *trackOf(const Analysis &analysis, int id)
-    {
-        const auto found = std::find_if(analysis.tracks.begin(), analysis.tracks.end(),
-                                        [id](const Track &track) { return track.id == id; });
-        return found == analysis.tracks.end() ? nullptr : &*found;
-    }
-
     /// The box of time and of the last axis that a track fills.
     Viewport::Box boxOf(const Track &track, const Analysis &analysis)
     {
@@ -366,7 +359,7 @@ std::vector<Track> ComparePanel::tracksAlone(const Comparer::Result &result) con
         if (compared.in() == In::Both || !m_filters[static_cast<int>(compared.in())]->isChecked()
             || (!compared.b && !haveSameAxes))
             continue;
-        if (const Track *track = trackOf(compared.b ? *result.b : *result.a, compared.event().id))
+        if (const Track *track = trackOfId((compared.b ? result.b : result.a)->tracks, compared.event().id))
             alone.push_back(*track);
     }
     return alone;
@@ -421,7 +414,7 @@ void ComparePanel::goTo(int row)
         result->comparison.events[static_cast<std::size_t>(item->data(Qt::UserRole).toInt())];
     if (compared.b)
         return emit eventActivated(compared.b->id);
-    const Track *track = trackOf(*result->a, compared.a->id);
+    const Track *track = trackOfId(result->a->tracks, compared.a->id);
     if (!track || m_document.hasPings())
         return;
     m_document.viewport().reveal(boxOf(*track, *result->a));

@@ -311,6 +311,8 @@ void checkSettings(const AnalysisSettings &settings)
         if (const auto value = f.get(settings))
             checkFieldValue(f, *value);
     checkFamily(settings.family);
+    if (settings.noise.causal) // tracks that a stronger family explains are known at the end
+        checkHasNoFamily(settings, "is not possible with noise.causal=true");
     checkSlopes(settings.model);
     if (settings.conventional.hits > settings.conventional.window)
         throw fieldError("conventional.hits", std::to_string(settings.conventional.hits),
@@ -320,6 +322,14 @@ void checkSettings(const AnalysisSettings &settings)
              isInBins ? slopeCount(settings.model) : std::max(1, static_cast<int>(settings.model.slopeChange.size())));
     checkLaw("model.rangeRateChange", settings.model.rangeRateChange, 1);
     checkLaw("model.bearingRateChange", settings.model.bearingRateChange, 1);
+}
+
+void checkHasNoFamily(const AnalysisSettings &settings, std::string why)
+{
+    if (!settings.family.isNone())
+        throw fieldError("family.relation",
+                         std::string(FamilySettings::relationNames[static_cast<std::size_t>(settings.family.relation)]),
+                         std::move(why));
 }
 
 Stage firstStale(const AnalysisSettings &before, const AnalysisSettings &after)

@@ -109,6 +109,10 @@ void setSetting(AnalysisSettings &settings, std::string_view name, std::string_v
 /// Checks what no single field can: laws that must sum to 1, orders of limits. Throws Error.
 void checkSettings(const AnalysisSettings &settings);
 
+/// For what knows single lines only. Throws Error naming family.relation where a family is set, and `why` it is not
+/// possible.
+void checkHasNoFamily(const AnalysisSettings &settings, std::string why);
+
 /// The stages of the chain, in order; a change of one makes those after it stale.
 enum class Stage { Spectrogram, Noise, Detector, Nothing };
 

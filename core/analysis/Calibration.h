@@ -80,6 +80,14 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
                                                  const RunContext &context = {},
                                                  CalibrationDepth depth = CalibrationDepth::Refined);
 
+/// The same for the frames of a spectrogram, or of a family over it, with the window as the spectrogram has it.
+std::shared_ptr<const Calibration> calibrateBand(AnalysisSettings settings, const Spectrogram &spectrogram,
+                                                 const RunContext &context = {},
+                                                 CalibrationDepth depth = CalibrationDepth::Refined);
+
+/// Cells × frames of an hour of these.
+double cellFramesInAnHour(const FamilySettings &family, const Spectrogram &spectrogram);
+
 /// The model on a piece of its grid large enough to learn its answer to noise: where it has more than 20 000 cells, the
 /// longest bounded axis is cut to about 5000 cells in all and made cyclic, so that no path runs off the piece. A
 /// sonar's bounded range axis loses such paths, hence its false alarms come 13 to 40 % short of what is found here.

@@ -164,9 +164,8 @@ SignalPath pathOf(const Analysis &analysis, const Event &event)
     const std::vector<Axis> &axes = analysis.grid().axes;
     for (const Axis &axis : axes)
         path.tolerance.push_back(toleranceCells * axis.step);
-    const auto track =
-        std::find_if(analysis.tracks.begin(), analysis.tracks.end(), [&](const Track &t) { return t.id == event.id; });
-    if (track == analysis.tracks.end() || track->points.empty()) {
+    const Track *track = trackOfId(analysis.tracks, event.id);
+    if (!track || track->points.empty()) {
         path.seconds = {event.detectSeconds};
         path.position = {event.position};
         return path;

@@ -208,8 +208,8 @@ std::shared_ptr<Analysis> analyse(RecordingPointer recording, const AnalysisSett
         analysis->inputAlong = previous->inputAlong;
     } else {
         const auto spectrogram = std::make_shared<Spectrogram>(recording, settings.spectrogram, settings.selection);
-        publisher =
-            ProgressPublisher(pictures, spectrogram->time(), familyAxis(settings.family, *spectrogram), settings);
+        publisher = ProgressPublisher(pictures, spectrogram->time(),
+                                      familyAxis(settings.family, spectrogram->frequency()), settings);
         if (settings.family.isNone())
             publisher.publishQuickLook(spectrogram, settings.noise, context.part(0.0, 0.01));
         normalisePlan(*analysis, spectrogram, context.part(0.01, 0.2));
@@ -225,6 +225,7 @@ namespace {
                                          const AnalysisSettings &settings)
     {
         checkSettings(settings);
+        checkHasNoFamily(settings, "requires a recording; these are ready-made frames");
         auto analysis = std::make_shared<Analysis>();
         analysis->settings = settings;
         analysis->frames = std::move(frames);

@@ -73,4 +73,16 @@ std::shared_ptr<const Calibration> calibrateBand(const AnalysisSettings &setting
                : withShareOfEnds(*wide, *narrow, static_cast<double>(simulated) / static_cast<double>(bins));
 }
 
+double cellFramesInAnHour(const FamilySettings &family, const Spectrogram &spectrogram)
+{
+    return static_cast<double>(familyAxis(family, spectrogram.frequency()).count) * 3600.0 / spectrogram.time().step;
+}
+
+std::shared_ptr<const Calibration> calibrateBand(AnalysisSettings settings, const Spectrogram &spectrogram,
+                                                 const RunContext &context, CalibrationDepth depth)
+{
+    settings.spectrogram.windowSeconds = spectrogram.windowSeconds();
+    return calibrateBand(settings, familyAxis(settings.family, spectrogram.frequency()).count, context, depth);
+}
+
 } // namespace faintline

@@ -49,14 +49,13 @@ namespace {
         };
     }
 
-    /// A real recording's spectrum overlaps with its mirror image at 0 Hz, where there is often a constant as well, and
-    /// at half the rate: y has other statistics there (χ² of one degree of freedom) and a line none to itself. Not so
-    /// in a band that was asked for.
-    std::vector<std::vector<Index>> excludedPlaces(const Spectrogram &spectrogram, Index inhibitBins)
+    /// The ends of a real recording's spectrum, where a line has no statistics to itself. Not so in a band that was asked
+    /// for, nor of a family, which leaves its members out there.
+    std::vector<std::vector<Index>> excludedPlaces(const Spectrogram &spectrogram, const FamilySettings &family,
+                                                   Index inhibitBins)
     {
-        const SelectionSettings &selection = spectrogram.selection();
         const Index bins = spectrogram.frequency().count;
-        if (spectrogram.recording().info().isComplex || selection.lowHz < selection.highHz || bins < 8 * inhibitBins)
+        if (!spectrogram.hasRealEnds() || !family.isNone() || bins < 8 * inhibitBins)
             return {};
         return {{0}, {bins - 1}};
     }
@@ -98,8 +97,7 @@ namespace {
             binsPerCell = spectrogram->binsPerCell();
             chain.leakageExtent = leakageExtentOf(*spectrogram);
             chain.skirtStep = static_cast<Index>(std::ceil(binsPerCell));
-            if (settings.family.isNone()) // a family leaves its members out there
-                chain.excluded = excludedPlaces(*spectrogram, inBins(settings.decide.inhibitCells).back());
+            chain.excluded = excludedPlaces(*spectrogram, settings.family, inBins(settings.decide.inhibitCells).back());
         }
         chain.inhibitCells = inBins(settings.decide.inhibitCells);
         if (!settings.decide.forgetCells.empty())

@@ -1,5 +1,6 @@
 #include "analysis/events.h"
 
+#include "base/Error.h"
 #include "base/logmath.h"
 
 #include <algorithm>
@@ -114,6 +115,22 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
     }
     sortEvents(result);
     return result;
+}
+
+Event chosenEvent(const Analysis &analysis, int number)
+{
+    const std::vector<Event> found = events(analysis);
+    if (found.empty())
+        throw Error("detection", "found no event; a lower threshold finds more (decide.falseAlarmsPerHour)");
+    const auto chosen =
+        number == 0
+            ? std::max_element(found.begin(), found.end(),
+                               [](const Event &a, const Event &b) { return a.statistic < b.statistic; })
+            : std::find_if(found.begin(), found.end(), [number](const Event &event) { return event.id == number; });
+    if (chosen == found.end())
+        throw Error("event " + std::to_string(number),
+                    "there is no such event; 'detect' lists the " + std::to_string(found.size()) + " there are");
+    return *chosen;
 }
 
 void sortEvents(std::vector<Event> &events)

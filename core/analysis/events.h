@@ -55,4 +55,7 @@ std::vector<Event> events(const AnalysisPlan &plan, const std::vector<Track> &tr
 /// By onset, then frequency: the order of the above.
 void sortEvents(std::vector<Event> &events);
 
+/// The event of that number, or, of number 0, the one with the largest statistic. Throws Error where there is none.
+Event chosenEvent(const Analysis &analysis, int number);
+
 } // namespace faintline

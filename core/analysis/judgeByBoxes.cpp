@@ -17,10 +17,9 @@ namespace {
         const double shorter = std::min(box.endSeconds - box.startSeconds, event.endSeconds - event.onsetSeconds);
         if (to < from || to - from < leastShare * shorter)
             return false;
-        const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(),
-                                        [&](const Track &one) { return one.id == event.id; });
-        if (track == analysis.tracks.end() || !box.lowHz)
-            return track != analysis.tracks.end();
+        const Track *track = trackOfId(analysis.tracks, event.id);
+        if (!track || !box.lowHz)
+            return track;
         const Axis &frequency = analysis.grid().axes.front();
         const double margin = toleranceBins * frequency.step;
         const double half = 0.5 * analysis.time().step; // a box shorter than a frame still holds one

@@ -126,7 +126,7 @@ LearnedMotion learnMotion(const Analysis &analysis, const RunContext &context)
     motion.frames = std::accumulate(changes.begin(), changes.end(), 0.0);
     motion.presentLnK = analysis.calibration->lnK;
     const AnalysisSettings settings = withLearnedMotion(analysis, motion);
-    const auto calibration = calibrateBand(settings, analysis.grid().axes.back().count, context.part(0.8, 1.0));
+    const auto calibration = calibrateBand(settings, spectrogramOf(analysis), context.part(0.8, 1.0));
     motion.learnedLnK = calibration->lnK;
     motion.presentThreshold = analysis.threshold;
     motion.learnedThreshold = thresholdNats(settings.decide, *calibration, analysis.cellFramesPerHour);

@@ -26,7 +26,7 @@ void normalisePlan(AnalysisPlan &plan, std::shared_ptr<const Spectrogram> spectr
 void calibratePlan(AnalysisPlan &plan, const RunContext &context, CalibrationDepth depth)
 {
     plan.model = makeModel(plan.settings.model, plan.grid());
-    plan.calibration = calibrateBand(plan.settings, plan.grid().axes.back().count, context, depth);
+    plan.calibration = calibrateBand(plan.settings, *plan.frames->spectrogram(), context, depth);
     plan.cellFramesPerHour = static_cast<double>(plan.grid().size()) * 3600.0 / plan.time().step;
     plan.threshold = thresholdNats(plan.settings.decide, *plan.calibration, plan.cellFramesPerHour);
 }

@@ -24,13 +24,15 @@ namespace {
         Reader(const Analysis &analysis, SpectrumLevel level)
             : m_frames(*analysis.frames),
               m_spectrogram(level == SpectrumLevel::Density ? analysis.frames->spectrogram() : nullptr),
-              m_values(static_cast<std::size_t>(analysis.grid().size()))
+              m_values(static_cast<std::size_t>(axis().count))
         {
             if (!m_spectrogram)
                 return;
             const RecordingInfo &info = m_spectrogram->recording().info();
             m_unit = (info.isComplex ? 1.0 : 2.0) * std::pow(4.0, m_spectrogram->scaleExponent()) / info.sampleRateHz;
         }
+
+        const Axis &axis() const { return m_spectrogram ? m_spectrogram->frequency() : m_frames.grid().axes.back(); }
 
         double value(std::size_t cell) const { return m_unit * static_cast<double>(m_values[cell]); }
 
@@ -55,9 +57,9 @@ Spectra spectraOf(const Analysis &analysis, double seconds, double fromSeconds, 
                   const RunContext &context)
 {
     const Axis &time = analysis.time();
-    const Axis &axis = analysis.grid().axes.back();
-    const auto cells = static_cast<std::size_t>(analysis.grid().size());
     Reader reader(analysis, level);
+    const Axis &axis = reader.axis();
+    const auto cells = static_cast<std::size_t>(axis.count);
     Spectra spectra;
     std::vector<double> counts(cells, 0.0);
     spectra.mean.assign(cells, 0.0);

@@ -25,9 +25,8 @@ SurrogateCount countOnSurrogates(RecordingPointer recording, const AnalysisSetti
     checkSettings(settings);
     const Spectrogram spectrogram(recording, settings.spectrogram, settings.selection);
     const auto background = estimateBackground(spectrogram, settings.noise, context.part(0.0, 0.05));
-    const Index cells = familyAxis(settings.family, spectrogram).count;
-    const auto calibration = calibrateBand(settings, cells, context.part(0.05, 0.2));
-    const double cellFramesPerHour = static_cast<double>(cells) * 3600.0 / spectrogram.time().step;
+    const auto calibration = calibrateBand(settings, spectrogram, context.part(0.05, 0.2));
+    const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
 
     SurrogateCount result;
     result.runs = runs;

@@ -104,13 +104,12 @@ namespace {
         json["captures"] = Json::array({{{"core:sample_start", 0}, {"core:frequency", centre}}});
         json["annotations"] = Json::array();
         for (const Event &e : events(analysis)) {
-            const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(),
-                                            [&](const Track &t) { return t.id == e.id; });
+            const Track &track = *trackOfId(analysis.tracks, e.id);
             double low = e.position.back();
             double high = low;
             const Axis &frequency = analysis.grid().axes.back();
-            for (std::size_t i = 0; i < track->points.size(); ++i) {
-                const double hz = frequency.value(track->lastPosition(i, frequency));
+            for (std::size_t i = 0; i < track.points.size(); ++i) {
+                const double hz = frequency.value(track.lastPosition(i, frequency));
                 low = std::min(low, hz);
                 high = std::max(high, hz);
             }

@@ -27,9 +27,8 @@ namespace {
         if (analysis.grid().axes.size() != 1)
             return;
         box.lowHz = box.highHz = event.position.back();
-        const auto track = std::find_if(analysis.tracks.begin(), analysis.tracks.end(),
-                                        [&](const Track &t) { return t.id == event.id; });
-        if (track == analysis.tracks.end())
+        const Track *track = trackOfId(analysis.tracks, event.id);
+        if (!track)
             return;
         for (const TrackPoint &point : track->points) {
             const double hz = analysis.grid().axes.back().value(static_cast<double>(point.cell));

@@ -95,7 +95,7 @@ namespace {
             const auto endless = std::make_shared<StreamRecording>(m_buffer, std::nullopt);
             const Spectrogram geometry(endless, settings.spectrogram, settings.selection);
             // It takes seconds the first time: meanwhile the first block comes in.
-            (void)calibrateBand(settings, geometry.frequency().count, m_context);
+            (void)calibrateBand(settings, geometry, m_context);
             const Index first = geometry.firstSample();
             m_buffer->waitFor(first + CausalSpectrogram::samplesOfFirstBlock(geometry, settings.noise));
             if (m_buffer->length() < first + geometry.windowSamples())

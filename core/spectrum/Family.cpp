@@ -1,6 +1,5 @@
 #include "spectrum/Family.h"
 
-#include "recording/Recording.h"
 #include "spectrum/NormalisedPower.h"
 #include "spectrum/Spectrogram.h"
 
@@ -8,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -45,28 +45,14 @@ namespace {
         return -std::log(-std::expm1(K * std::log1p(-std::exp(-maximum))));
     }
 
-    /// Of a band, the cells of a fundamental all of whose members lie in it, neighbouring ones apart.
-    Axis fundamentalAxis(const FamilySettings &settings, const Axis &band)
+    /// The smallest distance between two members; ∞ of one.
+    double closest(std::vector<double> members)
     {
-        constexpr double apart = 3.0; // bins between neighbouring multiples
-        Axis axis = band;
-        axis.step = band.step / familyCellsPerBin(settings);
-        const auto [least, most] = std::minmax_element(settings.members.begin(), settings.members.end());
-        const double first = std::max(apart * band.step, band.value(0.0) / *least);
-        const double last = band.last() / *most;
-        axis.first = axis.step * std::ceil(first / axis.step);
-        axis.count = static_cast<Index>(std::floor((last - axis.first) / axis.step)) + 1;
-        if (axis.count < 1)
-            throw fieldError("family.members", formatFieldValue(settings.members),
-                             "no fundamental has all of these multiples in the band");
-        return axis;
-    }
-
-    /// Whether the band ends at 0 Hz and half the rate, where y has other statistics and lines have none to themselves.
-    bool endsAreOthers(const Spectrogram &spectrogram)
-    {
-        return !spectrogram.recording().info().isComplex
-               && !(spectrogram.selection().lowHz < spectrogram.selection().highHz);
+        std::sort(members.begin(), members.end());
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 1; i < members.size(); ++i)
+            least = std::min(least, members[i] - members[i - 1]);
+        return least;
     }
 
     FamilyMap mapOf(const FamilySettings &settings, const NormalisedFrames &lines, FamilyFrames::Band band)
@@ -75,7 +61,7 @@ namespace {
         const Axis &frequency = lines.grid().axes.back();
         if (band == FamilyFrames::Band::Closed)
             return FamilyMap::onRing(settings, frequency.count, 1.0 / frequency.step);
-        return {settings, frequency, spectrogram && endsAreOthers(*spectrogram)};
+        return {settings, frequency, spectrogram && spectrogram->hasRealEnds()};
     }
 
 } // namespace
@@ -105,6 +91,8 @@ void checkFamily(const FamilySettings &settings)
         refuse("needs at least one member, such as 1, 2, 3 (harmonics) or -50, 0, 50 (offsets)");
     if (settings.members.size() > mostMembers)
         refuse("at most 64 members are possible");
+    if (closest(settings.members) == 0.0)
+        refuse("must not name a member twice");
     if (settings.relation == FamilySettings::Relation::Harmonics)
         for (const double member : settings.members)
             if (!(member > 0.0 && member <= largestMultiple))
@@ -126,6 +114,32 @@ double familyCellsPerBin(const FamilySettings &settings)
                : 1.0;
 }
 
+Axis familyAxis(const FamilySettings &settings, const Axis &band)
+{
+    checkFamily(settings);
+    if (settings.isNone())
+        return band;
+    const auto refuse = [&](const char *why) {
+        throw fieldError("family.members", formatFieldValue(settings.members), why);
+    };
+    if (settings.relation == FamilySettings::Relation::Offsets) {
+        if (closest(settings.members) < band.step)
+            refuse("must lie at least a bin apart; a longer window (spectrogram.windowSeconds) has narrower bins");
+        return band;
+    }
+    constexpr double apart = 3.0; // bins between neighbouring members
+    Axis axis = band;
+    axis.name = "fundamental " + band.name;
+    axis.step = band.step / familyCellsPerBin(settings);
+    const auto [least, most] = std::minmax_element(settings.members.begin(), settings.members.end());
+    const double first = std::max({band.step, apart * band.step / closest(settings.members), band.value(0.0) / *least});
+    axis.first = axis.step * std::ceil(first / axis.step);
+    axis.count = static_cast<Index>(std::floor((band.last() / *most - axis.first) / axis.step)) + 1;
+    if (axis.count < 1)
+        refuse("must have multiples that all lie in the band, for some fundamental");
+    return axis;
+}
+
 double ringBands(const FamilySettings &settings)
 {
     if (settings.isNone())
@@ -144,11 +158,8 @@ std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
 }
 
 FamilyMap::FamilyMap(const FamilySettings &settings, const Axis &frequency, bool innerOnly)
-    : m_settings(settings), m_frequency(frequency), m_bins(frequency.count)
+    : m_settings(settings), m_frequency(familyAxis(settings, frequency)), m_bins(frequency.count)
 {
-    checkFamily(settings);
-    if (settings.relation == FamilySettings::Relation::Harmonics)
-        m_frequency = fundamentalAxis(settings, frequency);
     const Index first = innerOnly ? 1 : 0;
     const Index last = m_bins - 1 - first;
     const auto cells = static_cast<std::size_t>(m_frequency.count);
@@ -161,7 +172,8 @@ FamilyMap::FamilyMap(const FamilySettings &settings, const Axis &frequency, bool
         }
     }
     if (std::all_of(m_places.begin(), m_places.end(), [](std::int32_t place) { return place < 0; }))
-        throw fieldError("family.members", formatFieldValue(settings.members), "none of them lies in the band");
+        throw fieldError("family.members", formatFieldValue(settings.members),
+                         "must have at least one member in the band");
 }
 
 FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double binsPerHz)
@@ -190,53 +202,47 @@ FamilyMap FamilyMap::onRing(const FamilySettings &settings, Index bins, double b
     return map;
 }
 
+namespace {
+
+    /// Takes the members of every cell together with `combine`, then brings what K of them gave to the law of one cell.
+    template <class Combine, class Law>
+    void gather(std::span<const float> y, std::span<const std::int32_t> places, std::span<float> out, Combine combine,
+                Law law)
+    {
+        const std::size_t cells = out.size();
+        std::vector<std::uint8_t> counts(cells, 0);
+        std::fill(out.begin(), out.end(), 0.0f);
+        for (; !places.empty(); places = places.subspan(cells))
+            for (std::size_t cell = 0; cell < cells; ++cell) {
+                if (places[cell] < 0)
+                    continue;
+                const float value = y[static_cast<std::size_t>(places[cell])];
+                if (std::isnan(value))
+                    continue;
+                out[cell] = combine(out[cell], value);
+                ++counts[cell];
+            }
+        for (std::size_t cell = 0; cell < cells; ++cell)
+            if (counts[cell] == 0)
+                out[cell] = std::numeric_limits<float>::quiet_NaN();
+            else if (counts[cell] > 1)
+                out[cell] = law(out[cell], static_cast<std::size_t>(counts[cell]));
+    }
+
+    float summed(float sum, std::size_t members)
+    {
+        return sumLawOf(members)(sum / static_cast<float>(members));
+    }
+
+} // namespace
+
 void FamilyMap::apply(std::span<const float> y, std::span<float> out) const
 {
-    m_settings.present == FamilySettings::Present::Together ? together(y, out) : inTurn(y, out);
-}
-
-void FamilyMap::together(std::span<const float> y, std::span<float> out) const
-{
-    const std::size_t cells = out.size();
-    std::vector<std::uint8_t> counts(cells, 0);
-    std::fill(out.begin(), out.end(), 0.0f);
-    for (auto place = m_places.begin(); place != m_places.end(); place += static_cast<std::ptrdiff_t>(cells))
-        for (std::size_t cell = 0; cell < cells; ++cell) {
-            const std::int32_t bin = place[static_cast<std::ptrdiff_t>(cell)];
-            if (bin < 0 || std::isnan(y[static_cast<std::size_t>(bin)]))
-                continue;
-            out[cell] += y[static_cast<std::size_t>(bin)];
-            ++counts[cell];
-        }
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        const std::size_t K = counts[cell];
-        if (K == 0)
-            out[cell] = std::numeric_limits<float>::quiet_NaN();
-        else if (K > 1)
-            out[cell] = sumLawOf(K)(out[cell] / static_cast<float>(K));
-    }
-}
-
-void FamilyMap::inTurn(std::span<const float> y, std::span<float> out) const
-{
-    const std::size_t cells = out.size();
-    std::vector<std::uint8_t> counts(cells, 0);
-    std::fill(out.begin(), out.end(), 0.0f);
-    for (auto place = m_places.begin(); place != m_places.end(); place += static_cast<std::ptrdiff_t>(cells))
-        for (std::size_t cell = 0; cell < cells; ++cell) {
-            const std::int32_t bin = place[static_cast<std::ptrdiff_t>(cell)];
-            if (bin < 0 || std::isnan(y[static_cast<std::size_t>(bin)]))
-                continue;
-            out[cell] = std::max(out[cell], y[static_cast<std::size_t>(bin)]);
-            ++counts[cell];
-        }
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        const std::size_t K = counts[cell];
-        if (K == 0)
-            out[cell] = std::numeric_limits<float>::quiet_NaN();
-        else if (K > 1)
-            out[cell] = largestOf(out[cell], K);
-    }
+    const auto larger = [](float a, float b) { return std::max(a, b); };
+    if (m_settings.present == FamilySettings::Present::Together)
+        gather(y, m_places, out, std::plus<float>(), summed);
+    else
+        gather(y, m_places, out, larger, largestOf);
 }
 
 FamilyFrames::FamilyFrames(NormalisedFramesPointer lines, const FamilySettings &settings, Band band)
@@ -259,13 +265,6 @@ NormalisedFramesPointer familyFrames(NormalisedFramesPointer lines, const Family
                                      FamilyFrames::Band band)
 {
     return settings.isNone() ? lines : std::make_shared<FamilyFrames>(std::move(lines), settings, band);
-}
-
-Axis familyAxis(const FamilySettings &settings, const Spectrogram &spectrogram)
-{
-    if (settings.isNone())
-        return spectrogram.frequency();
-    return FamilyMap(settings, spectrogram.frequency(), endsAreOthers(spectrogram)).frequency();
 }
 
 } // namespace faintline

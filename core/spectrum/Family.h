@@ -40,6 +40,11 @@ struct FamilySettings {
 /// Checks what no single field can. Throws Error naming the field.
 void checkFamily(const FamilySettings &settings);
 
+/// The axis of a family over a band: of offsets, and of none, the band's; of harmonics fundamentals all of whose members
+/// lie in it at least 3 bins apart, in steps of 1/max m_k bin, so that the highest member moves by a bin. Throws Error
+/// where there is none, and where offsets lie less than a bin apart.
+Axis familyAxis(const FamilySettings &settings, const Axis &band);
+
 /// The same with distances of `factor` times as many Hz.
 FamilySettings scaledFamily(FamilySettings settings, double factor);
 
@@ -61,8 +66,7 @@ std::vector<double> memberFrequencies(const FamilySettings &settings, double hz)
 /// were observed, and without any y is NaN. The sum is sufficient for equal weak members, the maximum close to it for one
 /// member at a time. Every detector works on this y as on any other, and is calibrated on it.
 ///
-/// Axis of offsets: that of the frames. Of harmonics: fundamentals all of whose members lie in the band, in steps of
-/// 1/max m_k bin, so that the highest member moves by a bin. Oracle: direct sums; Boost.Math. Thread-safe.
+/// Oracle: direct sums; Boost.Math. Thread-safe.
 class FamilyMap
 {
 public:
@@ -75,16 +79,13 @@ public:
     /// bins/ringBands cells.
     static FamilyMap onRing(const FamilySettings &settings, Index bins, double binsPerHz);
 
-    const Axis &frequency() const { return m_frequency; }
+    const Axis &frequency() const { return m_frequency; } ///< as familyAxis has it
 
     /// One frame: y of all bins of the band → y of frequency().count cells.
     void apply(std::span<const float> y, std::span<float> out) const;
 
 private:
     FamilyMap() = default;
-    void together(std::span<const float> y, std::span<float> out) const;
-    void inTurn(std::span<const float> y, std::span<float> out) const;
-
     FamilySettings m_settings;
     Axis m_frequency;
     Index m_bins = 0;
@@ -103,7 +104,6 @@ public:
     void read(Index first, Index count, std::span<float> out) const override;
 
     const Spectrogram *spectrogram() const override { return m_lines->spectrogram(); }
-    const NormalisedFrames &lines() const { return *m_lines; }
 
 private:
     NormalisedFramesPointer m_lines;
@@ -113,8 +113,5 @@ private:
 /// The frames of a family over `lines`; the lines themselves where there is none.
 NormalisedFramesPointer familyFrames(NormalisedFramesPointer lines, const FamilySettings &settings,
                                      FamilyFrames::Band band = FamilyFrames::Band::Open);
-
-/// The frequency axis of such frames over a spectrogram.
-Axis familyAxis(const FamilySettings &settings, const Spectrogram &spectrogram);
 
 } // namespace faintline

@@ -243,6 +243,11 @@ void Spectrogram::transformFrame(std::span<const float> samples, Fft::Buffer &bu
     }
 }
 
+bool Spectrogram::hasRealEnds() const
+{
+    return !m_recording->info().isComplex && !(m_selection.lowHz < m_selection.highHz);
+}
+
 double Spectrogram::windowSeconds() const
 {
     return m_windowSamples / m_recording->info().sampleRateHz;

@@ -14,6 +14,16 @@ namespace {
 
     constexpr Index blockSamples = 8192;
 
+    /// Positive frequencies twice, negative ones not, over the length.
+    std::vector<float> analyticGains()
+    {
+        constexpr std::size_t half = blockSamples / 2;
+        std::vector<float> gains(2 * half, 0.0f);
+        std::fill_n(gains.begin(), half, 2.0f / static_cast<float>(blockSamples));
+        gains[0] = gains[half] = 1.0f / static_cast<float>(blockSamples);
+        return gains;
+    }
+
     void checkTarget(double toHz, const RecordingInfo &info)
     {
         const double lowest = info.isComplex ? -0.5 * info.sampleRateHz : 0.0;
@@ -28,9 +38,8 @@ namespace {
 
 StraightenedRecording::StraightenedRecording(RecordingPointer base, int channel, const FrequencyCurve &curve,
                                              double toHz)
-    : m_base(std::move(base)), m_channel(channel), m_curve(curve), m_toHz(toHz),
-      m_fft(std::make_shared<Fft>(static_cast<int>(blockSamples), Fft::Input::Complex)),
-      m_window(static_cast<std::size_t>(blockSamples))
+    : m_base(std::move(base)), m_channel(channel), m_curve(curve), m_toHz(toHz), m_filter(blockSamples),
+      m_gains(analyticGains())
 {
     m_info = m_base->info();
     checkTarget(toHz, m_info);
@@ -38,9 +47,6 @@ StraightenedRecording::StraightenedRecording(RecordingPointer base, int channel,
         throw Error("channel " + std::to_string(channel), "the recording has no such channel");
     m_info.channelCount = 1;
     m_info.notes.push_back("Straightened: shifted so that a line stays at " + formatNumber(toHz) + " Hz.");
-    for (std::size_t n = 0; n < m_window.size(); ++n)
-        m_window[n] = static_cast<float>(
-            std::sin(std::numbers::pi * (static_cast<double>(n) + 0.5) / static_cast<double>(blockSamples)));
 }
 
 void StraightenedRecording::read(int /*channel*/, Index first, Index count, std::span<float> out) const
@@ -52,14 +58,13 @@ void StraightenedRecording::read(int /*channel*/, Index first, Index count, std:
             return;
         }
         std::fill(inside.begin(), inside.end(), 0.0f);
-        // Block b covers samples b·length/2 … b·length/2 + length - 1; -1 is the first that reaches into the recording.
-        constexpr Index hop = blockSamples / 2;
-        for (Index block = from / hop - 1; block * hop < from + std::ssize(inside); ++block)
+        const Index end = from + std::ssize(inside);
+        for (Index block = m_filter.firstBlockOf(from); m_filter.beginOf(block) < end; ++block)
             addBlock(block, from, inside);
     });
 }
 
-/// Of interleaved samples: a → a·e^(-iθ), θ = 2π (∫ f dt - f0·t), which is exact every few samples and linear between them.
+/// Of interleaved samples: a → a·e^(-iθ), θ = 2π (∫ f dt - f0·t), exact every few samples and linear between them.
 void StraightenedRecording::turn(Index first, std::span<float> samples) const
 {
     constexpr Index linear = 32; // samples, from multiples of it on, so that no value depends on where a read begins
@@ -88,39 +93,18 @@ void StraightenedRecording::turn(Index first, std::span<float> samples) const
     }
 }
 
-/// Adds a block's share to real samples from `first` on.
+/// Adds a block's share to real samples from `first` on. Turning and the second window may change places.
 void StraightenedRecording::addBlock(Index block, Index first, std::span<float> out) const
 {
-    const Index begin = block * (blockSamples / 2);
+    const Index begin = m_filter.beginOf(block);
     std::vector<float> real(static_cast<std::size_t>(blockSamples));
     m_base->read(m_channel, begin, blockSamples, real);
-    const std::unique_ptr<Fft::Buffer> buffer = m_fft->buffer();
-    const std::span<float> samples = buffer->input();
-    for (std::size_t n = 0; n < real.size(); ++n) {
-        samples[2 * n] = m_window[n] * real[n];
-        samples[2 * n + 1] = 0.0f;
-    }
-    m_fft->run(*buffer);
-    // Positive frequencies twice, negative ones not; the inverse transform by a forward one: F⁻¹{X} = conj(F{conj X})/N.
-    std::vector<std::complex<float>> spectrum(buffer->output().begin(), buffer->output().end());
-    constexpr std::size_t half = blockSamples / 2;
-    for (std::size_t bin = 0; bin < spectrum.size(); ++bin) {
-        const float gain = bin == 0 || bin == half ? 1.0f : bin < half ? 2.0f : 0.0f;
-        samples[2 * bin] = gain * spectrum[bin].real() / static_cast<float>(blockSamples);
-        samples[2 * bin + 1] = -gain * spectrum[bin].imag() / static_cast<float>(blockSamples);
-    }
-    m_fft->run(*buffer);
-    const Index from = std::max(begin, first);
-    const Index to = std::min(begin + blockSamples, first + std::ssize(out));
-    std::vector<float> analytic;
-    for (Index n = from; n < to; ++n) {
-        const std::complex<float> a = std::conj(buffer->output()[static_cast<std::size_t>(n - begin)]);
-        analytic.insert(analytic.end(), {a.real(), a.imag()});
-    }
-    turn(from, analytic);
-    for (Index n = from; n < to; ++n)
-        out[static_cast<std::size_t>(n - first)] +=
-            m_window[static_cast<std::size_t>(n - begin)] * analytic[2 * static_cast<std::size_t>(n - from)];
+    std::vector<std::complex<float>> analytic(real.begin(), real.end());
+    m_filter.apply(analytic, m_gains);
+    turn(begin, {reinterpret_cast<float *>(analytic.data()), 2 * analytic.size()});
+    const Index end = std::min(begin + blockSamples, first + std::ssize(out));
+    for (Index n = std::max(begin, first); n < end; ++n)
+        out[static_cast<std::size_t>(n - first)] += analytic[static_cast<std::size_t>(n - begin)].real();
 }
 
 } // namespace faintline

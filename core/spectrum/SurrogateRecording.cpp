@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 
 namespace faintline {
@@ -32,17 +31,12 @@ SurrogateRecording::SurrogateRecording(const Spectrogram &spectrogram,
                                        std::shared_ptr<const NoiseBackground> background, std::uint64_t seed)
     : m_base(spectrogram.recordingPointer()), m_baseChannel(spectrogram.selection().channel),
       m_background(std::move(background)), m_seed(seed),
-      m_length(Fft::fastLength((spectrogram.windowSamples() + 1) / 2) * 2),
-      m_fft(std::make_shared<Fft>(static_cast<int>(m_length), Fft::Input::Complex)),
-      m_window(static_cast<std::size_t>(m_length))
+      m_filter(Fft::fastLength((spectrogram.windowSamples() + 1) / 2) * 2)
 {
     m_info = m_base->info();
     m_info.container = "surrogate";
     m_info.notes.push_back("Noise like that of " + m_base->info().path + ", without its signals.");
     m_step = quantisationStep(m_info.sampleType);
-    for (std::size_t n = 0; n < m_window.size(); ++n)
-        m_window[n] = static_cast<float>(
-            std::sin(std::numbers::pi * (static_cast<double>(n) + 0.5) / static_cast<double>(m_length)));
 }
 
 void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::span<float> out) const
@@ -50,10 +44,8 @@ void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::sp
     std::fill(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(count * m_info.floatsPerSample()), 0.0f);
     fill(first, count, out, [&](Index from, std::span<float> inside) {
         std::fill(inside.begin(), inside.end(), 0.0f);
-        // Block b covers samples b·length/2 … b·length/2 + length - 1; -1 is the first that reaches into the recording.
-        const Index hop = m_length / 2;
         const Index end = from + std::ssize(inside) / m_info.floatsPerSample();
-        for (Index block = from / hop - 1; block * hop < end; ++block)
+        for (Index block = m_filter.firstBlockOf(from); m_filter.beginOf(block) < end; ++block)
             addBlock(block, from, inside);
         if (m_step > 0.0)
             for (float &value : inside)
@@ -63,11 +55,10 @@ void SurrogateRecording::read(int /*channel*/, Index first, Index count, std::sp
     });
 }
 
-/// A block of white noise under the window, complex; half blocks have a random stream of their own, for each belongs to
-/// two blocks.
-void SurrogateRecording::fillWhite(Index block, std::span<float> samples) const
+/// A block of white noise, complex; half blocks have a random stream of their own, for each belongs to two blocks.
+void SurrogateRecording::fillWhite(Index block, std::span<std::complex<float>> samples) const
 {
-    const Index hop = m_length / 2;
+    const Index hop = m_filter.length() / 2;
     std::vector<float> normals(static_cast<std::size_t>(m_info.isComplex ? 2 * hop : hop));
     for (Index half = 0; half < 2; ++half) {
         Random random(m_seed, static_cast<std::uint64_t>(block + half + 1));
@@ -75,8 +66,8 @@ void SurrogateRecording::fillWhite(Index block, std::span<float> samples) const
         for (Index n = 0; n < hop; ++n) {
             const auto from = static_cast<std::size_t>(n);
             const auto to = static_cast<std::size_t>(half * hop + n);
-            samples[2 * to] = m_window[to] * (m_info.isComplex ? normals[2 * from] : normals[from]);
-            samples[2 * to + 1] = m_info.isComplex ? m_window[to] * normals[2 * from + 1] : 0.0f;
+            samples[to] = m_info.isComplex ? std::complex<float>(normals[2 * from], normals[2 * from + 1])
+                                           : std::complex<float>(normals[from]);
         }
     }
 }
@@ -85,12 +76,13 @@ void SurrogateRecording::fillWhite(Index block, std::span<float> samples) const
 std::vector<float> SurrogateRecording::gainsAt(double seconds) const
 {
     const Axis &frequency = m_background->frequency;
+    const Index length = m_filter.length();
     std::vector<float> ln(static_cast<std::size_t>(frequency.count));
     m_background->readLnPower(seconds, ln);
-    std::vector<float> gains(static_cast<std::size_t>(m_length));
-    for (Index bin = 0; bin < m_length; ++bin) {
-        const Index signedBin = 2 * bin < m_length ? bin : bin - m_length;
-        const double hz = m_info.sampleRateHz * static_cast<double>(signedBin) / static_cast<double>(m_length);
+    std::vector<float> gains(static_cast<std::size_t>(length));
+    for (Index bin = 0; bin < length; ++bin) {
+        const Index signedBin = 2 * bin < length ? bin : bin - length;
+        const double hz = m_info.sampleRateHz * static_cast<double>(signedBin) / static_cast<double>(length);
         const double last = static_cast<double>(frequency.count - 1);
         const double position = std::clamp(frequency.position(m_info.isComplex ? hz : std::abs(hz)), 0.0, last);
         const auto lower = static_cast<std::size_t>(position);
@@ -99,7 +91,7 @@ std::vector<float> SurrogateRecording::gainsAt(double seconds) const
         const double lnPower =
             (1.0 - fraction) * static_cast<double>(ln[lower]) + fraction * static_cast<double>(ln[upper]);
         gains[static_cast<std::size_t>(bin)] =
-            static_cast<float>(std::exp(0.5 * (m_background->lnUnit + lnPower)) / static_cast<double>(m_length));
+            static_cast<float>(std::exp(0.5 * (m_background->lnUnit + lnPower)) / static_cast<double>(length));
     }
     return gains;
 }
@@ -107,26 +99,17 @@ std::vector<float> SurrogateRecording::gainsAt(double seconds) const
 /// Adds a block's share to the samples from `first` on.
 void SurrogateRecording::addBlock(Index block, Index first, std::span<float> out) const
 {
-    const std::unique_ptr<Fft::Buffer> buffer = m_fft->buffer();
-    const std::span<float> samples = buffer->input();
+    const Index begin = m_filter.beginOf(block);
+    const Index length = m_filter.length();
+    const double middle = (static_cast<double>(begin) + 0.5 * static_cast<double>(length)) / m_info.sampleRateHz;
+    std::vector<std::complex<float>> samples(static_cast<std::size_t>(length));
     fillWhite(block, samples);
-    m_fft->run(*buffer);
-    const Index begin = block * (m_length / 2);
-    const double middle = (static_cast<double>(begin) + 0.5 * static_cast<double>(m_length)) / m_info.sampleRateHz;
-    const std::vector<float> gains = gainsAt(middle);
-    // The inverse transform by a forward one: F⁻¹{X} = conj(F{conj X})/N.
-    std::vector<std::complex<float>> shaped(buffer->output().begin(), buffer->output().end());
-    for (std::size_t bin = 0; bin < shaped.size(); ++bin) {
-        samples[2 * bin] = shaped[bin].real() * gains[bin];
-        samples[2 * bin + 1] = -shaped[bin].imag() * gains[bin];
-    }
-    m_fft->run(*buffer);
+    m_filter.apply(samples, gainsAt(middle));
     const Index floats = m_info.floatsPerSample();
-    const Index end = std::min(begin + m_length, first + std::ssize(out) / floats);
+    const Index end = std::min(begin + length, first + std::ssize(out) / floats);
     for (Index sample = std::max(begin, first); sample < end; ++sample) {
-        const auto from = static_cast<std::size_t>(sample - begin);
+        const std::complex<float> value = samples[static_cast<std::size_t>(sample - begin)];
         const auto to = static_cast<std::size_t>((sample - first) * floats);
-        const std::complex<float> value = std::conj(buffer->output()[from]) * m_window[from];
         out[to] += value.real();
         if (m_info.isComplex)
             out[to + 1] += value.imag();

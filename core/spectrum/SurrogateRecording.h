@@ -1,7 +1,7 @@
 #pragma once
 
 #include "recording/Recording.h"
-#include "spectrum/Fft.h"
+#include "spectrum/BlockFilter.h"
 #include "spectrum/NoiseBackground.h"
 #include "spectrum/Spectrogram.h"
 
@@ -15,7 +15,7 @@ namespace faintline {
 ///
 ///   s(n) = Σ_b w_b(n)·F⁻¹{ √B(t_b, f)·F{ w_b x } }(n),   Σ_b w_b(n)² = 1
 ///
-/// with blocks b as long as the spectrogram's window, half a block apart, and x white noise of unit variance. It has
+/// with blocks b as long as the spectrogram's window (BlockFilter), and x white noise of unit variance. It has
 /// the recording's length, rate, channel type and quantisation step; where the recording is digitally silent, so is
 /// this. Oracle: its own estimated background is the recording's. Thread-safe; samples are a pure function of
 /// (recording, background, seed, index).
@@ -28,7 +28,7 @@ public:
     void read(int channel, Index first, Index count, std::span<float> out) const override;
 
 private:
-    void fillWhite(Index block, std::span<float> samples) const;
+    void fillWhite(Index block, std::span<std::complex<float>> samples) const;
     std::vector<float> gainsAt(double seconds) const;
     void addBlock(Index block, Index first, std::span<float> out) const;
     void silence(Index first, std::span<float> out) const;
@@ -37,10 +37,8 @@ private:
     int m_baseChannel;
     std::shared_ptr<const NoiseBackground> m_background;
     std::uint64_t m_seed;
-    Index m_length; ///< of a block, even
-    std::shared_ptr<const Fft> m_fft;
-    std::vector<float> m_window; ///< √Hann
-    double m_step = 0.0;         ///< of quantisation; 0: none
+    BlockFilter m_filter;
+    double m_step = 0.0; ///< of quantisation; 0: none
 };
 
 } // namespace faintline

@@ -1,4 +1,5 @@
 #include "analysis/analyse.h"
+#include "base/Error.h"
 #include "recording/SimulatedRecording.h"
 
 #include <QtTest>
@@ -56,6 +57,8 @@ private slots:
     void findsOneFundamental();
     void findsSidebandsByTheirCarrier();
     void ordersFewFalseAlarms();
+    void isCalibratedInTheAutomaticWindow();
+    void isRefusedWhereLinesAreSingle();
 };
 
 void tst_families::findsOneFundamental_data()
@@ -114,6 +117,28 @@ void tst_families::ordersFewFalseAlarms()
     const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
     const auto count = analysis->tracks.size();
     QVERIFY2(count >= 8 && count <= 34, qPrintable(QString::number(count))); // Poisson, 99.8 %
+}
+
+/// Distances in Hz are cells of the window in use, whoever has chosen it.
+void tst_families::isCalibratedInTheAutomaticWindow()
+{
+    const RecordingPointer recording = harmonics(1, 0.0);
+    AnalysisSettings settings = familyOf({0.0, 4.0}, FamilySettings::Relation::Offsets);
+    settings.spectrogram.windowSeconds = 0.0;
+    const auto automatic = analyse(recording, settings);
+    settings.spectrogram.windowSeconds = automatic->frames->spectrogram()->windowSeconds();
+    QCOMPARE(automatic->threshold, analyse(recording, settings)->threshold);
+}
+
+void tst_families::isRefusedWhereLinesAreSingle()
+{
+    AnalysisSettings settings = familyOf({1, 2});
+    const auto frames =
+        std::make_shared<FrameArray>(Axis{"time", "s", 0.0, 1.0, 20, false},
+                                     Grid{{{"frequency", "Hz", 0.0, 1.0, 30, false}}}, std::vector<float>(600, 1.0f));
+    QVERIFY_EXCEPTION_THROWN(analyse(frames, settings), Error);
+    settings.noise.causal = true;
+    QVERIFY_EXCEPTION_THROWN(checkSettings(settings), Error);
 }
 
 QTEST_APPLESS_MAIN(tst_families)

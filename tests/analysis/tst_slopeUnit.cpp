@@ -74,7 +74,7 @@ void tst_slopeUnit::aBinAFrameIsTheFramesOwn()
         return;
     // The fundamental's bins are as fine as its highest multiple needs them.
     settings.family = {FamilySettings::Relation::Harmonics, {1.0, 2.0, 3.0}, FamilySettings::Present::Together};
-    const Axis fundamental = familyAxis(settings.family, spectrogram);
+    const Axis fundamental = familyAxis(settings.family, spectrogram.frequency());
     QCOMPARE(hzPerSecondOfABinAFrame(settings, recording->info()), fundamental.step / spectrogram.time().step);
 }
 

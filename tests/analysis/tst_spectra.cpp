@@ -37,6 +37,23 @@ class tst_spectra : public QObject
     Q_OBJECT
 
 private slots:
+    /// A density is that of the recording: on its own axis, not on the fundamental's.
+    void aFamilyHasTheRecordingsDensity()
+    {
+        LineScene scene;
+        scene.sampleRateHz = 500.0;
+        scene.durationSeconds = 30.0;
+        AnalysisSettings settings;
+        settings.spectrogram.windowSeconds = 0.5;
+        settings.family = {FamilySettings::Relation::Harmonics, {1.0, 2.0, 3.0}, FamilySettings::Present::Together};
+        const auto analysis = analyse(std::make_shared<SimulatedRecording>(scene), settings);
+        const Spectra density = spectraOf(*analysis, 10.0, 0.0, 30.0, SpectrumLevel::Density);
+        QCOMPARE(density.position.back(), 250.0);
+        QCOMPARE(density.mean.size(), density.position.size());
+        const Spectra ratio = spectraOf(*analysis, 10.0, 0.0, 30.0, SpectrumLevel::OverNoise);
+        QCOMPARE(ratio.position.back(), analysis->grid().axes.back().last());
+    }
+
     void whiteNoiseHasItsDensity()
     {
         for (const bool isComplex : {false, true}) {

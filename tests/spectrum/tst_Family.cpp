@@ -185,8 +185,13 @@ void tst_Family::refusesWhatIsNoFamily_data()
     using enum FamilySettings::Relation;
     QTest::newRow("no members") << family(Harmonics, {}) << "at least one member";
     QTest::newRow("a multiple of 0") << family(Harmonics, {0.0, 1.0}) << "must lie above 0";
-    QTest::newRow("too many") << family(Offsets, std::vector<double>(65, 0.0)) << "at most 64";
-    QTest::newRow("outside") << family(Offsets, {5000.0}) << "none of them lies in the band";
+    std::vector<double> many;
+    for (int i = 0; i < 65; ++i)
+        many.push_back(i);
+    QTest::newRow("too many") << family(Offsets, many) << "at most 64";
+    QTest::newRow("one twice") << family(Offsets, {0.0, 50.0, 0.0}) << "twice";
+    QTest::newRow("less than a bin apart") << family(Offsets, {0.0, 0.3}) << "at least a bin apart";
+    QTest::newRow("outside") << family(Offsets, {5000.0}) << "at least one member in the band";
 }
 
 void tst_Family::refusesWhatIsNoFamily()

@@ -19,8 +19,9 @@ struct DopplerOptimum {
 ///
 /// A value ψ of a parameter lies inside while √((min cost over the other three at ψ - cost)/variance) ≤ critical. From the
 /// optimum the profile is followed outwards, in steps that grow, until that is exceeded; the crossing is found by TOMS
-/// 748. Where one profile comes to places beyond another's limit, that one is followed further from there. An end at which it is not exceeded up to the limits of the parameter (f0 = 0, v = c or nothing of either, R a
-/// million times smaller or larger, t0 200 track lengths away) is open.
+/// 748. Where one profile comes to places beyond another's limit, that one is followed further from there. An end is open
+/// where it is not exceeded up to the limits of the parameter: f0 = 0, v = 0 and v = c, R a million times smaller or
+/// larger, t0 200 track lengths away.
 ///
 /// Where a profile comes upon a lower cost than the optimum's, `optimum` moves there, and the limits are those of the
 /// new one.

@@ -62,11 +62,11 @@ namespace {
     {
         const double beta = fit.pass.metresPerSecond / fit.propagation;
         if (!heard.mayBeIn && heard.mayBeAfter)
-            return "The source was still approaching, and what is known is f0/(1 - v/c), about "
-                   + shown(fit.pass.restHz / (1.0 - beta)) + " Hz.";
+            return "The source was still approaching; only f0/(1 - v/c), about " + shown(fit.pass.restHz / (1.0 - beta))
+                   + " Hz, is determined.";
         if (!heard.mayBeIn)
-            return "The source was already going away, and what is known is f0/(1 + v/c), about "
-                   + shown(fit.pass.restHz / (1.0 + beta)) + " Hz.";
+            return "The source was already going away; only f0/(1 + v/c), about "
+                   + shown(fit.pass.restHz / (1.0 + beta)) + " Hz, is determined.";
         if (!heard.mayBeBefore)
             return "It may be later: the source may still have been approaching.";
         if (!heard.mayBeAfter)
@@ -87,25 +87,23 @@ namespace {
     {
         if (!fit.metresPerSecond.low) {
             sentences.push_back(
-                "No Doppler shift stands out of the errors: the frequency is constant, and a source that "
-                "does not move explains it.");
+                "No Doppler shift exceeds the errors: the frequency is constant, as that of a source at rest.");
             return;
         }
         if (!fit.isBent)
-            sentences.push_back(
-                "A straight line fits the track nearly as well as a pass does; the intervals are widened "
-                "for that, and the estimates mean little.");
+            sentences.push_back("A straight line fits the track nearly as well as a pass; the intervals are widened "
+                                "accordingly, and the estimates are of little use.");
         const Heard heard(fit, points);
         if (!heard.isSurelyIn())
             sentences.push_back(
-                "The closest approach is not surely in the track, so rest frequency, speed and range are "
-                "told together at best, not apart. "
+                "The closest approach may lie outside the track, so rest frequency, speed and range cannot be "
+                "determined separately. "
                 + whereNotSeen(heard, fit));
         if (heard.mayBeIn && !fit.metresPerSecond.high)
             sentences.push_back(
-                "Speed and range cannot be told apart, because the fall of the frequency is not seen to "
-                "flatten: for a slow source only v²/R, about "
-                + accelerationText(fit, points) + ", is known.");
+                "Speed and range cannot be determined separately, because the track ends before the frequency "
+                "levels off: for a slow source only v²/R, about "
+                + accelerationText(fit, points) + ", is determined.");
         else if (!fit.metresPerSecond.high)
             sentences.push_back("The speed has no upper limit below the speed of propagation.");
         if (fit.metresPerSecond.high && !fit.rangeMetres.high)
@@ -118,12 +116,12 @@ namespace {
     {
         if (fit.deviationScale > suspiciousScale)
             sentences.push_back("The residuals are " + shown(fit.deviationScale)
-                                + " times as large as the track's own errors: a source on a straight line at constant "
-                                  "speed may not be what was heard.");
+                                + " times as large as the track's own errors: the source may not have moved on a "
+                                  "straight line at constant speed.");
         if (fit.effectivePoints < fewPoints)
-            sentences.push_back("The residuals keep their sign for long; the track counts as "
+            sentences.push_back("The residuals keep their sign for long stretches; the track counts as "
                                 + shown(fit.effectivePoints)
-                                + " independent points. A source that turns or changes its speed does that.");
+                                + " independent points. A source that turns or changes its speed causes this.");
         const auto count = std::count(fit.isLeftOut.begin(), fit.isLeftOut.end(), char(1));
         if (count > 0)
             sentences.push_back("Points left out because they lie more than four standard deviations off: "
@@ -138,15 +136,14 @@ std::vector<std::string> dopplerSentences(const DopplerFit &fit, const std::vect
     constexpr double sure = 6.0;
     if (riseInErrors(fit, points) > sure)
         sentences.push_back(
-            "The frequency rises; that of a source that passes at constant speed only falls. The numbers "
-            "describe no pass.");
+            "The frequency rises, but that of a source passing at constant speed only falls. The numbers do "
+            "not describe a pass.");
     addOpen(sentences, fit, points);
     addDoubts(sentences, fit);
     sentences.push_back("Speed and range are in proportion to the speed of propagation, " + shown(fit.propagation)
                         + " m/s here.");
-    sentences.push_back(
-        "One sensor does not tell on which side the source passed, its course, or how much of the range "
-        "is height or depth.");
+    sentences.push_back("One sensor cannot tell on which side the source passed, its course, or how much of the range "
+                        "is height or depth.");
     return sentences;
 }
 

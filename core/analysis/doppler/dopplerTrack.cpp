@@ -66,15 +66,13 @@ namespace {
     /// Standard deviation of a point's place, in cells; nothing where the signal is not present.
     std::optional<double> deviationOf(const Track &track, std::size_t point)
     {
-        constexpr double deviationsInBand = 3.2897; // from 5 to 95 % of a normal law
-        constexpr double leastCells = 0.1;
         constexpr float leastPresence = 0.5f;
         if (track.smoothed.empty())
             return 1.0 / std::sqrt(12.0);
         const SmoothedPoint &smoothed = track.smoothed[point];
         if (smoothed.presence < leastPresence)
             return {};
-        return std::max(leastCells, static_cast<double>(smoothed.high - smoothed.low) / deviationsInBand);
+        return smoothed.deviation();
     }
 
 } // namespace

@@ -206,6 +206,9 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
     if (experiment.settings.noise.causal)
         throw fieldError("noise.causal", "true",
                          "is not possible in this experiment, which estimates the noise once for all trials");
+    checkHasNoFamily(experiment.settings, "is not possible in this experiment");
+    for (const DetectorUnderTest &detector : experiment.detectors)
+        checkHasNoFamily(detector.settings, "is not possible in this experiment");
     auto shared = std::make_unique<Shared>();
     shared->recording = std::move(recording);
     shared->spectrogram = std::make_shared<Spectrogram>(shared->recording, experiment.settings.spectrogram,
@@ -224,7 +227,7 @@ InjectionTrials::InjectionTrials(const InjectionExperiment &experiment, Recordin
         const AnalysisSettings settings = settingsOfDetector(experiment, d, shared->spectrogram->recording().info());
         const auto n = static_cast<double>(experiment.detectors.size());
         const auto calibration = calibrateBand(
-            settings, shared->spectrogram->frequency().count,
+            settings, *shared->spectrogram,
             context.part(0.2 + 0.6 * static_cast<double>(d) / n, 0.2 + 0.6 * static_cast<double>(d + 1) / n));
         const auto *smd = std::get_if<SmdSettings>(&settings.detector);
         shared->rules.push_back(smd ? resetRule(*smd, calibration->lnK) : ResetRule{});

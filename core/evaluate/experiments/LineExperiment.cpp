@@ -395,8 +395,10 @@ void checkExperiment(const LineExperiment &experiment)
     if (std::abs(experiment.driftCellsPerWindow) * experiment.durationWindows + 4.0 * experiment.wanderCells > room)
         throw Error("driftCellsPerWindow, wanderCells", "a line must stay within its block of blockBins = "
                                                             + std::to_string(experiment.blockBins) + " bins");
-    for (const DetectorUnderTest &detectorUnderTest : experiment.detectors)
+    for (const DetectorUnderTest &detectorUnderTest : experiment.detectors) {
         checkSettings(detectorUnderTest.settings);
+        checkHasNoFamily(detectorUnderTest.settings, "is not possible in this experiment");
+    }
 }
 
 std::vector<DetectorUnderTest> detectorsFromJson(const Json &json, const std::string &where)

@@ -268,10 +268,9 @@ SweepTrials::SweepTrials(const SweepExperiment &experiment, RecordingPointer rec
         const AnalysisSettings settings = settingsOfTrial(m_experiment, i, m_recording.get());
         const Made made = remake(static_cast<int>(i));
         const Spectrogram spectrogram(made.recording, settings.spectrogram, made.settings.selection);
-        const double cellFramesPerHour =
-            static_cast<double>(spectrogram.frequency().count) * 3600.0 / spectrogram.time().step;
-        m_thresholds.push_back(thresholdNats(
-            settings.decide, *calibrateBand(settings, spectrogram.frequency().count, part), cellFramesPerHour));
+        const double cellFramesPerHour = cellFramesInAnHour(settings.family, spectrogram);
+        m_thresholds.push_back(
+            thresholdNats(settings.decide, *calibrateBand(settings, spectrogram, part), cellFramesPerHour));
     }
 }
 

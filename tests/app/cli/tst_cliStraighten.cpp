@@ -61,10 +61,11 @@ void tst_cliStraighten::saysWhatCannotBeStraightened()
         QCOMPARE(outcome.err.count('\n'), 1);
         QVERIFY(!QFile::exists(path("none.wav")));
     };
-    refused({"straighten", "line.wav", "--event", "7", "--out", "none.wav"}, "no such event; found were 1 … 1");
-    refused({"straighten", "line.wav", "--from", "24", "--out", "none.wav"}, "lower the threshold");
+    refused({"straighten", "line.wav", "--event", "7", "--out", "none.wav"}, "there is no such event");
+    refused({"straighten", "line.wav", "--from", "24", "--out", "none.wav"}, "a lower threshold finds more");
     refused({"straighten", "line.wav", "--target", "900", "--out", "none.wav"}, "must lie in the recording's band");
-    refused({"straighten", "line.wav", "--smooth", "0.1", "--out", "none.wav"}, "at least two frames");
+    refused({"straighten", "line.wav", "--smooth", "0.1", "--out", "none.wav"}, "must last 2 to 4096 frames");
+    refused({"straighten", "line.wav", "--smooth", "1e6", "--out", "none.wav"}, "must last 2 to 4096 frames");
     refused({"straighten", "line.wav", "--set", "family.relation=offsets", "--out", "none.wav"}, "at least one member");
 }
 

@@ -1,5 +1,6 @@
 #include "analysis/analyse.h"
-#include "analysis/straighten.h"
+#include "analysis/lineHeight.h"
+#include "analysis/smoothFrequency.h"
 #include "base/Error.h"
 #include "recording/SimulatedRecording.h"
 #include "spectrum/StraightenedRecording.h"
@@ -8,6 +9,7 @@
 #include <QtTest>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace faintline;
@@ -44,7 +46,7 @@ Track trackAlong(const std::vector<double> &cells, const std::vector<float> &pre
 } // namespace
 
 /// From a track to a smooth frequency.
-class tst_straighten : public QObject
+class tst_smoothFrequency : public QObject
 {
     Q_OBJECT
 
@@ -52,11 +54,12 @@ private slots:
     void keepsAStraightLine();
     void halvesAWanderOfItsPeriod();
     void solvesWhittakersEquations();
-    void findsTheLineOfOneTransform();
+    void endsInAStraightLine();
+    void refusesPeriodsItCannotSolve();
     void liftsADriftingLine();
 };
 
-void tst_straighten::keepsAStraightLine()
+void tst_smoothFrequency::keepsAStraightLine()
 {
     std::vector<double> cells;
     for (int i = 0; i < 50; ++i)
@@ -70,7 +73,7 @@ void tst_straighten::keepsAStraightLine()
     QVERIFY(std::abs(curve.at(3.5 + 54.0) - (1100.0 + 2.5 * 54.0)) < 0.01);
 }
 
-void tst_straighten::halvesAWanderOfItsPeriod()
+void tst_smoothFrequency::halvesAWanderOfItsPeriod()
 {
     for (const auto &[period, gain] :
          {std::pair(12.0, 0.5),
@@ -89,7 +92,7 @@ void tst_straighten::halvesAWanderOfItsPeriod()
 }
 
 /// (W + λ DᵀD) z = W f, with dense matrices.
-void tst_straighten::solvesWhittakersEquations()
+void tst_smoothFrequency::solvesWhittakersEquations()
 {
     constexpr int n = 40;
     std::vector<double> cells;
@@ -118,6 +121,31 @@ void tst_straighten::solvesWhittakersEquations()
         QVERIFY(std::abs(curve.at(3.5 + i) - z[i]) < 1e-5);
 }
 
+/// A period far longer than the track leaves the straight line of least squares, to the last digit that matters, and the
+/// curve goes on for no more than half the track's length.
+void tst_smoothFrequency::endsInAStraightLine()
+{
+    std::vector<double> cells;
+    for (int i = 0; i < 40; ++i)
+        cells.push_back(2000.0 + 0.5 * i + (i % 2 == 0 ? 0.25 : -0.25));
+    const FrequencyCurve curve = smoothFrequency(planOf(50), trackAlong(cells), 4096.0);
+    const double slope = (curve.at(3.5 + 39) - curve.at(3.5)) / 39.0;
+    QVERIFY(std::abs(slope - 0.5) < 0.002);
+    for (int i = 0; i < 40; ++i)
+        QVERIFY(std::abs(curve.at(3.5 + i) - curve.at(3.5) - slope * i) < 1e-4);
+    QCOMPARE(curve.time().count, Index(40 + 2 * 20));
+}
+
+void tst_smoothFrequency::refusesPeriodsItCannotSolve()
+{
+    const Track track = trackAlong(std::vector<double>(40, 1000.0));
+    const AnalysisPlan plan = planOf(50);
+    for (const double seconds :
+         {-1.0, 1.9, 4097.0, 1e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+        QVERIFY_EXCEPTION_THROWN(smoothFrequency(plan, track, seconds), Error);
+    QCOMPARE(smoothFrequency(plan, trackAlong({1000.0})).meanHz(), 1100.0); // of a single frame
+}
+
 namespace {
 
 RecordingPointer driftingLine(double snrDb)
@@ -138,23 +166,8 @@ RecordingPointer driftingLine(double snrDb)
 
 } // namespace
 
-void tst_straighten::findsTheLineOfOneTransform()
-{
-    LineScene scene;
-    scene.sampleRateHz = 500.0;
-    scene.durationSeconds = 100.0;
-    scene.noise.deviation = 0.1;
-    scene.lines = {LineSettings{.snrDb = 0.0, .referenceSeconds = 1.0, .frequencyHz = 80.125}};
-    const SimulatedRecording recording(scene);
-    const LineHeight height = heightInOneTransform(recording, 0, 0.0, 100.0, 80.0, 5.0);
-    QVERIFY2(std::abs(height.hz - 80.125) < 0.005, qPrintable(QString::number(height.hz)));
-    // 0 dB in 1 s, 100 s, 1.76 dB for the Hann window, and the median of noise lies 1.59 dB below its mean.
-    QVERIFY2(std::abs(height.db - (20.0 - 1.76 + 1.59)) < 1.5, qPrintable(QString::number(height.db)));
-    QVERIFY_EXCEPTION_THROWN(heightInOneTransform(recording, 0, 0.0, 0.1, 80.0, 5.0), Error);
-}
-
 /// Found at the usual settings, and brought out of the noise of one transform.
-void tst_straighten::liftsADriftingLine()
+void tst_smoothFrequency::liftsADriftingLine()
 {
     const RecordingPointer recording = driftingLine(3.0);
     AnalysisSettings settings;
@@ -165,12 +178,12 @@ void tst_straighten::liftsADriftingLine()
     QCOMPARE(analysis->tracks.size(), std::size_t(1));
     const FrequencyCurve curve = smoothFrequency(*analysis, analysis->tracks.front(), 300.0);
     const StraightenedRecording straight(recording, 0, curve, curve.meanHz());
-    const LineHeight before = heightInOneTransform(*recording, 0, 0.0, 600.0, curve.meanHz(), 20.0);
-    const LineHeight after = heightInOneTransform(straight, 0, 0.0, 600.0, curve.meanHz(), 20.0);
+    const LineHeight before = lineHeight(*recording, {0, 0.0, 600.0, curve.meanHz(), 20.0});
+    const LineHeight after = lineHeight(straight, {0, 0.0, 600.0, curve.meanHz(), 20.0});
     QVERIFY2(after.db > before.db + 10.0,
              qPrintable(QString("%1 dB before, %2 dB after").arg(before.db).arg(after.db)));
     QVERIFY(std::abs(after.hz - curve.meanHz()) < 0.1);
 }
 
-QTEST_APPLESS_MAIN(tst_straighten)
-#include "tst_straighten.moc"
+QTEST_APPLESS_MAIN(tst_smoothFrequency)
+#include "tst_smoothFrequency.moc"
