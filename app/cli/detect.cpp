@@ -94,9 +94,12 @@ namespace {
             for (std::size_t axis = 0; axis < e.position.size(); ++axis)
                 std::printf(", %s%.3g %s/s", axis == 0 ? "drift " : "", e.ratesPerSecond[axis],
                             oneLine(analysis.grid().axes[axis].unit).c_str());
-            std::printf(", %.*f %s%s%s%s\n", statisticDecimals(detector), e.statistic, unit.c_str(),
+            std::printf(", %.*f %s%s%s%s", statisticDecimals(detector), e.statistic, unit.c_str(),
                         e.isConfirmed ? "" : ", not confirmed", e.isOpen ? ", present at the end" : "",
                         analysis.isBank() ? (e.model == 0 ? ", non-manoeuvring" : ", manoeuvring") : "");
+            if (analysis.longer && trackOfId(analysis.tracks, e.id)->windowSeconds > 0.0)
+                std::printf(", found with a window of %.4g s", e.windowSeconds);
+            std::printf("\n");
         }
         const std::vector<AreaEvent> areas = areaEvents(analysis);
         if (areas.empty())
@@ -208,10 +211,13 @@ namespace {
             annotations = readAnnotations(options.annotations, recording ? recording->info() : RecordingInfo());
         }
         StatisticSink sink;
+        std::shared_ptr<const Analysis> inChosenWindow;
         if (!options.statistic.empty()) {
             if (recording) {
-                if (leavesWindowToRecording(settings))
-                    settings = analyseInChosenWindow(recording, settings, context)->settings;
+                if (leavesWindowToRecording(settings)) {
+                    inChosenWindow = analyseInChosenWindow(recording, settings, context.part(0.0, 0.7));
+                    settings = inChosenWindow->settings;
+                }
                 const Spectrogram geometry(recording, settings.spectrogram, settings.selection);
                 shape = {geometry.time().count, familyAxis(settings.family, geometry.frequency()).count};
             }
@@ -222,9 +228,12 @@ namespace {
         if (frames)
             analysis = detectInFrames(options, context, sink, frames, settings);
         else if (sink)
-            analysis = analyse(recording, settings, context, nullptr, sink);
+            analysis =
+                analyse(recording, settings, context.part(inChosenWindow ? 0.7 : 0.0, 1.0), inChosenWindow.get(), sink);
         else
             analysis = analyseInChosenWindow(recording, settings, context);
+        if (inChosenWindow)
+            analysis = inChosenWindow; // its tracks are more than those of the statistic
         context.checkpoint(1.0, "done");
         std::vector<std::string> inputs = options.analysis.inputs();
         inputs.insert(inputs.end(), {options.frames, options.grid, options.model, options.annotations});

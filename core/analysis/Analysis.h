@@ -70,6 +70,9 @@ struct Analysis : AnalysisPlan {
     Checkpoints<ChainState> checkpoints;
 
     std::optional<WindowChoice> choice; ///< where the window was left to the recording (chooseWindow.h)
+    /// There too: of the next longer window, whose steady lines are among `tracks` (steadyLines.h). Without pictures;
+    /// null where none is longer.
+    std::shared_ptr<const Analysis> longer;
 
     /// Whether it is what these settings ask for.
     bool answers(const AnalysisSettings &wanted) const

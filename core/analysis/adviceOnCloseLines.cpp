@@ -83,7 +83,8 @@ namespace {
     {
         std::vector<const Track *> sure;
         for (const Track &track : analysis.tracks)
-            if (statisticOf(track, analysis) >= sureStatistic(analysis) && std::ssize(track.points) >= leastFrames)
+            if (track.windowSeconds == 0.0 // a longer window has told others apart
+                && statisticOf(track, analysis) >= sureStatistic(analysis) && std::ssize(track.points) >= leastFrames)
                 sure.push_back(&track);
         std::sort(sure.begin(), sure.end(),
                   [](const Track *a, const Track *b) { return a->points.front().frame < b->points.front().frame; });

@@ -1,5 +1,6 @@
 #include "analysis/chooseWindow.h"
 
+#include "analysis/steadyLines.h"
 #include "analysis/sureStatistic.h"
 #include "track/energyKept.h"
 
@@ -17,6 +18,7 @@ namespace {
     constexpr double asGood = 0.85;       ///< from there on it loses next to nothing
     constexpr double fewestCells = 24.0;
     constexpr double fewestFrames = 16.0;
+    constexpr double fewestOfSteadyLines = 4.0; ///< frames
     constexpr std::size_t mostTrials = 5;
 
     ModelSettings withLaw(ModelSettings model, const ModelSettings &law)
@@ -41,6 +43,15 @@ namespace {
         return asked > 0.0 ? asked : 1.0 / tracksOf(analysis).cellHz;
     }
 
+    /// What another window is compared with, and what a change of the threshold goes on from.
+    std::shared_ptr<const Analysis> tracksOnly(const Analysis &analysis)
+    {
+        auto result = std::make_shared<Analysis>();
+        static_cast<AnalysisPlan &>(*result) = analysis;
+        result->tracks = analysis.tracks;
+        return result;
+    }
+
     class WindowSearch
     {
     public:
@@ -60,9 +71,21 @@ namespace {
             m_cells =
                 static_cast<double>(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = static_cast<double>(automatic->time().count);
-            note(m_asked, *automatic);
+            note(m_asked, automatic);
             const std::shared_ptr<Analysis> best = shorter(automatic);
             return best == automatic ? longer(automatic) : best;
+        }
+
+        /// Of the window after that one, without pictures; null where none is borne.
+        std::shared_ptr<const Analysis> nextLonger(const Analysis &chosen)
+        {
+            const std::size_t number = numberOf(windowSecondsOf(chosen));
+            const double step = factor * windowSecondsOf(chosen) / m_windowSeconds;
+            if (number + 1 == m_trials.size() && !isBorne(step, fewestOfSteadyLines))
+                return nullptr;
+            if (number + 1 == m_trials.size())
+                tried(step, m_asked.model);
+            return m_analyses[number + 1];
         }
 
         WindowChoice choice(const Analysis &chosen) const
@@ -102,17 +125,17 @@ namespace {
         }
 
         /// Whether there are frames enough, and memory: an automatic window is bounded however long the recording is.
-        bool isBorne(double step) const
+        bool isBorne(double step, double frames) const
         {
             RecordingInfo endless = m_recording->info();
             endless.sampleCount = std::numeric_limits<Index>::max();
-            return m_frames / step >= fewestFrames
-                   && step * m_windowSeconds <= Spectrogram::automaticWindowSeconds(endless);
+            return m_frames / step >= frames && step * m_windowSeconds <= Spectrogram::automaticWindowSeconds(endless);
         }
 
         std::shared_ptr<Analysis> longer(std::shared_ptr<Analysis> best)
         {
-            for (double step = factor; isBorne(step) && m_trials.size() < mostTrials && isSure(*best); step *= factor) {
+            for (double step = factor; isBorne(step, fewestFrames) && m_trials.size() < mostTrials && isSure(*best);
+                 step *= factor) {
                 auto trial = tried(step, m_asked.model);
                 const double kept = shareKept(*best, *trial);
                 (m_trials.end() - 2)->kept = kept;
@@ -130,15 +153,17 @@ namespace {
             settings.model = withLaw(m_asked.model, law);
             auto analysis =
                 analyse(m_recording, settings, nextPart(), nullptr, {}, {}, m_calibrationDepth, AnalysisDepth::Tracks);
-            note(settings, *analysis);
+            note(settings, analysis);
             return analysis;
         }
 
-        void note(const AnalysisSettings &settings, const Analysis &analysis)
+        void note(const AnalysisSettings &settings, const std::shared_ptr<const Analysis> &analysis)
         {
-            const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks),
+            const WindowTrial trial{settings, windowSecondsOf(*analysis), std::ssize(analysis->tracks),
                                     std::numeric_limits<double>::quiet_NaN()};
-            m_trials.insert(m_trials.begin() + static_cast<Index>(numberOf(trial.windowSeconds)), trial);
+            const auto at = static_cast<Index>(numberOf(trial.windowSeconds));
+            m_trials.insert(m_trials.begin() + at, trial);
+            m_analyses.insert(m_analyses.begin() + at, tracksOnly(*analysis));
         }
 
         static bool isSure(const Analysis &analysis)
@@ -161,7 +186,14 @@ namespace {
         double m_cells = 0.0;         ///< at T0
         double m_frames = 0.0;
         std::vector<WindowTrial> m_trials;
+        std::vector<std::shared_ptr<const Analysis>> m_analyses; ///< of the trials, without pictures
     };
+
+    /// The settings with the window and law of one of the trials; T0 is what an open window comes to anyway.
+    AnalysisSettings ofTrial(const WindowChoice &choice, std::size_t number, const AnalysisSettings &settings)
+    {
+        return number == choice.automatic ? settings : inWindowOf(choice.trials[number], settings);
+    }
 
     /// Whether nothing has changed that a window is chosen by.
     bool asksForTheSame(const AnalysisSettings &a, const AnalysisSettings &b)
@@ -204,22 +236,28 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
                           && !previous->calibration->isFirstEstimate
                           && asksForTheSame(previous->choice->asked, settings);
     WindowChoice choice;
+    std::shared_ptr<const Analysis> longer;
     std::shared_ptr<Analysis> found;
     if (isChosen) {
         choice = *previous->choice;
         choice.asked = settings;
+        if (previous->longer)
+            longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(0.0, 0.4),
+                             previous->longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Tracks);
     } else {
         WindowSearch search(recording, settings, calibrationDepth, context.part(0.0, 0.7));
         found = search.run(previous, pictures);
+        longer = search.nextLonger(*found);
         choice = search.choice(*found);
     }
     if (isChosen || !found->statistic) {
-        const AnalysisSettings used =
-            choice.chosen == choice.automatic ? settings : inWindowOf(choice.trials[choice.chosen], settings);
-        const RunContext rest = isChosen ? context : context.part(0.7, 1.0);
-        found = analyse(recording, used, rest, isChosen ? previous : found.get(), {}, pictures, calibrationDepth);
+        found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(isChosen ? 0.4 : 0.7, 1.0),
+                        isChosen ? previous : found.get(), {}, pictures, calibrationDepth);
     }
     found->choice = std::move(choice);
+    found->longer = std::move(longer);
+    if (found->longer)
+        found->tracks = withSteadyLines(*found, *found->longer);
     return found;
 }
 

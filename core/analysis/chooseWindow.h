@@ -29,6 +29,9 @@ AnalysisSettings inWindowOf(const WindowTrial &trial, AnalysisSettings settings)
 /// enough to judge by, and T0 stays; at most five windows are tried. The answer's `choice` tells what was tried, its
 /// `settings` the window and law used. A change of the threshold or the tracks' settings alone keeps the choice of
 /// `previous`, unless that was made by a first estimate.
+///
+/// The answer's tracks are those of the window chosen and the steady lines that only the next longer one finds
+/// (steadyLines.h), which may have as few as four frames.
 std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording, const AnalysisSettings &settings,
                                                       const RunContext &context = {},
                                                       const Analysis *previous = nullptr,

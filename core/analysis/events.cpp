@@ -55,6 +55,8 @@ namespace {
         event.bandWidth = band * analysis.grid().axes.back().step;
         const double cellFrames =
             static_cast<double>(analysis.grid().size()) * static_cast<double>(analysis.time().count);
+        event.windowSeconds =
+            track.windowSeconds > 0.0 ? track.windowSeconds : analysis.frames->spectrogram()->windowSeconds();
         event.noiseProbability = -std::expm1(-analysis.calibration->eventRateAt(event.statistic) * cellFrames);
     }
 

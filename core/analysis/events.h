@@ -31,6 +31,8 @@ struct Event {
     /// That noise alone brings an event as significant as this in this recording: 1 -
     /// exp(-rate(statistic)·cells·frames).
     double noiseProbability = std::numeric_limits<double>::quiet_NaN();
+    /// T_FT of the window that found it: the frames' own, or a longer one's (steadyLines.h).
+    double windowSeconds = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A burst, a cloud or another signal that is no line, in physical units; a view of an area.

@@ -59,10 +59,10 @@ namespace {
     }
 
     /// What is known of tracks that were looked at from both ends.
-    const std::vector<std::string> smoothedNames{"snr_db", "band_hz", "noise_probability"};
+    const std::vector<std::string> smoothedNames{"snr_db", "band_hz", "noise_probability", "window_s"};
     std::vector<double> smoothedOf(const Event &e)
     {
-        return {e.snrDb, e.bandWidth, e.noiseProbability};
+        return {e.snrDb, e.bandWidth, e.noiseProbability, e.windowSeconds};
     }
 
     /// Rounded as it is shown, with its unit.

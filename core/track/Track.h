@@ -42,6 +42,7 @@ struct Track {
     std::size_t model = 0;                 ///< which of a bank's models found it and follows it
     double detectStatistic = 0.0;          ///< the detector's, in its own unit, where it was detected
     std::vector<SmoothedPoint> smoothed{}; ///< one per point; empty without the second pass
+    double windowSeconds = 0.0; ///< of the longer window that found it (analysis/steadyLines.h); 0: the frames' own
 
     /// Where a point is along the last axis, in cells, as exactly as is known.
     double lastPosition(std::size_t point, const Axis &axis) const
@@ -65,8 +66,8 @@ struct Track {
     /// All but what there is for each frame, without copying them first.
     Track withoutPoints() const
     {
-        return {id,     onsetFrame, detectFrame,  endFrame, peakStatistic,  isConfirmed,
-                isOpen, {},         confirmFrame, model,    detectStatistic};
+        return {id,           onsetFrame, detectFrame,     endFrame, peakStatistic, isConfirmed, isOpen, {},
+                confirmFrame, model,      detectStatistic, {},       windowSeconds};
     }
 };
 

@@ -121,7 +121,7 @@ void bindResult(py::module_ &module)
 
 Fields as the columns of the command line's CSV: event, t_onset, t_detect, t_end (s), f (Hz at detection; on several axes one field for each),
 drift_hz_per_s, statistic (unit: statistic_unit), confirmed, open, and where tracks were looked at from both ends snr_db, band_hz,
-noise_probability. Fields of f are offsets from the recording's centre_hz.)")
+noise_probability, window_s. Fields of f are offsets from the recording's centre_hz.)")
         .def_property_readonly(
             "areas", [](const Result &self) { return areaArray(*self.analysis()); },
             R"(Where the level was raised and no line stood out: bursts, clouds, hums. A structured array, ordered by onset.

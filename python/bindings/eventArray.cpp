@@ -48,6 +48,7 @@ py::array eventArray(const Analysis &analysis)
         number("snr_db", [](const Event &e) { return e.snrDb; });
         number("band_hz", [](const Event &e) { return e.bandWidth; });
         number("noise_probability", [](const Event &e) { return e.noiseProbability; });
+        number("window_s", [](const Event &e) { return e.windowSeconds; });
     }
     return tableOf(columns);
 }

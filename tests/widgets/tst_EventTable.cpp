@@ -32,6 +32,7 @@ private slots:
     void clickAndEnterActivate();
     void textsOfAnEvent();
     void dateAndRadioFrequencyWhereTheyAreKnown();
+    void windowsWhereTheyDiffer();
     void readOutLine();
 
 private:
@@ -180,6 +181,21 @@ void tst_EventTable::textsOfAnEvent()
     QCOMPARE(text(EventModel::Radio), QString("2514095.60"));
     for (int column = 0; column < EventModel::ColumnCount; ++column)
         QVERIFY(!model.headerData(column, Qt::Horizontal).toString().isEmpty());
+}
+
+void tst_EventTable::windowsWhereTheyDiffer()
+{
+    std::vector<Event> events{test::event(1, 1.0, 2.0, 100.0), test::event(2, 1.5, 3.0, 200.0)};
+    m_table->setEvents(events);
+    QVERIFY(m_table->table()->isColumnHidden(EventModel::Window));
+    events[0].windowSeconds = events[1].windowSeconds = 0.5;
+    m_table->setEvents(events);
+    QVERIFY(m_table->table()->isColumnHidden(EventModel::Window));
+    events[1].windowSeconds = 2.0;
+    m_table->setEvents(events);
+    QVERIFY(!m_table->table()->isColumnHidden(EventModel::Window));
+    m_table->setEvents({});
+    QVERIFY(m_table->table()->isColumnHidden(EventModel::Window));
 }
 
 void tst_EventTable::dateAndRadioFrequencyWhereTheyAreKnown()

@@ -30,6 +30,7 @@ namespace {
             {"stat", [](const Event &e) { return e.statistic; }},
             {"d", [](const Event &e) { return e.statistic; }},
             {"snr", [](const Event &e) { return e.snrDb; }},
+            {"window", [](const Event &e) { return e.windowSeconds; }},
         };
         return table;
     }

@@ -64,6 +64,8 @@ double EventModel::sortValue(const Event &event, int column) const
         return event.statistic;
     case Snr:
         return std::isfinite(event.snrDb) ? event.snrDb : -std::numeric_limits<double>::infinity();
+    case Window:
+        return std::isfinite(event.windowSeconds) ? event.windowSeconds : 0.0;
     case Judged: {
         const EventReview said = review(event);
         return said.verdict == Verdict::Accepted ? 0.0 : said.verdict == Verdict::None ? 1.0 : 2.0;
@@ -170,6 +172,8 @@ QString EventModel::text(const Event &event, int column) const
         return numberText(event.statistic, 1);
     case Snr:
         return std::isfinite(event.snrDb) ? numberText(event.snrDb, 1) : QStringLiteral("–");
+    case Window:
+        return std::isfinite(event.windowSeconds) ? QString::number(event.windowSeconds, 'g', 4) : QStringLiteral("–");
     case Judged:
         return reviewText(review(event));
     case Note:
@@ -206,6 +210,13 @@ QVariant EventModel::data(const QModelIndex &index, int role) const
     default:
         return {};
     }
+}
+
+bool EventModel::hasWindows() const
+{
+    return std::any_of(m_events.begin(), m_events.end(), [this](const Event &event) {
+        return sortValue(event, Window) != sortValue(m_events.front(), Window);
+    });
 }
 
 void EventModel::setStatisticUnit(const QString &unit)
@@ -247,6 +258,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
                              tr("Conf."),
                              tr("D (%1)").arg(m_statisticUnit),
                              tr("SNR (dB)"),
+                             tr("Window (s)"),
                              tr("Onset (UTC)"),
                              tr("RF (Hz)"),
                              tr("End"),
@@ -264,6 +276,7 @@ QVariant EventModel::headerData(int section, Qt::Orientation orientation, int ro
         tr("Confirmed: time at which the track was confirmed"),
         tr("Largest statistic"),
         tr("Mean signal-to-noise power ratio in one window and bin"),
+        tr("Length of the window that found it: the one shown, or a longer one for lines that stand still"),
         tr("Date and time of the onset"),
         tr("Radio frequency at detection: centre frequency plus offset"),
         tr("Last frame with evidence"),

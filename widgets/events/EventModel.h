@@ -26,8 +26,9 @@ public:
         Confirmation,
         Statistic,
         Snr,
-        Utc,   ///< onset, where the recording knows when it began
-        Radio, ///< frequency with the receiver's centre, where there is one
+        Window, ///< where some were found by another one than the others
+        Utc,    ///< onset, where the recording knows when it began
+        Radio,  ///< frequency with the receiver's centre, where there is one
         End,
         Drift,
         State,
@@ -51,6 +52,8 @@ public:
     /// What the recording says of its beginning (UTC) and of the frequency that 0 Hz stands for.
     void setOrigin(std::optional<double> startUnixSeconds, double centreHz);
     bool hasUtc() const { return m_startUnixSeconds.has_value(); }
+    /// Whether a longer window has found some of the events.
+    bool hasWindows() const;
     bool hasRadio() const { return m_centreHz != 0.0; }
     const std::vector<Event> &events() const { return m_events; }
 

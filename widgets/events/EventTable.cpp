@@ -104,7 +104,7 @@ void EventTable::setUpTable()
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->setAccessibleName(tr("Events"));
     m_table->installEventFilter(this);
-    for (const int column : {EventModel::Bearing, EventModel::Utc, EventModel::Radio})
+    for (const int column : {EventModel::Bearing, EventModel::Window, EventModel::Utc, EventModel::Radio})
         m_table->setColumnHidden(column, true);
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex &index) {
         if (selectedEvents().size() == 1) // several are being chosen otherwise
@@ -122,6 +122,7 @@ void EventTable::setEvents(const std::vector<Event> &events)
     const int selected = selectedEvent();
     const bool isFirst = m_model->events().empty();
     m_model->setEvents(events);
+    m_table->setColumnHidden(EventModel::Window, !m_model->hasWindows());
     if (isFirst && !events.empty()) {
         m_table->resizeColumnsToContents();
         narrowColumns();
