@@ -79,6 +79,12 @@ namespace {
 LineHeight lineHeight(const Recording &recording, Stretch stretch, const RunContext &context)
 {
     const double rate = recording.info().sampleRateHz;
+    const auto refuse = [&stretch] {
+        throw Error("a spectrum of " + formatNumber(stretch.toSeconds - stretch.fromSeconds) + " s",
+                    "is too short for a band of ±" + formatNumber(stretch.halfBandHz) + " Hz");
+    };
+    if (!(stretch.halfBandHz * (stretch.toSeconds - stretch.fromSeconds) > 1.0)) // a band of less than two cells
+        refuse();
     const auto averaged = std::max<Index>(1, static_cast<Index>(rate / (2.0 * oversampling * stretch.halfBandHz)));
     const double longest = static_cast<double>(most * averaged) / rate;
     if (const double spare = stretch.toSeconds - stretch.fromSeconds - longest; spare > 0.0) {
@@ -87,9 +93,8 @@ LineHeight lineHeight(const Recording &recording, Stretch stretch, const RunCont
     }
     const auto first = static_cast<Index>(std::llround(stretch.fromSeconds * rate));
     const auto count = static_cast<Index>(std::llround(stretch.toSeconds * rate)) - first;
-    if (!(stretch.halfBandHz > 0.0) || count / averaged < fewest)
-        throw Error("a spectrum of " + formatNumber(stretch.toSeconds - stretch.fromSeconds) + " s",
-                    "is too short for a band of ±" + formatNumber(stretch.halfBandHz) + " Hz");
+    if (count / averaged < fewest)
+        refuse();
     const std::vector<float> all =
         powerSpectrum(mixedDown(recording, stretch.channel, first, count, stretch.hz / rate, averaged, context));
     const double step = rate / static_cast<double>(averaged * std::ssize(all));
