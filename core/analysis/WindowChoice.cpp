@@ -16,12 +16,17 @@ std::string windowChoiceWords(const WindowChoice &choice)
         return std::string(text);
     };
     const std::size_t chosen = choice.chosen;
-    const std::string words = "window " + seconds(chosen);
+    std::string words = "window " + seconds(chosen);
     if (chosen < choice.automatic)
-        return words + " chosen; one of " + seconds(chosen + 1) + " would follow " + share(chosen) + "its tracks";
-    if (chosen > choice.automatic)
-        return words + " chosen; it follows " + share(chosen - 1) + "the tracks of " + seconds(chosen - 1);
-    return words + " (automatic)";
+        words += " chosen; one of " + seconds(chosen + 1) + " would follow " + share(chosen) + "its tracks";
+    else if (chosen > choice.automatic)
+        words += " chosen; it follows " + share(chosen - 1) + "the tracks of " + seconds(chosen - 1);
+    else
+        words += " (automatic)";
+    if (choice.steadyLines > 0)
+        words += "; " + std::to_string(choice.steadyLines) + " steady line" + (choice.steadyLines == 1 ? "" : "s")
+                 + " found with a window of " + seconds(chosen + 1);
+    return words;
 }
 
 } // namespace faintline

@@ -25,7 +25,7 @@ void setWindow(Advice &advice, double seconds);
 /// are lost or cut. In a window half as long the same drift is a quarter of the slope in bins a frame.
 std::optional<Advice> adviceOnSlopes(const Analysis &analysis);
 
-/// Pairs of sure tracks that run side by side for most of the shorter one's time, less than three resolution cells
+/// Pairs of sure tracks of the analysis' own window that run side by side for most of the shorter one's time, less than three resolution cells
 /// apart and with a distance that stays within half a cell: lines that the window hardly separates. Nothing is advised
 /// where the window that would put them four cells apart is longer than a sixteenth of the recording, or where the
 /// lines' drift would leave the slope set in it.

@@ -254,10 +254,12 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(isChosen ? 0.4 : 0.7, 1.0),
                         isChosen ? previous : found.get(), {}, pictures, calibrationDepth);
     }
-    found->choice = std::move(choice);
     found->longer = std::move(longer);
     if (found->longer)
         found->tracks = withSteadyLines(*found, *found->longer);
+    choice.steadyLines = std::count_if(found->tracks.begin(), found->tracks.end(),
+                                       [](const Track &track) { return track.windowSeconds > 0.0; });
+    found->choice = std::move(choice);
     return found;
 }
 
