@@ -57,6 +57,7 @@
 #include <QCloseEvent>
 #include <QDateTime>
 #include <QDir>
+#include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QLabel>
@@ -124,6 +125,8 @@ MainWindow::~MainWindow()
     m_check.disconnect();
     m_experiments.disconnect();
     m_sequentialTests.disconnect();
+    for (QDockWidget *dock : findChildren<QDockWidget *>()) // which outlive the document, and then are hidden
+        disconnect(dock, &QDockWidget::visibilityChanged, nullptr, nullptr);
     m_trials.reset();
 }
 
