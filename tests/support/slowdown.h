@@ -2,12 +2,13 @@
 
 namespace faintline::test {
 
-#if defined(__has_feature)
+// GCC has macros of its own; Qt defines __has_feature for it, which knows nothing.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FAINTLINE_IS_SANITIZED
+#elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define FAINTLINE_IS_SANITIZED
 #endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define FAINTLINE_IS_SANITIZED
 #endif
 
 #ifdef FAINTLINE_IS_SANITIZED
