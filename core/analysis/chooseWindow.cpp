@@ -71,7 +71,7 @@ namespace {
             m_cells =
                 static_cast<double>(automatic->grid().size()) * automatic->grid().axes.back().step * m_windowSeconds;
             m_frames = static_cast<double>(automatic->time().count);
-            note(m_asked, automatic);
+            note(m_asked, *automatic);
             const std::shared_ptr<Analysis> best = shorter(automatic);
             return best == automatic ? longer(automatic) : best;
         }
@@ -153,17 +153,17 @@ namespace {
             settings.model = withLaw(m_asked.model, law);
             auto analysis =
                 analyse(m_recording, settings, nextPart(), nullptr, {}, {}, m_calibrationDepth, AnalysisDepth::Tracks);
-            note(settings, analysis);
+            note(settings, *analysis);
             return analysis;
         }
 
-        void note(const AnalysisSettings &settings, const std::shared_ptr<const Analysis> &analysis)
+        void note(const AnalysisSettings &settings, const Analysis &analysis)
         {
-            const WindowTrial trial{settings, windowSecondsOf(*analysis), std::ssize(analysis->tracks),
+            const WindowTrial trial{settings, windowSecondsOf(analysis), std::ssize(analysis.tracks),
                                     std::numeric_limits<double>::quiet_NaN()};
             const auto at = static_cast<Index>(numberOf(trial.windowSeconds));
             m_trials.insert(m_trials.begin() + at, trial);
-            m_analyses.insert(m_analyses.begin() + at, tracksOnly(*analysis));
+            m_analyses.insert(m_analyses.begin() + at, tracksOnly(analysis));
         }
 
         static bool isSure(const Analysis &analysis)
@@ -241,9 +241,6 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
     if (isChosen) {
         choice = *previous->choice;
         choice.asked = settings;
-        if (previous->longer)
-            longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(0.0, 0.4),
-                             previous->longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Tracks);
     } else {
         WindowSearch search(recording, settings, calibrationDepth, context.part(0.0, 0.7));
         found = search.run(previous, pictures);
@@ -251,9 +248,13 @@ std::shared_ptr<const Analysis> analyseInChosenWindow(RecordingPointer recording
         choice = search.choice(*found);
     }
     if (isChosen || !found->statistic) {
-        found = analyse(recording, ofTrial(choice, choice.chosen, settings), context.part(isChosen ? 0.4 : 0.7, 1.0),
-                        isChosen ? previous : found.get(), {}, pictures, calibrationDepth);
+        found = analyse(recording, ofTrial(choice, choice.chosen, settings),
+                        context.part(isChosen ? 0.0 : 0.7, isChosen ? 0.6 : 1.0), isChosen ? previous : found.get(), {},
+                        pictures, calibrationDepth);
     }
+    if (isChosen && previous->longer) // after the pictures, which are waited for
+        longer = analyse(recording, ofTrial(choice, choice.chosen + 1, settings), context.part(0.6, 1.0),
+                         previous->longer.get(), {}, {}, calibrationDepth, AnalysisDepth::Tracks);
     found->longer = std::move(longer);
     if (found->longer)
         found->tracks = withSteadyLines(*found, *found->longer);

@@ -6,6 +6,7 @@
 #include "track/bothWays.h"
 #include "track/explanation.h"
 #include "track/levelBeside.h"
+#include "track/numberByDetection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,12 +119,7 @@ namespace {
                 }
                 first = end;
             }
-            std::stable_sort(m_tracks.begin(), m_tracks.end(), [](const Track &a, const Track &b) {
-                return a.detectFrame != b.detectFrame ? a.detectFrame < b.detectFrame
-                                                      : a.points.front().cell < b.points.front().cell;
-            });
-            for (std::size_t i = 0; i < m_tracks.size(); ++i)
-                m_tracks[i].id = static_cast<int>(i) + 1;
+            numberByDetection(m_tracks);
             return {std::move(m_tracks), joinAreas(std::move(m_areas))};
         }
 

@@ -1,6 +1,7 @@
 #include "analysis/steadyLines.h"
 
 #include "analysis/sureStatistic.h"
+#include "track/numberByDetection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,7 +157,7 @@ namespace {
             return m_chosen.time().nearest(m_longer.time().value(static_cast<double>(longerFrame)));
         }
 
-        /// Halfway between two points of a track, and so on.
+        /// At a fractional point of a track, by linear interpolation.
         static Place between(const Track &track, double at)
         {
             const auto i = static_cast<std::size_t>(at);
@@ -197,17 +198,6 @@ namespace {
         return true;
     }
 
-    void numberAnew(std::vector<Track> &tracks)
-    {
-        std::stable_sort(tracks.begin(), tracks.end(), [](const Track &a, const Track &b) {
-            return a.detectFrame != b.detectFrame ? a.detectFrame < b.detectFrame
-                                                  : a.points.front().cell < b.points.front().cell;
-        });
-        int id = 0;
-        for (Track &track : tracks)
-            track.id = ++id;
-    }
-
 } // namespace
 
 std::vector<Track> withSteadyLines(const Analysis &chosen, const Analysis &longer)
@@ -232,7 +222,7 @@ std::vector<Track> withSteadyLines(const Analysis &chosen, const Analysis &longe
     for (std::size_t i = 0; i < chosen.tracks.size(); ++i)
         if (!isReplaced[i])
             lines.push_back(chosen.tracks[i]);
-    numberAnew(lines);
+    numberByDetection(lines);
     return lines;
 }
 

@@ -1,44 +1,15 @@
 #include "analysis/chooseWindow.h"
 #include "recording/SimulatedRecording.h"
+#include "support/sweeps.h"
 
 #include <QtTest>
 
 #include <cmath>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
-
-LineScene scene(double rateHz, double seconds, int seed)
-{
-    LineScene result;
-    result.sampleRateHz = rateHz;
-    result.durationSeconds = seconds;
-    result.seed = seed;
-    return result;
-}
-
-LineSettings line(double hz, double driftHzPerSecond, double from, double seconds, double snrDb,
-                  double referenceSeconds)
-{
-    LineSettings result;
-    result.frequencyHz = hz;
-    result.driftHzPerSecond = driftHzPerSecond;
-    result.startSeconds = from;
-    result.durationSeconds = seconds;
-    result.snrDb = snrDb;
-    result.referenceSeconds = referenceSeconds;
-    return result;
-}
-
-/// Sweeps of 4 kHz/s for 0.4 s, of which a window of 16 ms sees most. The automatic one is 0.1 s.
-LineScene sweeps()
-{
-    LineScene result = scene(8000.0, 10.0, 7);
-    for (int i = 0; i < 8; ++i)
-        result.lines.push_back(line(600.0 + 100.0 * i, 4000.0, 0.7 + 1.1 * i, 0.4, 22.0, 0.025));
-    return result;
-}
 
 /// Lines that stand still. The automatic window is 0.2 s.
 LineScene constants()

@@ -3,6 +3,7 @@
 #include "analysis/chooseWindow.h"
 #include "analysis/events.h"
 #include "recording/SimulatedRecording.h"
+#include "support/sweeps.h"
 
 #include <QtTest>
 
@@ -11,36 +12,18 @@
 #include <iterator>
 
 using namespace faintline;
+using namespace faintline::test;
 
 namespace {
 
-LineSettings line(double hz, double driftHzPerSecond, double from, double seconds, double snrDb,
-                  double referenceSeconds)
-{
-    LineSettings result;
-    result.frequencyHz = hz;
-    result.driftHzPerSecond = driftHzPerSecond;
-    result.startSeconds = from;
-    result.durationSeconds = seconds;
-    result.snrDb = snrDb;
-    result.referenceSeconds = referenceSeconds;
-    return result;
-}
-
 constexpr double steadyHz = 3000.3;
 
-/// Sweeps that ask for a window of 1/40 s or less, and a line that stands still, too faint for it. The automatic one is
-/// 0.1 s.
+/// Sweeps that ask for a short window, and a line that stands still, too faint for it.
 LineScene sweepsBesideAFaintLine(double faintDb)
 {
-    LineScene scene;
-    scene.sampleRateHz = 8000.0;
-    scene.durationSeconds = 10.0;
-    scene.seed = 7;
-    for (int i = 0; i < 8; ++i)
-        scene.lines.push_back(line(600.0 + 100.0 * i, 4000.0, 0.7 + 1.1 * i, 0.4, 22.0, 0.025));
-    scene.lines.push_back(line(steadyHz, 0.0, 0.0, 10.0, faintDb, 0.025));
-    return scene;
+    LineScene result = sweeps();
+    result.lines.push_back(line(steadyHz, 0.0, 0.0, result.durationSeconds, faintDb, 0.025));
+    return result;
 }
 
 std::shared_ptr<const Analysis> analysed(const LineScene &scene, const AnalysisSettings &settings = {},

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "recording/LineScene.h"
+
+namespace faintline::test {
+
+inline LineScene scene(double rateHz, double seconds, int seed)
+{
+    LineScene result;
+    result.sampleRateHz = rateHz;
+    result.durationSeconds = seconds;
+    result.seed = seed;
+    return result;
+}
+
+inline LineSettings line(double hz, double driftHzPerSecond, double from, double seconds, double snrDb,
+                         double referenceSeconds)
+{
+    LineSettings result;
+    result.frequencyHz = hz;
+    result.driftHzPerSecond = driftHzPerSecond;
+    result.startSeconds = from;
+    result.durationSeconds = seconds;
+    result.snrDb = snrDb;
+    result.referenceSeconds = referenceSeconds;
+    return result;
+}
+
+/// Sweeps of 4 kHz/s for 0.4 s, of which a window of 16 ms sees most. The automatic one is 0.1 s.
+inline LineScene sweeps()
+{
+    LineScene result = scene(8000.0, 10.0, 7);
+    for (int i = 0; i < 8; ++i)
+        result.lines.push_back(line(600.0 + 100.0 * i, 4000.0, 0.7 + 1.1 * i, 0.4, 22.0, 0.025));
+    return result;
+}
+
+} // namespace faintline::test
